@@ -1,0 +1,72 @@
+/* fit.h: fit a model to measured BRDFs (libhnbrdf_fit).
+ *
+ * First every material gets a GGX fit of its own (kd, eta, alpha; several starts). For a hybrid that
+ * analytic part is then kept as it is (faithful), or trained on with the network, and the shared
+ * network and the latent codes learn what is missing. The result depends on the data, the options and
+ * the seed only, never on the number of threads.
+ */
+#ifndef HNBRDF_FIT_H
+#define HNBRDF_FIT_H
+
+#include "hnbrdf/measured.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef enum hnbrdf_fit_analytic {
+    HNBRDF_FIT_FAITHFUL = 0, /* GGX first, then frozen: kd, eta, alpha stay those of the GGX fit */
+    HNBRDF_FIT_JOINT         /* GGX first, then trained together with the network */
+} hnbrdf_fit_analytic;
+
+/* What the progress callback sees, a few times a second. */
+typedef struct hnbrdf_fit_progress {
+    const char *stage;     /* "sampling", "ggx" or "network" */
+    double done;           /* share of this stage, 0 to 1 */
+    double loss;           /* running mean of the training loss; NaN while there is none */
+    double pairs_per_s;    /* direction pairs trained on per second in this stage */
+    double seconds_left;   /* estimate for this stage; NaN while there is none */
+    long step;
+} hnbrdf_fit_progress;
+
+/* Return non-zero to stop: training ends after the step and the model so far is returned. */
+typedef int (*hnbrdf_fit_progress_fn)(void *user, const hnbrdf_fit_progress *progress);
+
+/* Zero-initialise for defaults; then set hybrid 32x2 etc. as wanted. */
+typedef struct hnbrdf_fit_options {
+    hnbrdf_kind kind;               /* default hybrid */
+    int hidden, layers;             /* HxN; 0 stands for 32 and 2 */
+    int latent;                     /* l; 0 stands for 4 (hybrid) or 12 (neural) */
+    hnbrdf_encoding encoding;
+    int encoding_set;               /* 0: half-difference whatever `encoding` says; 1: use `encoding` */
+    float floor;                    /* b; 0 stands for the default of 0.003, negative for none */
+    hnbrdf_fit_analytic analytic;
+    long steps;                     /* network steps; 0 stands for 3000 unless seconds is set */
+    double seconds;                 /* time budget for the network stage instead of steps */
+    int batch;                      /* pairs a step; 0 stands for 16384; rounded to the inner tile */
+    int pool;                       /* pairs drawn per material before training; 0: 131072 */
+    float learning_rate;            /* Adam's peak rate; 0 stands for 5e-3 */
+    uint64_t seed;
+    int threads;                    /* 0: all cores */
+    hnbrdf_fit_progress_fn progress;
+    void *progress_user;
+} hnbrdf_fit_options;
+
+typedef struct hnbrdf_fit_report {
+    double final_loss;
+    double seconds;        /* whole fit */
+    double pairs_per_s;    /* network stage */
+    long steps;            /* network steps done */
+    int stopped;           /* 1: the progress callback asked to stop */
+} hnbrdf_fit_report;
+
+/* Fit one model to count materials. report may be NULL. */
+HNBRDF_API hnbrdf_result hnbrdf_fit(const hnbrdf_measured *const *data, int count,
+                                    const hnbrdf_fit_options *options, hnbrdf_model **model,
+                                    hnbrdf_fit_report *report, hnbrdf_error *error);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,288 @@
+/* hnbrdf.h: evaluate, sample, load, save and export hybrid neural-microfacet BRDFs.
+ *
+ * This one header is enough to put measured materials into a renderer. It needs libhnbrdf and
+ * libm, nothing else. Fitting (fit.h) and measured data (measured.h) are libraries of their own.
+ *
+ *   Frame       Right-handed local shading frame, surface normal n = +z, tangent +x, bitangent +y.
+ *   Directions  wi points towards the light, wo towards the viewer; both are unit vectors and both
+ *               point away from the surface. float[3] is (x, y, z).
+ *   Value       f(wi, wo) in 1/sr for the channels R, G, B, WITHOUT the cosine: multiply by wi.z.
+ *               f = 0 when wi.z <= 0 or wo.z <= 0. f is always finite and never negative.
+ *   Density     pdf in 1/sr of wi given wo, with respect to solid angle.
+ *   Colour      linear RGB in whatever primaries the measurement had (RGL and MERL: Rec. 709).
+ *   Angles      radians.
+ *
+ * The model (De Oliveira et al., A Hybrid Neural-Microfacet BRDF Model for Real-Time Rendering,
+ * EGSR 2026):
+ *
+ *   f = max(0, exp(s c + m) + sigmoid(g) f_a - b),   (c, g) = MLP(encode(wi, wo), z)
+ *
+ * f_a is Lambert plus GGX (Walter et al. 2007; Heitz 2014), z the latent code of the material, s, m
+ * and b constants of the model. One network serves every material of a model.
+ *
+ * Threads: a loaded model never changes and may be shared. Every function that evaluates is pure:
+ * no allocation, no I/O, no errno, no locale, no global state.
+ */
+#ifndef HNBRDF_H
+#define HNBRDF_H
+
+#include <stddef.h>
+
+#define HNBRDF_VERSION_MAJOR 0
+#define HNBRDF_VERSION_MINOR 1
+#define HNBRDF_VERSION_PATCH 0
+#define HNBRDF_VERSION_STRING "0.1.0"
+
+#if defined(HNBRDF_STATIC)
+#define HNBRDF_API
+#elif defined(_WIN32)
+#if defined(HNBRDF_BUILD)
+#define HNBRDF_API __declspec(dllexport)
+#else
+#define HNBRDF_API __declspec(dllimport)
+#endif
+#elif defined(__GNUC__)
+#define HNBRDF_API __attribute__((visibility("default")))
+#else
+#define HNBRDF_API
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* The version of the library that is running, as text: compare with HNBRDF_VERSION_STRING. */
+HNBRDF_API const char *hnbrdf_version(void);
+
+/* ---- Limits ---------------------------------------------------------------------------------- */
+
+#define HNBRDF_MAX_HIDDEN 64   /* units H of a hidden layer in an HxN network */
+#define HNBRDF_MAX_LAYERS 4    /* hidden layers N */
+#define HNBRDF_MAX_LATENT 16   /* floats of a latent code, l */
+#define HNBRDF_MAX_NAME 127    /* bytes of a material's name */
+#define HNBRDF_MAX_MATERIALS 65536
+
+/* The smallest roughness. Below it the GGX peak 1/(pi alpha^2) passes 3e7 and the half vector of
+ * two float directions, known to about 1e-7 rad, no longer resolves the lobe. */
+#define HNBRDF_MIN_ALPHA 1e-4f
+#define HNBRDF_MAX_ALPHA 1.0f
+#define HNBRDF_MAX_ETA 1e3f
+
+/* The exponent s c + m is clamped to [-HNBRDF_MAX_EXPONENT, HNBRDF_MAX_EXPONENT] before exp(). */
+#define HNBRDF_MAX_EXPONENT 80.0f
+/* Every value returned is clamped to [0, HNBRDF_MAX_VALUE]; a NaN becomes 0. */
+#define HNBRDF_MAX_VALUE 3.0e38f
+
+/* ---- Results ---------------------------------------------------------------------------------
+ * Evaluate, sample and pdf cannot fail. Everything else returns one of these, 0 for success, and
+ * leaves its out-parameters untouched on failure. */
+typedef enum hnbrdf_result {
+    HNBRDF_OK = 0,
+    HNBRDF_ERROR_ARGUMENT,    /* a parameter is out of its documented range */
+    HNBRDF_ERROR_IO,          /* a file cannot be opened, read or written */
+    HNBRDF_ERROR_FORMAT,      /* the bytes are not what the format asks for */
+    HNBRDF_ERROR_UNSUPPORTED, /* well-formed, but outside what this version reads or writes */
+    HNBRDF_ERROR_LIMIT,       /* larger than a limit */
+    HNBRDF_ERROR_MEMORY,      /* an allocation failed */
+    HNBRDF_ERROR_CANCELLED    /* a callback asked to stop */
+} hnbrdf_result;
+
+/* A short English phrase for a result; never NULL. */
+HNBRDF_API const char *hnbrdf_strerror(hnbrdf_result result);
+
+/* What a person is told: one line naming the file, the place, what was found and what was expected,
+ * NUL-terminated. Filled on failure only. Pass NULL wherever an hnbrdf_error is taken to go without. */
+typedef struct hnbrdf_error {
+    char text[384];
+} hnbrdf_error;
+
+/* ---- Materials ------------------------------------------------------------------------------- */
+
+/* One material. Plain data that the caller owns, copies and edits; 25 floats.
+ * Evaluation trusts these ranges: call hnbrdf_material_check() after an edit. Out of range it still
+ * returns finite values, without a promise which. */
+typedef struct hnbrdf_material {
+    float kd[3];    /* diffuse albedo per channel, [0, 1] */
+    float eta[3];   /* index of refraction per channel, (1, HNBRDF_MAX_ETA] */
+    float alpha[2]; /* GGX roughness along x and y, [HNBRDF_MIN_ALPHA, 1]; equal when isotropic */
+    float rotation; /* of the tangent frame about n, radians counter-clockwise; finite */
+    float latent[HNBRDF_MAX_LATENT]; /* latent code z; the model uses the first l floats */
+} hnbrdf_material;
+
+/* kd 0.5, eta 1.5, alpha 0.5, no rotation, latent 0. */
+HNBRDF_API void hnbrdf_material_init(hnbrdf_material *material);
+
+/* HNBRDF_OK if every field is finite and in its range; else HNBRDF_ERROR_ARGUMENT and a message
+ * naming the first field that is not. */
+HNBRDF_API hnbrdf_result hnbrdf_material_check(const hnbrdf_material *material, hnbrdf_error *error);
+
+/* ---- Models ---------------------------------------------------------------------------------- */
+
+typedef enum hnbrdf_kind {
+    HNBRDF_KIND_HYBRID = 0, /* f = max(0, exp(s c + m) + sigmoid(g) f_a - b), 6 network outputs c, g */
+    HNBRDF_KIND_NEURAL,     /* f = max(0, exp(s c + m) - b), 3 network outputs (Zeltner et al. 2024) */
+    HNBRDF_KIND_GGX         /* f = f_a, no network */
+} hnbrdf_kind;
+
+typedef enum hnbrdf_encoding {
+    HNBRDF_ENCODING_DIRECTIONS = 0,  /* (wi, wo), the paper's: 6 inputs, not reciprocal */
+    HNBRDF_ENCODING_HALF_DIFFERENCE  /* 6 functions of h and the difference angle, unchanged to the
+                                        last bit when wi and wo swap: reciprocal by construction */
+} hnbrdf_encoding;
+
+/* "hybrid", "neural", "ggx"; "directions", "half-difference"; NULL for any other value. */
+HNBRDF_API const char *hnbrdf_kind_name(hnbrdf_kind kind);
+HNBRDF_API const char *hnbrdf_encoding_name(hnbrdf_encoding encoding);
+
+/* An immutable network with its materials. */
+typedef struct hnbrdf_model hnbrdf_model;
+
+/* Everything a model holds, as plain data: to build one, or to look into one. */
+typedef struct hnbrdf_model_desc {
+    hnbrdf_kind kind;
+    hnbrdf_encoding encoding; /* unused for HNBRDF_KIND_GGX */
+    int hidden;               /* H in HxN; 0 for ggx */
+    int layers;               /* N in HxN; 0 for ggx */
+    int latent;               /* l; 0 for ggx */
+    float scale;              /* s; 0 stands for 1 */
+    float shift;              /* m */
+    float floor;              /* b, >= 0 */
+    /* layers + 1 matrices and biases. weights[k] is [out][in], row-major: in = 6 + l for k = 0 (the
+     * encoded directions in order, then the latent code), else hidden; out = hidden, for the last one
+     * 6 (hybrid: c then g) or 3 (neural). biases[k] is [out]. All finite. */
+    const float *weights[HNBRDF_MAX_LAYERS + 1];
+    const float *biases[HNBRDF_MAX_LAYERS + 1];
+    int material_count;                /* >= 1 */
+    const hnbrdf_material *materials;  /* [material_count], each passes hnbrdf_material_check() */
+    const char *const *names;          /* [material_count], UTF-8, unique, 1 to HNBRDF_MAX_NAME bytes,
+                                          no control characters */
+} hnbrdf_model_desc;
+
+/* Memory for a model. Both functions or neither; zero means malloc and free. */
+typedef struct hnbrdf_allocator {
+    void *(*allocate)(void *user, size_t size);
+    void (*release)(void *user, void *pointer);
+    void *user;
+} hnbrdf_allocator;
+
+/* Where a model's bytes come from when they are not a file: fill buffer with up to size bytes and
+ * return how many, 0 at the end, (size_t)-1 on failure. */
+typedef size_t (*hnbrdf_read_fn)(void *user, void *buffer, size_t size);
+/* Where bytes go: return 0 on success, anything else to stop with HNBRDF_ERROR_IO. */
+typedef int (*hnbrdf_write_fn)(void *user, const void *data, size_t size);
+
+/* Zero-initialise for defaults. */
+typedef struct hnbrdf_load_options {
+    hnbrdf_allocator allocator;
+    size_t max_bytes;      /* refuse larger input; 0 stands for 256 MiB */
+    hnbrdf_read_fn read;   /* if set, bytes come from here and `path` is only a name for messages */
+    void *read_user;
+} hnbrdf_load_options;
+
+/* Build a model from a description; everything is checked and copied. allocator may be NULL. */
+HNBRDF_API hnbrdf_result hnbrdf_model_create(const hnbrdf_model_desc *desc,
+                                             const hnbrdf_allocator *allocator, hnbrdf_model **model,
+                                             hnbrdf_error *error);
+
+/* Read a model file (safetensors with hnbrdf metadata, see README "Model files"). options may be
+ * NULL. A file is read whole, every size is checked against the bytes that are there. */
+HNBRDF_API hnbrdf_result hnbrdf_model_load(const char *path, const hnbrdf_load_options *options,
+                                           hnbrdf_model **model, hnbrdf_error *error);
+HNBRDF_API hnbrdf_result hnbrdf_model_load_memory(const void *data, size_t size,
+                                                  const hnbrdf_load_options *options,
+                                                  hnbrdf_model **model, hnbrdf_error *error);
+
+/* Write a model file. The file is written aside and renamed: an old file stays whole until the new
+ * one is complete. Identical models give identical bytes. */
+HNBRDF_API hnbrdf_result hnbrdf_model_save(const hnbrdf_model *model, const char *path,
+                                           hnbrdf_error *error);
+HNBRDF_API hnbrdf_result hnbrdf_model_write(const hnbrdf_model *model, hnbrdf_write_fn write,
+                                            void *user, hnbrdf_error *error);
+
+/* Import published BRDF-Explorer .brdf shaders of this method: every text carries one material and
+ * the same network, which is checked. names[i] becomes the material's name. */
+HNBRDF_API hnbrdf_result hnbrdf_model_import_brdf(const char *const *texts, const size_t *sizes,
+                                                  const char *const *names, int count,
+                                                  const hnbrdf_allocator *allocator,
+                                                  hnbrdf_model **model, hnbrdf_error *error);
+
+/* Free a model; NULL is allowed. */
+HNBRDF_API void hnbrdf_model_free(hnbrdf_model *model);
+
+/* Look into a model. The pointers live as long as the model. */
+HNBRDF_API void hnbrdf_model_describe(const hnbrdf_model *model, hnbrdf_model_desc *desc);
+HNBRDF_API int hnbrdf_model_material_count(const hnbrdf_model *model);
+/* Index of a material by name, or -1. */
+HNBRDF_API int hnbrdf_model_find(const hnbrdf_model *model, const char *name);
+/* NULL when index is outside [0, count). */
+HNBRDF_API const hnbrdf_material *hnbrdf_model_material(const hnbrdf_model *model, int index);
+HNBRDF_API const char *hnbrdf_model_material_name(const hnbrdf_model *model, int index);
+/* Numbers shared by all materials: weights and biases. */
+HNBRDF_API size_t hnbrdf_model_weight_count(const hnbrdf_model *model);
+/* Multiplications the network needs for one evaluation. */
+HNBRDF_API size_t hnbrdf_model_multiplications(const hnbrdf_model *model);
+
+/* ---- Evaluation ------------------------------------------------------------------------------
+ * material need not belong to the model: any edited or interpolated copy will do.
+ *
+ * Edges: wi.z <= 0 or wo.z <= 0 (or a NaN there) gives 0. wi = -wo cannot happen above the horizon.
+ * Directions that are not unit length give the value of the formulas as they stand, clamped to
+ * [0, HNBRDF_MAX_VALUE]; NaN or infinity in any argument gives a finite value, 0 where undefined.
+ * Swapping wi and wo gives the same bits, unless the encoding is HNBRDF_ENCODING_DIRECTIONS. */
+
+/* f(wi, wo) without the cosine. */
+HNBRDF_API void hnbrdf_eval(const hnbrdf_model *model, const hnbrdf_material *material,
+                            const float wi[3], const float wo[3], float f[3]);
+
+/* f_a alone: Lambert + GGX with the material's kd, eta and alpha. The cheapest level of detail. For a
+ * neural model, which has none, it is 0. */
+HNBRDF_API void hnbrdf_eval_analytic(const hnbrdf_model *model, const hnbrdf_material *material,
+                                     const float wi[3], const float wo[3], float f[3]);
+
+/* count evaluations of one material. wi, wo and f point to the first of count float[3]; strides are
+ * in bytes from one to the next, 0 stands for 3 * sizeof(float). The arrays must not overlap.
+ * Each value has the bits hnbrdf_eval() gives. */
+HNBRDF_API void hnbrdf_eval_batch(const hnbrdf_model *model, const hnbrdf_material *material,
+                                  size_t count, const float *wi, size_t wi_stride, const float *wo,
+                                  size_t wo_stride, float *f, size_t f_stride);
+
+/* ---- Sampling --------------------------------------------------------------------------------
+ * A mixture of a cosine lobe and GGX visible normals (Heitz 2018; spherical caps of Dupuy and Benyoub
+ * 2023). hnbrdf_sample() and hnbrdf_pdf() share one density function and agree to the last bit. */
+
+typedef struct hnbrdf_sample_result {
+    float wi[3];     /* unit direction towards the light, wi.z > 0; (0, 0, 1) when pdf is 0 */
+    float pdf;       /* 1/sr; 0 means: no direction, weight is 0 */
+    float weight[3]; /* f wi.z / pdf per channel, finite, >= 0 */
+} hnbrdf_sample_result;
+
+/* Draw wi given wo. u is three numbers in [0, 1): make them as (u32 >> 8) * 2^-24. */
+HNBRDF_API void hnbrdf_sample(const hnbrdf_model *model, const hnbrdf_material *material,
+                              const float wo[3], const float u[3], hnbrdf_sample_result *result);
+
+/* Density with which hnbrdf_sample() draws wi given wo; 0 below the horizon. Integrates to at most 1
+ * (GGX reflections that would go below the horizon are rejected). */
+HNBRDF_API float hnbrdf_pdf(const hnbrdf_model *model, const hnbrdf_material *material,
+                            const float wi[3], const float wo[3]);
+
+/* ---- GLSL export -----------------------------------------------------------------------------
+ * Zero-initialise for defaults. */
+typedef struct hnbrdf_glsl_options {
+    const int *materials;   /* indices of the materials to export; NULL means all */
+    int material_count;     /* how many; ignored when materials is NULL */
+    int standalone;         /* 1: put the text of shaders/hybrid_brdf.glsl first, so that the result
+                               can be pasted as it is; 0: the includer includes that file before */
+} hnbrdf_glsl_options;
+
+/* Write one GLSL include with the network as constants, the chosen materials, and the function
+ *   vec3 hnbrdf_eval(hnbrdf_material material, vec3 wi, vec3 wo)
+ * whose values are those of hnbrdf_eval() in C. options may be NULL. */
+HNBRDF_API hnbrdf_result hnbrdf_export_glsl(const hnbrdf_model *model,
+                                            const hnbrdf_glsl_options *options,
+                                            hnbrdf_write_fn write, void *user, hnbrdf_error *error);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,45 @@
+/* metrics.h: how far a model is from a measurement (libhnbrdf_metrics).
+ *
+ * SMAPE = 2/N sum |f - F| / (|f| + |F|), 0 where both are 0, averaged over the channels: 0 is perfect,
+ * 2 the worst. The sampler must be named beside every figure (measured.h).
+ */
+#ifndef HNBRDF_METRICS_H
+#define HNBRDF_METRICS_H
+
+#include "hnbrdf/measured.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct hnbrdf_comparison {
+    double smape;          /* of hnbrdf_eval() */
+    double smape_analytic; /* of hnbrdf_eval_analytic() */
+    double mae, mse;       /* of hnbrdf_eval(), mean over pairs and channels, 1/sr and 1/sr^2 */
+    size_t pairs;          /* valid pairs used */
+} hnbrdf_comparison;
+
+/* Compare over `pairs` pairs of directions drawn by `sampler` with a fixed seed; pairs without a valid
+ * measurement are drawn again (at most 1000 times `pairs` draws in all, so a material that is invalid
+ * almost everywhere ends with fewer). HNBRDF_ERROR_ARGUMENT when no pair was valid. */
+HNBRDF_API hnbrdf_result hnbrdf_compare(const hnbrdf_model *model, const hnbrdf_material *material,
+                                        const hnbrdf_measured *measured, hnbrdf_sampler sampler,
+                                        size_t pairs, uint64_t seed, hnbrdf_comparison *comparison,
+                                        hnbrdf_error *error);
+
+/* SMAPE of one value against a reference, one channel: 2 |f - F| / (|f| + |F|), 0 when both are 0. */
+HNBRDF_API double hnbrdf_smape(double f, double reference);
+
+typedef struct hnbrdf_image_error {
+    double mae, mse, psnr; /* psnr in dB with peak = the largest reference value; infinite if equal */
+} hnbrdf_image_error;
+
+/* Over count values (pixels times channels) of two linear images of the same size. */
+HNBRDF_API void hnbrdf_image_compare(const float *image, const float *reference, size_t count,
+                                     hnbrdf_image_error *error);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,116 @@
+/* cli.h: what every subcommand of `hnbrdf` shares: options, messages, sources, progress. */
+#ifndef HNBRDF_CLI_CLI_H
+#define HNBRDF_CLI_CLI_H
+
+#include "hnbrdf/hnbrdf.h"
+#include "hnbrdf/measured.h"
+
+#include <stdio.h>
+
+/* Exit codes: 0 done, 1 failure (bad data, out of bounds, I/O), 2 wrong usage. */
+enum { CLI_OK = 0, CLI_FAILURE = 1, CLI_USAGE = 2 };
+
+/* ---- Subcommands: one file each, cmd_NAME.c. argv[0] is the subcommand's name. ------------------- */
+int cmd_fit(int argc, char **argv);
+int cmd_eval(int argc, char **argv);
+int cmd_compare(int argc, char **argv);
+int cmd_export(int argc, char **argv);
+int cmd_verify(int argc, char **argv);
+int cmd_render(int argc, char **argv);
+int cmd_sheet(int argc, char **argv);
+int cmd_import(int argc, char **argv);
+int cmd_info(int argc, char **argv);
+
+/* ---- Options ---------------------------------------------------------------------------------------
+ * A command describes itself once; --help, parsing and messages come from that. */
+typedef enum cli_type {
+    CLI_FLAG,   /* int *: set to 1 */
+    CLI_TEXT,   /* const char **: points into argv */
+    CLI_INT,    /* long *: decimal integer */
+    CLI_REAL,   /* double *: finite decimal number, '.' whatever the locale */
+    CLI_NET     /* int[2]: HxN, as in 32x2 */
+} cli_type;
+
+typedef struct cli_option {
+    const char *name;     /* long name without "--"; NULL ends the table */
+    char letter;          /* short name, or 0 */
+    cli_type type;
+    void *value;
+    double low, high;     /* accepted range of CLI_INT and CLI_REAL; both 0: any */
+    const char *argument; /* name of the argument in the help: "N", "FILE" ... */
+    const char *help;     /* one line; say the default and the unit */
+} cli_option;
+
+typedef struct cli_command {
+    const char *name;     /* "fit" */
+    const char *synopsis; /* "DATA... [options] -o MODEL.safetensors" */
+    const char *about;    /* a few lines */
+    const char *examples; /* lines that can be pasted */
+} cli_command;
+
+/* Parses argv[1..]. `--name value`, `--name=value`, `-o value`; "--" ends options; "-" is positional.
+ * Positionals are moved to argv[1..*positionals] in order. Returns -1 to go on; otherwise the exit code
+ * the command must return (0 after --help, 2 after an error, whose message has been printed). */
+int cli_parse(const cli_command *command, const cli_option *options, int argc, char **argv,
+              int *positionals);
+
+/* Prints "hnbrdf COMMAND: message" and a hint to --help on stderr; returns CLI_USAGE. */
+int cli_usage(const cli_command *command, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
+/* Prints "hnbrdf: message" on stderr; returns CLI_FAILURE. */
+int cli_fail(const char *format, ...) __attribute__((format(printf, 1, 2)));
+
+/* ---- Sources and data ------------------------------------------------------------------------------
+ * DATA arguments: "builtin" (all built-in materials), "builtin:NAME", files, or directories (every
+ * .bsdf and .binary file in them, in byte order of their names). */
+typedef struct cli_data {
+    hnbrdf_measured **items;
+    int count;
+} cli_data;
+
+/* Opens all; two materials of one name are an error. Returns 0, or CLI_FAILURE after a message. */
+int cli_open_data(char *const *arguments, int count, cli_data *data);
+/* The item with this material name, or NULL. */
+const hnbrdf_measured *cli_find_data(const cli_data *data, const char *name);
+void cli_close_data(cli_data *data);
+
+/* A SOURCE is a model file or one measured material (file or "builtin:NAME"): exactly one is set. */
+typedef struct cli_source {
+    hnbrdf_model *model;
+    hnbrdf_measured *measured;
+} cli_source;
+
+/* Recognised by content. Returns 0, or CLI_FAILURE after a message. */
+int cli_open_source(const char *path, cli_source *source);
+void cli_close_source(cli_source *source);
+
+/* Index of the material to use: by name; with name NULL the only one (several: a message listing
+ * them). -1 after a message. */
+int cli_choose_material(const hnbrdf_model *model, const char *name);
+/* "A,B,C" to indices; *indices is malloc'ed. Returns 0, or CLI_FAILURE after a message. */
+int cli_choose_materials(const hnbrdf_model *model, const char *list, int **indices, int *count);
+
+/* ---- Output ----------------------------------------------------------------------------------------
+ * Files are written aside and renamed when complete; the old file stays until then. */
+typedef struct cli_output {
+    FILE *file;           /* write here */
+    char *path, *aside;
+} cli_output;
+int cli_output_open(const char *path, cli_output *output);  /* 0, or CLI_FAILURE after a message */
+int cli_output_close(cli_output *output);                   /* flush, check, rename; likewise */
+void cli_output_discard(cli_output *output);                /* drop what was written */
+
+/* ---- Progress --------------------------------------------------------------------------------------
+ * One line on stderr, rewritten in place on a terminal, a line every 10 s elsewhere; nothing for
+ * anything that ends within 2 s. share is 0 to 1. Call as often as you like. */
+typedef struct cli_progress {
+    double started, shown;
+    const char *what;
+} cli_progress;
+void cli_progress_begin(cli_progress *progress, const char *what);
+void cli_progress_update(cli_progress *progress, double share, const char *detail);
+void cli_progress_end(cli_progress *progress);
+/* Monotonic seconds. */
+double cli_seconds(void);
+
+#endif

@@ -1,0 +1,27 @@
+/* error.h: fill an hnbrdf_error. The message names file, place, what was found, what was expected. */
+#ifndef HNBRDF_CORE_ERROR_H
+#define HNBRDF_CORE_ERROR_H
+
+#include "hnbrdf/hnbrdf.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+
+/* Writes the message if error is not NULL and returns result, so that a failure is one statement:
+ *     return hnbrdf_fail(error, HNBRDF_ERROR_FORMAT, "%s: header is %zu bytes, expected ...", ...); */
+#if defined(__GNUC__)
+__attribute__((format(printf, 3, 4)))
+#endif
+static inline hnbrdf_result
+hnbrdf_fail(hnbrdf_error *error, hnbrdf_result result, const char *format, ...)
+{
+    if (error) {
+        va_list arguments;
+        va_start(arguments, format);
+        vsnprintf(error->text, sizeof error->text, format, arguments);
+        va_end(arguments);
+    }
+    return result;
+}
+
+#endif
