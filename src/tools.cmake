@@ -1,6 +1,7 @@
 # The hnbrdf command and what only it uses: rendering and the Vulkan harness.
 set(HNBRDF_TOOL_SOURCES
-  src/cli/main.c src/cli/cli.c src/cli/sources.c src/cli/csv.c src/cli/progress.c
+  src/cli/main.c src/cli/cli.c src/cli/sources.c src/cli/output.c src/cli/csv.c
+  src/cli/progress.c
   src/cli/cmd_fit.c src/cli/cmd_eval.c src/cli/cmd_compare.c src/cli/cmd_export.c
   src/cli/cmd_verify.c src/cli/cmd_render.c src/cli/cmd_sheet.c src/cli/cmd_import.c
   src/cli/cmd_info.c

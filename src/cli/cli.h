@@ -57,8 +57,26 @@ int cli_parse(const cli_command *command, const cli_option *options, int argc, c
 /* Prints "hnbrdf COMMAND: message" and a hint to --help on stderr; returns CLI_USAGE. */
 int cli_usage(const cli_command *command, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
-/* Prints "hnbrdf: message" on stderr; returns CLI_FAILURE. */
+/* Prints "hnbrdf: message" on stderr, always one line; returns CLI_FAILURE. */
 int cli_fail(const char *format, ...) __attribute__((format(printf, 1, 2)));
+/* The same after "hnbrdf: warning: ". */
+void cli_warn(const char *format, ...) __attribute__((format(printf, 1, 2)));
+
+/* What the person may have meant: offer every candidate, then ask. The nearest one by edit distance if
+ * it is near enough to be a slip of the keys, otherwise NULL. */
+typedef struct cli_guess {
+    const char *word, *nearest;
+    size_t distance;
+} cli_guess;
+void cli_guess_begin(cli_guess *guess, const char *word);
+void cli_guess_offer(cli_guess *guess, const char *candidate);
+const char *cli_guess_nearest(const cli_guess *guess);
+
+/* A decimal number that is the whole text and finite, '.' whatever the locale: 1, else 0. */
+int cli_parse_real(const char *text, double *value);
+
+/* What a 0 for --threads stands for: the processors that are online. */
+int cli_processors(void);
 
 /* ---- Sources and data ------------------------------------------------------------------------------
  * DATA arguments: "builtin" (all built-in materials), "builtin:NAME", files, or directories (every
@@ -83,15 +101,19 @@ typedef struct cli_source {
 /* Recognised by content. Returns 0, or CLI_FAILURE after a message. */
 int cli_open_source(const char *path, cli_source *source);
 void cli_close_source(cli_source *source);
+/* The number of the material to use: as cli_choose_material() for a model; 0 for a measured file, whose
+ * name must then be `name` or name NULL. -1 after a message. */
+int cli_choose_source_material(const cli_source *source, const char *name);
 
 /* Index of the material to use: by name; with name NULL the only one (several: a message listing
  * them). -1 after a message. */
 int cli_choose_material(const hnbrdf_model *model, const char *name);
-/* "A,B,C" to indices; *indices is malloc'ed. Returns 0, or CLI_FAILURE after a message. */
+/* "A,B,C" to indices, NULL to all; *indices is malloc'ed. Returns 0, or CLI_FAILURE after a message. */
 int cli_choose_materials(const hnbrdf_model *model, const char *list, int **indices, int *count);
 
 /* ---- Output ----------------------------------------------------------------------------------------
- * Files are written aside and renamed when complete; the old file stays until then. */
+ * Files are written aside and renamed when complete; the old file stays until then. "-" is stdout; it
+ * and what is no regular file (a pipe, a device) are written directly, aside is then NULL. */
 typedef struct cli_output {
     FILE *file;           /* write here */
     char *path, *aside;
@@ -99,6 +121,9 @@ typedef struct cli_output {
 int cli_output_open(const char *path, cli_output *output);  /* 0, or CLI_FAILURE after a message */
 int cli_output_close(cli_output *output);                   /* flush, check, rename; likewise */
 void cli_output_discard(cli_output *output);                /* drop what was written */
+
+/* Text as a JSON string with its quotes. */
+void cli_write_json_text(FILE *file, const char *text);
 
 /* ---- Progress --------------------------------------------------------------------------------------
  * One line on stderr, rewritten in place on a terminal, a line every 10 s elsewhere; nothing for

@@ -32,7 +32,7 @@ static void draw_block(const hnbrdf_measured *measured, hnbrdf_sampler sampler, 
                        hnbrdf_rng *rng, uint64_t *draws, pair_block *block)
 {
     size_t n = 0;
-    for (; n < wanted && *draws > 0; --*draws) {
+    for (; n<wanted && * draws> 0; --*draws) {
         hnbrdf_sampler_draw(sampler, rng, block->wi[n], block->wo[n]);
         if (hnbrdf_measured_eval(measured, block->wi[n], block->wo[n], block->reference[n]))
             n++;
@@ -71,14 +71,16 @@ hnbrdf_result hnbrdf_compare(const hnbrdf_model *model, const hnbrdf_material *m
     if (pairs == 0)
         return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT, "compare: 0 pairs, expected at least 1");
 
-    uint64_t draws = pairs > UINT64_MAX / DRAWS_PER_PAIR ? UINT64_MAX : (uint64_t)pairs * DRAWS_PER_PAIR;
+    uint64_t draws =
+        pairs > UINT64_MAX / DRAWS_PER_PAIR ? UINT64_MAX : (uint64_t)pairs * DRAWS_PER_PAIR;
     error_sums sums = {0};
     size_t used = 0;
     hnbrdf_rng rng;
     hnbrdf_rng_seed(&rng, seed, compare_sequence);
     while (used < pairs && draws > 0) {
         pair_block block;
-        draw_block(measured, sampler, pairs - used < BLOCK ? pairs - used : BLOCK, &rng, &draws, &block);
+        draw_block(measured, sampler, pairs - used < BLOCK ? pairs - used : BLOCK, &rng, &draws,
+                   &block);
         add_block(model, material, &block, &sums);
         used += block.count;
     }

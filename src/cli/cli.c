@@ -1,0 +1,328 @@
+/* cli.c: how a command describes itself once (cli.h) becomes parsing, --help and messages. */
+#include "cli/cli.h"
+
+#include "model/text.h"
+
+#include <limits.h>
+#include <math.h>
+#include <stdarg.h>
+#include <string.h>
+#include <unistd.h>
+
+enum { HELP_COLUMNS = 100, MESSAGE_SIZE = 1024 };
+
+/* ---- Messages ------------------------------------------------------------------------------------ */
+
+/* One line whatever file names and contents hold: control characters become '?'. */
+static void print_line(const char *before, const char *format, va_list arguments)
+{
+    char text[MESSAGE_SIZE];
+    vsnprintf(text, sizeof text, format, arguments);
+    for (char *c = text; *c; c++)
+        if ((unsigned char)*c < 0x20 || *c == 0x7f)
+            *c = '?';
+    fprintf(stderr, "hnbrdf%s: %s\n", before, text);
+}
+
+int cli_fail(const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    print_line("", format, arguments);
+    va_end(arguments);
+    return CLI_FAILURE;
+}
+
+void cli_warn(const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    print_line(": warning", format, arguments);
+    va_end(arguments);
+}
+
+int cli_usage(const cli_command *command, const char *format, ...)
+{
+    char before[32];
+    va_list arguments;
+    snprintf(before, sizeof before, " %s", command->name);
+    va_start(arguments, format);
+    print_line(before, format, arguments);
+    va_end(arguments);
+    fprintf(stderr, "try: hnbrdf %s --help\n", command->name);
+    return CLI_USAGE;
+}
+
+int cli_processors(void)
+{
+    long count = sysconf(_SC_NPROCESSORS_ONLN);
+    return count < 1 ? 1 : count > 1024 ? 1024 : (int)count;
+}
+
+/* ---- Suggestions --------------------------------------------------------------------------------- */
+
+static size_t min3(size_t a, size_t b, size_t c)
+{
+    size_t ab = a < b ? a : b;
+    return ab < c ? ab : c;
+}
+
+/* Levenshtein distance of the first HNBRDF_MAX_NAME bytes. */
+static size_t edit_distance(const char *a, const char *b)
+{
+    size_t row[HNBRDF_MAX_NAME + 1];
+    size_t length_a = strnlen(a, HNBRDF_MAX_NAME), length_b = strnlen(b, HNBRDF_MAX_NAME);
+    for (size_t j = 0; j <= length_b; j++)
+        row[j] = j;
+    for (size_t i = 1; i <= length_a; i++) {
+        size_t diagonal = row[0];
+        row[0] = i;
+        for (size_t j = 1; j <= length_b; j++) {
+            size_t above = row[j];
+            row[j] = min3(above + 1, row[j - 1] + 1, diagonal + (a[i - 1] != b[j - 1]));
+            diagonal = above;
+        }
+    }
+    return row[length_b];
+}
+
+void cli_guess_begin(cli_guess *guess, const char *word)
+{
+    guess->word = word;
+    guess->nearest = NULL;
+    guess->distance = 0;
+}
+
+void cli_guess_offer(cli_guess *guess, const char *candidate)
+{
+    size_t distance = edit_distance(guess->word, candidate);
+    /* The beginning of a name is most often what was meant. */
+    size_t length = strlen(guess->word);
+    if (length >= 3 && strncmp(guess->word, candidate, length) == 0)
+        distance = 1;
+    if (!guess->nearest || distance < guess->distance) {
+        guess->nearest = candidate;
+        guess->distance = distance;
+    }
+}
+
+const char *cli_guess_nearest(const cli_guess *guess)
+{
+    return guess->nearest && guess->distance <= 1 + strlen(guess->word) / 4 ? guess->nearest : NULL;
+}
+
+/* ---- Help ---------------------------------------------------------------------------------------- */
+
+/* Words of text from `column` on, wrapped at HELP_COLUMNS and indented to `column`. */
+static void print_wrapped(const char *text, int column)
+{
+    int at = column;
+    while (*text) {
+        int length = (int)strcspn(text, " ");
+        if (at > column && at + 1 + length > HELP_COLUMNS) {
+            printf("\n%*s", column, "");
+            at = column;
+        } else if (at > column) {
+            putchar(' ');
+            at++;
+        }
+        printf("%.*s", length, text);
+        at += length;
+        text += length;
+        text += strspn(text, " ");
+    }
+    putchar('\n');
+}
+
+/* "--out FILE" */
+static void spell_option(const cli_option *option, char *text, size_t size)
+{
+    snprintf(text, size, "--%s%s%s", option->name, option->type == CLI_FLAG ? "" : " ",
+             option->type == CLI_FLAG ? "" : option->argument);
+}
+
+static void print_option(const cli_option *option, int width)
+{
+    char text[96];
+    spell_option(option, text, sizeof text);
+    if (option->letter)
+        printf("  -%c, %-*s  ", option->letter, width, text);
+    else
+        printf("      %-*s  ", width, text);
+    print_wrapped(option->help, width + 8);
+}
+
+static void print_indented(const char *text)
+{
+    while (*text) {
+        int length = (int)strcspn(text, "\n");
+        printf("  %.*s\n", length, text);
+        text += length + (text[length] == '\n');
+    }
+}
+
+static void print_help(const cli_command *command, const cli_option *options)
+{
+    static const cli_option help = {"help", 'h', CLI_FLAG, NULL, 0, 0, NULL, "show this help"};
+    int width = (int)strlen("--help");
+    for (const cli_option *option = options; option->name; option++) {
+        char text[96];
+        spell_option(option, text, sizeof text);
+        width = (int)strlen(text) > width ? (int)strlen(text) : width;
+    }
+    printf("usage: hnbrdf %s %s\n\n%s\n\noptions:\n", command->name, command->synopsis, command->about);
+    for (const cli_option *option = options; option->name; option++)
+        print_option(option, width);
+    print_option(&help, width);
+    printf("\nexamples:\n");
+    print_indented(command->examples);
+}
+
+/* ---- Parsing ------------------------------------------------------------------------------------- */
+
+int cli_parse_real(const char *text, double *value)
+{
+    const char *end = text + strlen(text);
+    return hnbrdf_parse_double(text, end, value) == end;
+}
+
+static int parse_whole(const char *text, double *value)
+{
+    double limit = LONG_MAX < 9007199254740992 ? (double)LONG_MAX : 9007199254740992.0;
+    return cli_parse_real(text, value) && fabs(*value) <= limit && *value == floor(*value);
+}
+
+static int parse_net(const char *text, int net[2])
+{
+    int parts[2] = {0, 0};
+    for (int k = 0; k < 2; k++) {
+        size_t digits = strspn(text, "0123456789");
+        if (digits < 1 || digits > 4)
+            return 0;
+        for (; digits > 0; digits--)
+            parts[k] = 10 * parts[k] + (*text++ - '0');
+        if (k == 0 && *text++ != 'x')
+            return 0;
+    }
+    if (*text || parts[0] < 1 || parts[0] > HNBRDF_MAX_HIDDEN || parts[1] < 1 ||
+        parts[1] > HNBRDF_MAX_LAYERS)
+        return 0;
+    net[0] = parts[0];
+    net[1] = parts[1];
+    return 1;
+}
+
+static int set_number(const cli_command *command, const cli_option *option, const char *text)
+{
+    const char *what = option->type == CLI_INT ? "a whole number" : "a finite number";
+    double value;
+    if (!(option->type == CLI_INT ? parse_whole(text, &value) : cli_parse_real(text, &value)))
+        return cli_usage(command, "--%s: '%s' is not %s", option->name, text, what);
+    int any = option->low == 0.0 && option->high == 0.0;
+    if (!any && (value < option->low || value > option->high))
+        return cli_usage(command, "--%s: %s is out of range, expected %s from %.10g to %.10g",
+                         option->name, text, what, option->low, option->high);
+    if (option->type == CLI_INT)
+        *(long *)option->value = (long)value;
+    else
+        *(double *)option->value = value;
+    return -1;
+}
+
+static int set_option(const cli_command *command, const cli_option *option, const char *text)
+{
+    switch (option->type) {
+    case CLI_FLAG:
+        *(int *)option->value = 1;
+        return -1;
+    case CLI_TEXT:
+        *(const char **)option->value = text;
+        return -1;
+    case CLI_NET:
+        if (parse_net(text, option->value))
+            return -1;
+        return cli_usage(command,
+                         "--%s: '%s' is not HxN, as in 32x2: H units from 1 to %d in each of N hidden "
+                         "layers from 1 to %d",
+                         option->name, text, HNBRDF_MAX_HIDDEN, HNBRDF_MAX_LAYERS);
+    case CLI_INT:
+    case CLI_REAL:
+        break;
+    }
+    return set_number(command, option, text);
+}
+
+static const cli_option *find_option(const cli_option *options, const char *argument)
+{
+    for (const cli_option *option = options; option->name; option++) {
+        size_t length = strlen(option->name);
+        if (argument[1] == '-') {
+            if (strncmp(argument + 2, option->name, length) == 0 &&
+                (argument[2 + length] == '\0' || argument[2 + length] == '='))
+                return option;
+        } else if (option->letter && argument[1] == option->letter && argument[2] == '\0') {
+            return option;
+        }
+    }
+    return NULL;
+}
+
+static int fail_unknown(const cli_command *command, const cli_option *options, const char *argument)
+{
+    char name[HNBRDF_MAX_NAME + 1];
+    cli_guess guess;
+    snprintf(name, sizeof name, "%.*s", (int)strcspn(argument, "="), argument);
+    cli_guess_begin(&guess, name + strspn(name, "-"));
+    for (const cli_option *option = options; option->name; option++)
+        cli_guess_offer(&guess, option->name);
+    cli_guess_offer(&guess, "help");
+    const char *nearest = cli_guess_nearest(&guess);
+    if (nearest)
+        return cli_usage(command, "unknown option %s, did you mean --%s?", name, nearest);
+    return cli_usage(command, "unknown option %s", name);
+}
+
+/* An option's value must not look like another option: `-o --seed 3` is a forgotten file name. */
+static int is_value(const char *text)
+{
+    return text && (text[0] != '-' || text[1] == '\0' || strchr("0123456789.", text[1]));
+}
+
+int cli_parse(const cli_command *command, const cli_option *options, int argc, char **argv,
+              int *positionals)
+{
+    int count = 0, only_positionals = 0;
+    for (int k = 1; k < argc; k++) {
+        char *argument = argv[k];
+        if (only_positionals || argument[0] != '-' || argument[1] == '\0') {
+            argv[++count] = argument;
+            continue;
+        }
+        if (strcmp(argument, "--") == 0) {
+            only_positionals = 1;
+            continue;
+        }
+        if (strcmp(argument, "--help") == 0 || strcmp(argument, "-h") == 0) {
+            print_help(command, options);
+            return CLI_OK;
+        }
+        const cli_option *option = find_option(options, argument);
+        if (!option)
+            return fail_unknown(command, options, argument);
+        const char *equals = argument[1] == '-' ? strchr(argument, '=') : NULL;
+        const char *value = equals ? equals + 1 : NULL;
+        if (option->type == CLI_FLAG && value)
+            return cli_usage(command, "--%s takes no value", option->name);
+        if (option->type != CLI_FLAG && !value) {
+            value = k + 1 < argc ? argv[++k] : NULL;
+            if (!is_value(value))
+                return cli_usage(command, "--%s needs a value: --%s %s", option->name, option->name,
+                                 option->argument);
+        }
+        int result = set_option(command, option, value);
+        if (result >= 0)
+            return result;
+    }
+    *positionals = count;
+    return -1;
+}

@@ -1,0 +1,134 @@
+/* cmd_import.c: `hnbrdf import`: published .brdf shaders of one data set become one model file. */
+#include "cli/cli.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const cli_command command = {
+    "import",
+    "FILE.brdf... -o MODEL.safetensors",
+    "Reads published BRDF-Explorer shaders of this method, one material a file, all with the same\n"
+    "network, and writes them as one model. A material is named after its file.",
+    "hnbrdf import merl/*.brdf -o merl.safetensors\n"
+    "hnbrdf info merl.safetensors",
+};
+
+/* A published shader has some 60 KB. */
+static const size_t max_text = (size_t)16 << 20;
+
+typedef struct brdf_texts {
+    int count;
+    char **texts, **names;
+    size_t *sizes;
+} brdf_texts;
+
+/* The whole file, or NULL after a message; malloc'ed. */
+static char *read_text(const char *path, size_t *size)
+{
+    char *text = malloc(max_text + 1);
+    FILE *file = text ? fopen(path, "rb") : NULL;
+    size_t length = file ? fread(text, 1, max_text + 1, file) : 0;
+    int failed = 1;
+    if (!text)
+        cli_fail("out of memory");
+    else if (!file || ferror(file))
+        cli_fail("%s: cannot %s: %s", path, file ? "read" : "open", strerror(errno));
+    else if (length > max_text)
+        cli_fail("%s: larger than %zu bytes, expected a .brdf shader", path, max_text);
+    else
+        failed = 0;
+    if (file)
+        fclose(file);
+    if (failed) {
+        free(text);
+        return NULL;
+    }
+    *size = length;
+    char *smaller = realloc(text, length + 1);
+    return smaller ? smaller : text;
+}
+
+/* The file's name without directory and extension; NULL after a message. malloc'ed. */
+static char *name_of(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    char *name = strdup(slash ? slash + 1 : path);
+    if (!name) {
+        cli_fail("out of memory");
+        return NULL;
+    }
+    char *dot = strrchr(name, '.');
+    if (dot && dot != name)
+        *dot = '\0';
+    return name;
+}
+
+static int read_all(brdf_texts *texts, char **paths)
+{
+    for (int k = 0; k < texts->count; k++) {
+        texts->names[k] = name_of(paths[k]);
+        if (!texts->names[k])
+            return CLI_FAILURE;
+        for (int other = 0; other < k; other++)
+            if (strcmp(texts->names[other], texts->names[k]) == 0)
+                return cli_fail("two materials have the name %s: %s and %s", texts->names[k],
+                                paths[other], paths[k]);
+        texts->texts[k] = read_text(paths[k], &texts->sizes[k]);
+        if (!texts->texts[k])
+            return CLI_FAILURE;
+    }
+    return CLI_OK;
+}
+
+static int import_and_save(const brdf_texts *texts, const char *out)
+{
+    hnbrdf_model *model = NULL;
+    hnbrdf_error error;
+    hnbrdf_result result =
+        hnbrdf_model_import_brdf((const char *const *)texts->texts, texts->sizes,
+                                 (const char *const *)texts->names, texts->count, NULL, &model, &error);
+    if (result == HNBRDF_OK)
+        result = hnbrdf_model_save(model, out, &error);
+    hnbrdf_model_free(model);
+    if (result != HNBRDF_OK)
+        return cli_fail("%s", error.text);
+    printf("%s: %d material%s\n", out, texts->count, texts->count == 1 ? "" : "s");
+    return CLI_OK;
+}
+
+int cmd_import(int argc, char **argv)
+{
+    const char *out = NULL;
+    const cli_option options[] = {
+        {"out", 'o', CLI_TEXT, &out, 0, 0, "FILE", "the model file to write (required)"},
+        {0},
+    };
+    brdf_texts texts = {0};
+    int result = cli_parse(&command, options, argc, argv, &texts.count);
+    if (result >= 0)
+        return result;
+    if (texts.count < 1)
+        return cli_usage(&command, "no .brdf file to import");
+    if (!out)
+        return cli_usage(&command, "no model file to write: -o MODEL.safetensors");
+
+    size_t count = (size_t)texts.count;
+    texts.texts = calloc(count, sizeof *texts.texts);
+    texts.names = calloc(count, sizeof *texts.names);
+    texts.sizes = calloc(count, sizeof *texts.sizes);
+    if (!texts.texts || !texts.names || !texts.sizes)
+        result = cli_fail("out of memory");
+    else
+        result = read_all(&texts, argv + 1);
+    if (result == CLI_OK)
+        result = import_and_save(&texts, out);
+    for (size_t k = 0; k < count && texts.texts && texts.names; k++) {
+        free(texts.texts[k]);
+        free(texts.names[k]);
+    }
+    free(texts.texts);
+    free(texts.names);
+    free(texts.sizes);
+    return result;
+}

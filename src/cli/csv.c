@@ -1,0 +1,143 @@
+/* csv.c: read comma-separated text line by line (RFC 4180, one record a line), from people and pipes.
+ */
+#include "cli/csv.h"
+
+#include "cli/cli.h"
+#include "model/text.h"
+
+#include <errno.h>
+#include <string.h>
+
+void csv_begin(csv_reader *reader, FILE *file, const char *name)
+{
+    reader->file = file;
+    reader->name = name;
+    reader->line = 0;
+    reader->count = 0;
+}
+
+static int fail_line(const csv_reader *reader, const char *what)
+{
+    cli_fail("%s:%ld: %s", reader->name, reader->line, what);
+    return -1;
+}
+
+/* One line into text, without its end: 1, 0 at the end of the file, -1 after a message. */
+static int read_line(csv_reader *reader)
+{
+    size_t length = 0;
+    int c = getc(reader->file);
+    reader->line++;
+    if (c == EOF && !ferror(reader->file))
+        return 0;
+    for (; c != EOF && c != '\n'; c = getc(reader->file)) {
+        if (c == '\0')
+            return fail_line(reader, "found a NUL byte, expected text");
+        if (length == CSV_LINE - 1)
+            return fail_line(reader, "the line is longer than 8191 bytes");
+        reader->text[length++] = (char)c;
+    }
+    if (ferror(reader->file)) {
+        cli_fail("%s: cannot read: %s", reader->name, strerror(errno));
+        return -1;
+    }
+    if (length > 0 && reader->text[length - 1] == '\r')
+        length--;
+    reader->text[length] = '\0';
+    if (reader->line == 1 && strncmp(reader->text, "\xef\xbb\xbf", 3) == 0)
+        memmove(reader->text, reader->text + 3, length - 2);
+    return 1;
+}
+
+static int is_space(char c)
+{
+    return c == ' ' || c == '\t';
+}
+
+/* Both take a field from *in on in place, end it with NUL and leave *in at the comma or the end. */
+static void take_plain(char **in)
+{
+    char *end = *in;
+    size_t length = strcspn(end, ",");
+    *in += length;
+    end += length;
+    while (length-- > 0 && is_space(end[-1]))
+        end--;
+    if (end < *in)
+        *end = '\0';
+}
+
+static int take_quoted(char **in)
+{
+    char *from = *in + 1, *to = *in;
+    for (; *from && (*from != '"' || from[1] == '"'); from++) {
+        from += *from == '"';
+        *to++ = *from;
+    }
+    if (*from++ != '"')
+        return -1;
+    while (is_space(*from))
+        from++;
+    if (*from && *from != ',')
+        return -1;
+    *in = from;
+    *to = '\0';
+    return 0;
+}
+
+static int split(csv_reader *reader)
+{
+    char *in = reader->text;
+    reader->count = 0;
+    for (;;) {
+        while (is_space(*in))
+            in++;
+        if (reader->count == CSV_FIELDS)
+            return fail_line(reader, "found more than 256 fields");
+        reader->fields[reader->count++] = in;
+        if (*in != '"')
+            take_plain(&in);
+        else if (take_quoted(&in) != 0)
+            return fail_line(reader, "a quoted field is not closed by '\"' and a comma");
+        if (*in != ',')
+            return 1;
+        *in++ = '\0';
+    }
+}
+
+int csv_next(csv_reader *reader)
+{
+    for (;;) {
+        int result = read_line(reader);
+        if (result <= 0)
+            return result;
+        if (reader->text[strspn(reader->text, " \t")] != '\0')
+            return split(reader);
+    }
+}
+
+int csv_number(const csv_reader *reader, int index, const char *what, float *value)
+{
+    const char *text = reader->fields[index];
+    const char *end = text + strlen(text);
+    if (*text && hnbrdf_parse_float(text, end, value) == end)
+        return 0;
+    cli_fail("%s:%ld: %s: found '%.40s', expected a finite decimal number", reader->name, reader->line,
+             what, text);
+    return -1;
+}
+
+void csv_write_text(FILE *file, const char *text)
+{
+    if (!text[strcspn(text, ",\"\r\n")] && *text) {
+        fputs(text, file);
+        return;
+    }
+    putc('"', file);
+    for (; *text; text++) {
+        if (*text == '"')
+            putc('"', file);
+        putc(*text, file);
+    }
+    putc('"', file);
+}

@@ -1,0 +1,108 @@
+/* main.c: the `hnbrdf` command: finds the subcommand and answers for what no subcommand owns. */
+#include "cli/cli.h"
+
+#include <errno.h>
+#include <string.h>
+
+typedef struct subcommand {
+    const char *name;
+    int (*run)(int argc, char **argv);
+    const char *about;
+} subcommand;
+
+static const subcommand subcommands[] = {
+    {"fit", cmd_fit, "fit a model to measured materials"},
+    {"compare", cmd_compare, "error of a model against measured materials"},
+    {"info", cmd_info, "what a model or a measured file holds"},
+    {"eval", cmd_eval, "BRDF values for pairs of directions, CSV to CSV"},
+    {"export", cmd_export, "write a model's materials as one GLSL include"},
+    {"verify", cmd_verify, "prove on a GPU that the exported shader equals the C library"},
+    {"render", cmd_render, "picture of a sphere under an environment map"},
+    {"sheet", cmd_sheet, "contact sheet: reference, GGX alone and model, side by side"},
+    {"import", cmd_import, "published .brdf shaders to a model file"},
+};
+enum { SUBCOMMANDS = sizeof subcommands / sizeof subcommands[0] };
+
+static void print_overview(FILE *file)
+{
+    fputs("usage: hnbrdf COMMAND [arguments]\n"
+          "\n"
+          "Hybrid neural-microfacet BRDFs: fit them to measurements, prove them, use them in shaders.\n"
+          "\n"
+          "commands:\n",
+          file);
+    for (int k = 0; k < SUBCOMMANDS; k++)
+        fprintf(file, "  %-8s  %s\n", subcommands[k].name, subcommands[k].about);
+    fputs(
+        "\n"
+        "DATA is `builtin` (procedural materials), MERL .binary or RGL .bsdf files, or directories of\n"
+        "them. A material is named after its file. `hnbrdf COMMAND --help` tells more.\n"
+        "\n"
+        "examples:\n"
+        "  hnbrdf fit builtin -o model.safetensors\n"
+        "  hnbrdf compare model.safetensors builtin\n"
+        "  hnbrdf info model.safetensors\n"
+        "  hnbrdf export model.safetensors -o scene.glsl\n"
+        "  hnbrdf verify model.safetensors\n",
+        file);
+}
+
+static const subcommand *find_subcommand(const char *name)
+{
+    for (int k = 0; k < SUBCOMMANDS; k++)
+        if (strcmp(name, subcommands[k].name) == 0)
+            return &subcommands[k];
+    cli_guess guess;
+    cli_guess_begin(&guess, name);
+    for (int k = 0; k < SUBCOMMANDS; k++)
+        cli_guess_offer(&guess, subcommands[k].name);
+    const char *nearest = cli_guess_nearest(&guess);
+    if (nearest)
+        cli_fail("unknown command '%s', did you mean '%s'?", name, nearest);
+    else
+        cli_fail("unknown command '%s'", name);
+    fputs("try: hnbrdf --help\n", stderr);
+    return NULL;
+}
+
+static int show_help(int argc, char **argv)
+{
+    if (argc < 3) {
+        print_overview(stdout);
+        return CLI_OK;
+    }
+    const subcommand *found = find_subcommand(argv[2]);
+    if (!found)
+        return CLI_USAGE;
+    char help[] = "--help";
+    char *arguments[] = {argv[2], help, NULL};
+    return found->run(2, arguments);
+}
+
+static int run(int argc, char **argv)
+{
+    if (argc < 2) {
+        print_overview(stderr);
+        return CLI_USAGE;
+    }
+    if (strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0) {
+        print_overview(stdout);
+        return CLI_OK;
+    }
+    if (strcmp(argv[1], "help") == 0)
+        return show_help(argc, argv);
+    if (strcmp(argv[1], "--version") == 0 || strcmp(argv[1], "-V") == 0) {
+        printf("hnbrdf %s\n", hnbrdf_version());
+        return CLI_OK;
+    }
+    const subcommand *found = find_subcommand(argv[1]);
+    return found ? found->run(argc - 1, argv + 1) : CLI_USAGE;
+}
+
+int main(int argc, char **argv)
+{
+    int result = run(argc, argv);
+    if ((fflush(stdout) != 0 || ferror(stdout)) && result == CLI_OK)
+        return cli_fail("standard output: cannot write: %s", strerror(errno));
+    return result;
+}

@@ -1,0 +1,406 @@
+/* sources.c: what DATA and SOURCE arguments name: built-in materials, measured files, models. */
+#include "cli/cli.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+enum { NAMES_SHOWN = 16, NAMES_SIZE = 512 };
+
+/* ---- Names --------------------------------------------------------------------------------------- */
+
+/* "a, b, c and 7 more": the names of a collection for a message. */
+typedef struct name_list {
+    char text[NAMES_SIZE];
+    size_t length;
+    int shown, left_out;
+} name_list;
+
+static void list_name(name_list *list, const char *name)
+{
+    size_t length = strlen(name);
+    if (list->shown == NAMES_SHOWN || list->length + length + 32 > NAMES_SIZE) {
+        list->left_out++;
+        return;
+    }
+    list->length += (size_t)snprintf(list->text + list->length, NAMES_SIZE - list->length, "%s%s",
+                                     list->shown ? ", " : "", name);
+    list->shown++;
+}
+
+static const char *finish_list(name_list *list)
+{
+    if (list->left_out > 0)
+        snprintf(list->text + list->length, NAMES_SIZE - list->length, " and %d more", list->left_out);
+    return list->text;
+}
+
+/* " (did you mean X?)", or nothing. */
+static const char *suggestion(const cli_guess *guess, char *text, size_t size)
+{
+    const char *nearest = cli_guess_nearest(guess);
+    text[0] = '\0';
+    if (nearest)
+        snprintf(text, size, " (did you mean %s?)", nearest);
+    return text;
+}
+
+static int fail_not_found(const char *where, const char *name, name_list *list, const cli_guess *guess)
+{
+    char meant[HNBRDF_MAX_NAME + 32];
+    return cli_fail("no material '%.*s' in %s%s; it has %s", HNBRDF_MAX_NAME, name, where,
+                    suggestion(guess, meant, sizeof meant), finish_list(list));
+}
+
+/* ---- Built-in materials -------------------------------------------------------------------------- */
+
+static const char *builtin_name_in(const char *path)
+{
+    return strncmp(path, "builtin:", 8) == 0 ? path + 8 : NULL;
+}
+
+/* Its number, or -1 after a message. */
+static int find_builtin(const char *name)
+{
+    name_list list = {0};
+    cli_guess guess;
+    cli_guess_begin(&guess, name);
+    for (int k = 0; k < hnbrdf_measured_builtin_count(); k++) {
+        const char *candidate = hnbrdf_measured_builtin_name(k);
+        if (strcmp(candidate, name) == 0)
+            return k;
+        list_name(&list, candidate);
+        cli_guess_offer(&guess, candidate);
+    }
+    fail_not_found("builtin", name, &list, &guess);
+    return -1;
+}
+
+static int open_builtin(int index, hnbrdf_measured **measured)
+{
+    hnbrdf_error error;
+    if (index < 0)
+        return CLI_FAILURE;
+    if (hnbrdf_measured_open_builtin(index, measured, &error) != HNBRDF_OK)
+        return cli_fail("%s", error.text);
+    return CLI_OK;
+}
+
+/* ---- Recognising files --------------------------------------------------------------------------- */
+
+static int has_extension(const char *path, const char *extension)
+{
+    size_t length = strlen(path), tail = strlen(extension);
+    return length > tail && strcmp(path + length - tail, extension) == 0;
+}
+
+static int is_directory(const char *path)
+{
+    struct stat status;
+    return stat(path, &status) == 0 && S_ISDIR(status.st_mode);
+}
+
+/* safetensors: a u64 header length, then a JSON object. No measured format has '{' there: MERL has the
+ * number 180 and RGL the letters "tensor_file". Only regular files are looked into, a pipe would lose
+ * what was read. */
+static int looks_like_model(const char *path)
+{
+    unsigned char head[9];
+    struct stat status;
+    if (stat(path, &status) != 0 || !S_ISREG(status.st_mode))
+        return 0;
+    FILE *file = fopen(path, "rb");
+    if (!file)
+        return 0;
+    size_t size = fread(head, 1, sizeof head, file);
+    fclose(file);
+    return size == sizeof head && head[8] == '{';
+}
+
+/* For a path that does not exist: a built-in material may have been meant. */
+static int fail_missing(const char *path)
+{
+    int reason = errno;
+    for (int k = 0; k < hnbrdf_measured_builtin_count(); k++)
+        if (strcmp(hnbrdf_measured_builtin_name(k), path) == 0)
+            return cli_fail("%s: %s; the built-in material of that name is builtin:%s", path,
+                            strerror(reason), path);
+    return cli_fail("%s: %s", path, strerror(reason));
+}
+
+static int open_measured_file(const char *path, hnbrdf_measured **measured)
+{
+    hnbrdf_error error;
+    struct stat status;
+    if (stat(path, &status) != 0)
+        return fail_missing(path);
+    if (has_extension(path, ".brdf"))
+        return cli_fail("%s: a published shader; make a model of it first: hnbrdf import", path);
+    if (hnbrdf_measured_open(path, NULL, measured, &error) == HNBRDF_OK)
+        return CLI_OK;
+    return cli_fail("%s", error.text);
+}
+
+/* ---- DATA ---------------------------------------------------------------------------------------- */
+
+/* The data while they are opened: where each item came from, to name both when two have one name. */
+typedef struct data_builder {
+    cli_data data;
+    char **origins;
+    int capacity;
+} data_builder;
+
+static int reserve(data_builder *builder)
+{
+    if (builder->data.count < builder->capacity)
+        return CLI_OK;
+    int capacity = builder->capacity ? 2 * builder->capacity : 16;
+    hnbrdf_measured **items =
+        realloc(builder->data.items, (size_t)capacity * sizeof(hnbrdf_measured *));
+    if (items)
+        builder->data.items = items;
+    char **origins = realloc(builder->origins, (size_t)capacity * sizeof(char *));
+    if (origins)
+        builder->origins = origins;
+    if (!items || !origins)
+        return cli_fail("out of memory");
+    builder->capacity = capacity;
+    return CLI_OK;
+}
+
+/* Takes the material over, also on failure. */
+static int add_material(data_builder *builder, hnbrdf_measured *measured, const char *origin)
+{
+    const char *name = hnbrdf_measured_name(measured);
+    int result = reserve(builder);
+    for (int k = 0; result == CLI_OK && k < builder->data.count; k++)
+        if (strcmp(hnbrdf_measured_name(builder->data.items[k]), name) == 0)
+            result = cli_fail("two materials have the name %s: %s and %s", name, builder->origins[k],
+                              origin);
+    char *copy = result == CLI_OK ? strdup(origin) : NULL;
+    if (result == CLI_OK && !copy)
+        result = cli_fail("out of memory");
+    if (result != CLI_OK) {
+        hnbrdf_measured_close(measured);
+        return result;
+    }
+    builder->origins[builder->data.count] = copy;
+    builder->data.items[builder->data.count++] = measured;
+    return CLI_OK;
+}
+
+static int add_file(data_builder *builder, const char *path)
+{
+    hnbrdf_measured *measured = NULL;
+    if (looks_like_model(path))
+        return cli_fail("%s: a model file, expected measured data (MERL .binary or RGL .bsdf)", path);
+    if (open_measured_file(path, &measured) != CLI_OK)
+        return CLI_FAILURE;
+    return add_material(builder, measured, path);
+}
+
+static int add_builtin(data_builder *builder, int index)
+{
+    char origin[HNBRDF_MAX_NAME + 16];
+    hnbrdf_measured *measured = NULL;
+    if (open_builtin(index, &measured) != CLI_OK)
+        return CLI_FAILURE;
+    snprintf(origin, sizeof origin, "builtin:%s", hnbrdf_measured_builtin_name(index));
+    return add_material(builder, measured, origin);
+}
+
+static int is_measured_name(const struct dirent *entry)
+{
+    return has_extension(entry->d_name, ".bsdf") || has_extension(entry->d_name, ".binary");
+}
+
+static int compare_bytes(const struct dirent **a, const struct dirent **b)
+{
+    return strcmp((*a)->d_name, (*b)->d_name);
+}
+
+static int add_directory(data_builder *builder, const char *path)
+{
+    struct dirent **entries = NULL;
+    int count = scandir(path, &entries, is_measured_name, compare_bytes);
+    if (count < 0)
+        return cli_fail("%s: cannot read the directory: %s", path, strerror(errno));
+    int result = CLI_OK;
+    if (count == 0)
+        result = cli_fail("%s: the directory has no .bsdf and no .binary file", path);
+    const char *slash = has_extension(path, "/") ? "" : "/";
+    for (int k = 0; k < count; k++) {
+        size_t size = strlen(path) + strlen(entries[k]->d_name) + 2;
+        char *file = result == CLI_OK ? malloc(size) : NULL;
+        if (file) {
+            snprintf(file, size, "%s%s%s", path, slash, entries[k]->d_name);
+            result = add_file(builder, file);
+        } else if (result == CLI_OK) {
+            result = cli_fail("out of memory");
+        }
+        free(file);
+        free(entries[k]);
+    }
+    free(entries);
+    return result;
+}
+
+static int add_argument(data_builder *builder, const char *argument)
+{
+    const char *name = builtin_name_in(argument);
+    if (name)
+        return add_builtin(builder, find_builtin(name));
+    if (strcmp(argument, "builtin") != 0)
+        return is_directory(argument) ? add_directory(builder, argument) : add_file(builder, argument);
+    for (int k = 0; k < hnbrdf_measured_builtin_count(); k++)
+        if (add_builtin(builder, k) != CLI_OK)
+            return CLI_FAILURE;
+    return CLI_OK;
+}
+
+int cli_open_data(char *const *arguments, int count, cli_data *data)
+{
+    data_builder builder = {0};
+    int result = count > 0 ? CLI_OK : cli_fail("no data: name files, directories or builtin");
+    for (int k = 0; k < count && result == CLI_OK; k++)
+        result = add_argument(&builder, arguments[k]);
+    for (int k = 0; k < builder.data.count; k++)
+        free(builder.origins[k]);
+    free(builder.origins);
+    if (result == CLI_OK)
+        *data = builder.data;
+    else
+        cli_close_data(&builder.data);
+    return result;
+}
+
+const hnbrdf_measured *cli_find_data(const cli_data *data, const char *name)
+{
+    for (int k = 0; k < data->count; k++)
+        if (strcmp(hnbrdf_measured_name(data->items[k]), name) == 0)
+            return data->items[k];
+    return NULL;
+}
+
+void cli_close_data(cli_data *data)
+{
+    for (int k = 0; k < data->count; k++)
+        hnbrdf_measured_close(data->items[k]);
+    free(data->items);
+    data->items = NULL;
+    data->count = 0;
+}
+
+/* ---- SOURCE -------------------------------------------------------------------------------------- */
+
+int cli_open_source(const char *path, cli_source *source)
+{
+    hnbrdf_error error;
+    cli_source opened = {0};
+    const char *builtin = builtin_name_in(path);
+    int result;
+    if (strcmp(path, "builtin") == 0)
+        return cli_fail("builtin holds %d materials, choose one as in builtin:%s",
+                        hnbrdf_measured_builtin_count(), hnbrdf_measured_builtin_name(0));
+    if (builtin)
+        result = open_builtin(find_builtin(builtin), &opened.measured);
+    else if (is_directory(path))
+        return cli_fail("%s: a directory, expected one model or measured file", path);
+    else if (looks_like_model(path) || has_extension(path, ".safetensors"))
+        result = hnbrdf_model_load(path, NULL, &opened.model, &error) == HNBRDF_OK
+                     ? CLI_OK
+                     : cli_fail("%s", error.text);
+    else
+        result = open_measured_file(path, &opened.measured);
+    if (result == CLI_OK)
+        *source = opened;
+    return result;
+}
+
+void cli_close_source(cli_source *source)
+{
+    hnbrdf_model_free(source->model);
+    hnbrdf_measured_close(source->measured);
+    source->model = NULL;
+    source->measured = NULL;
+}
+
+/* ---- Materials of a source ----------------------------------------------------------------------- */
+
+int cli_choose_material(const hnbrdf_model *model, const char *name)
+{
+    int count = hnbrdf_model_material_count(model);
+    name_list list = {0};
+    cli_guess guess;
+    if (!name && count == 1)
+        return 0;
+    int index = name ? hnbrdf_model_find(model, name) : -1;
+    if (index >= 0)
+        return index;
+    cli_guess_begin(&guess, name ? name : "");
+    for (int k = 0; k < count; k++) {
+        list_name(&list, hnbrdf_model_material_name(model, k));
+        cli_guess_offer(&guess, hnbrdf_model_material_name(model, k));
+    }
+    if (name)
+        fail_not_found("the model", name, &list, &guess);
+    else
+        cli_fail("the model has %d materials, choose one with --material: %s", count,
+                 finish_list(&list));
+    return -1;
+}
+
+int cli_choose_source_material(const cli_source *source, const char *name)
+{
+    if (source->model)
+        return cli_choose_material(source->model, name);
+    const char *only = hnbrdf_measured_name(source->measured);
+    if (!name || strcmp(name, only) == 0)
+        return 0;
+    cli_fail("no material '%.*s' in the measured file; it holds %s", HNBRDF_MAX_NAME, name, only);
+    return -1;
+}
+
+/* One part of "A,B,C" from `from` on to an index; *next is behind its comma, or NULL at the end. */
+static int choose_listed(const hnbrdf_model *model, const char *from, const char **next)
+{
+    size_t length = strcspn(from, ",");
+    char name[HNBRDF_MAX_NAME + 2]; /* one longer than any name, so that a cut one is never found */
+    snprintf(name, sizeof name, "%.*s", length < sizeof name ? (int)length : (int)sizeof name - 1,
+             from);
+    *next = from[length] == ',' ? from + length + 1 : NULL;
+    return cli_choose_material(model, name);
+}
+
+int cli_choose_materials(const hnbrdf_model *model, const char *list, int **indices, int *count)
+{
+    int all = hnbrdf_model_material_count(model), n = 0;
+    int *chosen = malloc((size_t)all * sizeof *chosen);
+    if (!chosen)
+        return cli_fail("out of memory");
+    for (; !list && n < all; n++)
+        chosen[n] = n;
+    /* A name may hold commas itself. */
+    if (list && hnbrdf_model_find(model, list) >= 0) {
+        chosen[n++] = hnbrdf_model_find(model, list);
+        list = NULL;
+    }
+    while (list) {
+        int index = choose_listed(model, list, &list);
+        for (int k = 0; k < n && index >= 0; k++)
+            if (chosen[k] == index) {
+                cli_fail("the material %s is named twice", hnbrdf_model_material_name(model, index));
+                index = -1;
+            }
+        if (index < 0) {
+            free(chosen);
+            return CLI_FAILURE;
+        }
+        chosen[n++] = index;
+    }
+    *indices = chosen;
+    *count = n;
+    return CLI_OK;
+}
