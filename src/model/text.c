@@ -1,4 +1,4 @@
-/* text.c: decimal text to and from floating point, the same whatever the locale.
+/* text.c: numbers and UTF-8 as text, the same whatever the locale.
  * Short numbers are parsed with one exact product or division, all others by shifting decimal digits.
  */
 #include "model/text.h"
@@ -324,4 +324,29 @@ const char *hnbrdf_parse_float(const char *begin, const char *end, float *value)
         *value = (float)rounded;
     }
     return at;
+}
+
+/* ---- UTF-8 ------------------------------------------------------------------------------------- */
+
+size_t hnbrdf_utf8_length(const char *begin, const char *end)
+{
+    unsigned char b[4] = {0, 0, 0, 0};
+    const size_t available = (size_t)(end - begin);
+    memcpy(b, begin, available < 4 ? available : 4);
+    if (available > 0 && b[0] < 0x80) {
+        return 1;
+    }
+    const size_t length = b[0] >= 0xc2 && b[0] < 0xe0   ? 2
+                          : b[0] >= 0xe0 && b[0] < 0xf0 ? 3
+                          : b[0] >= 0xf0 && b[0] < 0xf5 ? 4
+                                                        : 0;
+    for (size_t i = 1; i < length; ++i) {
+        if ((b[i] & 0xc0) != 0x80) {
+            return 0;
+        }
+    }
+    const int overlong = (b[0] == 0xe0 && b[1] < 0xa0) || (b[0] == 0xf0 && b[1] < 0x90);
+    const int surrogate = b[0] == 0xed && b[1] >= 0xa0;
+    const int too_large = b[0] == 0xf4 && b[1] >= 0x90;
+    return overlong || surrogate || too_large ? 0 : length;
 }

@@ -1,4 +1,4 @@
-/* text.h: decimal text to and from floating point, the same whatever the locale.
+/* text.h: numbers and UTF-8 as text, the same whatever the locale.
  * Model files, exported shaders and the command line print and parse every number through this. */
 #ifndef HNBRDF_MODEL_TEXT_H
 #define HNBRDF_MODEL_TEXT_H
@@ -21,5 +21,8 @@ int hnbrdf_format_double(char *buffer, size_t size, double value);
 const char *hnbrdf_parse_double(const char *begin, const char *end, double *value);
 /* Rounds once, straight to float: a cast from double can be off by an ulp. */
 const char *hnbrdf_parse_float(const char *begin, const char *end, float *value);
+
+/* Bytes of the well-formed UTF-8 sequence (RFC 3629) at begin, before end; 0 if there is none. */
+size_t hnbrdf_utf8_length(const char *begin, const char *end);
 
 #endif
