@@ -22,8 +22,8 @@ static const cli_command command = {
     "Out: CSV with the header f_r,f_g,f_b: the BRDF in 1/sr, linear RGB, without the cosine; one line "
     "for\n"
     "     each line of input, 0 where wi or wo is below the horizon or there is no valid measurement.",
-    "echo 0,0,1,0.6,0,0.8 | hnbrdf eval builtin:velvet\n"
-    "hnbrdf eval model.safetensors --material velvet -i pairs.csv -o values.csv\n"
+    "echo 0,0,1,0.6,0,0.8 | hnbrdf eval builtin:velvet-crimson\n"
+    "hnbrdf eval model.safetensors --material velvet-crimson -i pairs.csv -o values.csv\n"
     "hnbrdf eval gold.binary < pairs.csv > values.csv",
 };
 

@@ -1,0 +1,2 @@
+# The command line and the error figures.
+hnbrdf_test(test_metrics test_metrics.c)

@@ -1,0 +1,303 @@
+/* test_metrics.c: the error figures have their known values, bounds and seeds. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "hnbrdf/metrics.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { PAIRS = 1000, MERL_BINS = 90 * 90 * 180 };
+
+/* ---- What is compared: constants, so that every figure is known in closed form --------------------
+ */
+
+/* A neural 1x1 model of weights 0: f = exp(bias), the same for every pair. */
+static hnbrdf_model *constant_model(const float value[3])
+{
+    static const float first[6 + 1] = {0}, last[3] = {0}, first_bias[1] = {0};
+    float last_bias[3];
+    for (int c = 0; c < 3; c++)
+        last_bias[c] = logf(value[c]);
+    hnbrdf_material material;
+    hnbrdf_material_init(&material);
+    const char *name = "constant";
+    hnbrdf_model_desc desc = {.kind = HNBRDF_KIND_NEURAL,
+                              .encoding = HNBRDF_ENCODING_HALF_DIFFERENCE,
+                              .hidden = 1,
+                              .layers = 1,
+                              .latent = 1,
+                              .weights = {first, last},
+                              .biases = {first_bias, last_bias},
+                              .material_count = 1,
+                              .materials = &material,
+                              .names = &name};
+    hnbrdf_model *model = NULL;
+    assert_int_equal(hnbrdf_model_create(&desc, NULL, &model, NULL), HNBRDF_OK);
+    return model;
+}
+
+static hnbrdf_model *ggx_model(void)
+{
+    hnbrdf_material material;
+    hnbrdf_material_init(&material);
+    const char *name = "ggx";
+    hnbrdf_model_desc desc = {
+        .kind = HNBRDF_KIND_GGX, .material_count = 1, .materials = &material, .names = &name};
+    hnbrdf_model *model = NULL;
+    assert_int_equal(hnbrdf_model_create(&desc, NULL, &model, NULL), HNBRDF_OK);
+    return model;
+}
+
+/* A MERL table that stores `value` in every bin from `first` on and -1, never measured, before it. */
+static hnbrdf_measured *constant_merl(double value, int first)
+{
+    static const unsigned char header[12] = {90, 0, 0, 0, 90, 0, 0, 0, 180, 0, 0, 0};
+    const double numbers[2] = {value, -1.0};
+    unsigned char pattern[2][8];
+    for (int k = 0; k < 2; k++) {
+        uint64_t bits;
+        memcpy(&bits, &numbers[k], sizeof bits);
+        for (int byte = 0; byte < 8; byte++)
+            pattern[k][byte] = (unsigned char)(bits >> (8 * byte));
+    }
+    size_t size = sizeof header + 3u * MERL_BINS * 8u;
+    unsigned char *bytes = malloc(size);
+    assert_non_null(bytes);
+    memcpy(bytes, header, sizeof header);
+    for (size_t k = 0; k < 3u * MERL_BINS; k++)
+        memcpy(bytes + sizeof header + 8 * k, pattern[(int)(k % MERL_BINS) < first], 8);
+    hnbrdf_measured *measured = NULL;
+    hnbrdf_error error;
+    hnbrdf_result result =
+        hnbrdf_measured_open_memory(bytes, size, "constant.binary", NULL, &measured, &error);
+    free(bytes);
+    if (result != HNBRDF_OK)
+        fail_msg("%s", error.text);
+    return measured;
+}
+
+static hnbrdf_measured *builtin(int index)
+{
+    hnbrdf_measured *measured = NULL;
+    assert_int_equal(hnbrdf_measured_open_builtin(index, &measured, NULL), HNBRDF_OK);
+    return measured;
+}
+
+static hnbrdf_comparison compare(const hnbrdf_model *model, const hnbrdf_measured *measured,
+                                 hnbrdf_sampler sampler, uint64_t seed)
+{
+    hnbrdf_comparison comparison;
+    hnbrdf_error error;
+    if (hnbrdf_compare(model, hnbrdf_model_material(model, 0), measured, sampler, PAIRS, seed,
+                       &comparison, &error) != HNBRDF_OK)
+        fail_msg("%s", error.text);
+    return comparison;
+}
+
+static void assert_close(double value, double expected, double tolerance)
+{
+    if (!(fabs(value - expected) <= tolerance * fabs(expected)))
+        fail_msg("%.17g, expected %.17g within %g of it", value, expected, tolerance);
+}
+
+/* ---- SMAPE --------------------------------------------------------------------------------------- */
+
+static void smape_of_one_value_has_its_definition(void **state)
+{
+    (void)state;
+    assert_true(hnbrdf_smape(0.0, 0.0) == 0.0);
+    assert_true(hnbrdf_smape(0.7, 0.7) == 0.0);
+    assert_true(hnbrdf_smape(0.0, 1e-30) == 2.0);
+    assert_true(hnbrdf_smape(5.0, 0.0) == 2.0);
+    assert_true(hnbrdf_smape(1.0, 3.0) == 1.0);
+    assert_true(hnbrdf_smape(3.0, 1.0) == 1.0);
+}
+
+static void smape_is_symmetric_and_between_0_and_2(void **state)
+{
+    (void)state;
+    hnbrdf_rng rng;
+    hnbrdf_rng_seed(&rng, 3, 1);
+    for (int k = 0; k < 10000; k++) {
+        double f = exp(40.0 * (double)hnbrdf_rng_float(&rng) - 20.0);
+        double reference = exp(40.0 * (double)hnbrdf_rng_float(&rng) - 20.0);
+        double smape = hnbrdf_smape(f, reference);
+        assert_true(smape >= 0.0 && smape <= 2.0);
+        assert_true(smape == hnbrdf_smape(reference, f));
+    }
+}
+
+/* ---- Comparisons --------------------------------------------------------------------------------- */
+
+static void constants_compare_to_their_closed_form(void **state)
+{
+    (void)state;
+    const float value[3] = {0.5f, 1.0f, 2.0f};
+    const double scale[3] = {1.0 / 1500.0, 1.15 / 1500.0, 1.66 / 1500.0}; /* FORMATS 2.1 */
+    hnbrdf_model *model = constant_model(value);
+    hnbrdf_measured *measured = constant_merl(1500.0, 0);
+    double smape = 0.0, mae = 0.0, mse = 0.0;
+    for (int c = 0; c < 3; c++) {
+        double reference = 1500.0 * scale[c], difference = fabs((double)value[c] - reference);
+        smape += 2.0 * difference / ((double)value[c] + reference) / 3.0;
+        mae += difference / 3.0;
+        mse += difference * difference / 3.0;
+    }
+    for (int s = 0; s < 3; s++) {
+        hnbrdf_comparison comparison = compare(model, measured, (hnbrdf_sampler)s, 1);
+        /* exp(log(value)) in float and the table's float scale: 1e-6 relative to the values, whose
+         * smallest difference is 0.15. */
+        assert_close(comparison.smape, smape, 1e-5);
+        assert_close(comparison.mae, mae, 1e-5);
+        assert_close(comparison.mse, mse, 1e-5);
+        assert_true(comparison.smape_analytic == 2.0); /* a neural model has none: 0 */
+        assert_int_equal(comparison.pairs, PAIRS);
+    }
+    hnbrdf_measured_close(measured);
+    hnbrdf_model_free(model);
+}
+
+static void pairs_without_a_measurement_are_drawn_again(void **state)
+{
+    (void)state;
+    const float value[3] = {1.0f, 1.0f, 1.0f};
+    hnbrdf_model *model = constant_model(value);
+    hnbrdf_measured *measured = constant_merl(1500.0, MERL_BINS / 2); /* theta_h above 22.5 degrees */
+    hnbrdf_comparison comparison = compare(model, measured, HNBRDF_SAMPLER_GRID, 1);
+    assert_int_equal(comparison.pairs, PAIRS);
+    assert_true(comparison.smape < 0.3); /* never the 2 of a bin taken for black */
+    hnbrdf_measured_close(measured);
+    hnbrdf_model_free(model);
+}
+
+static void no_valid_pair_is_an_error_and_changes_nothing(void **state)
+{
+    (void)state;
+    const float value[3] = {1.0f, 1.0f, 1.0f};
+    hnbrdf_model *model = constant_model(value);
+    /* Only the last bin is valid, theta_h and theta_d near 90 degrees: one direction of such a pair is
+     * below the horizon. */
+    hnbrdf_measured *measured = constant_merl(1500.0, MERL_BINS - 1);
+    hnbrdf_comparison comparison = {.pairs = 77};
+    hnbrdf_error error;
+    hnbrdf_result result = hnbrdf_compare(model, hnbrdf_model_material(model, 0), measured,
+                                          HNBRDF_SAMPLER_UNIFORM, 10, 1, &comparison, &error);
+    assert_int_equal(result, HNBRDF_ERROR_ARGUMENT);
+    assert_non_null(strstr(error.text, "constant"));
+    assert_int_equal(comparison.pairs, 77);
+    hnbrdf_measured_close(measured);
+    hnbrdf_model_free(model);
+}
+
+static void arguments_out_of_range_are_refused(void **state)
+{
+    (void)state;
+    hnbrdf_model *model = ggx_model();
+    hnbrdf_measured *measured = builtin(0);
+    const hnbrdf_material *material = hnbrdf_model_material(model, 0);
+    hnbrdf_comparison comparison;
+    assert_int_equal(
+        hnbrdf_compare(model, material, measured, HNBRDF_SAMPLER_GRID, 0, 1, &comparison, NULL),
+        HNBRDF_ERROR_ARGUMENT);
+    assert_int_equal(
+        hnbrdf_compare(model, material, measured, (hnbrdf_sampler)3, 1, 1, &comparison, NULL),
+        HNBRDF_ERROR_ARGUMENT);
+    assert_int_equal(
+        hnbrdf_compare(NULL, material, measured, HNBRDF_SAMPLER_GRID, 1, 1, &comparison, NULL),
+        HNBRDF_ERROR_ARGUMENT);
+    hnbrdf_measured_close(measured);
+    hnbrdf_model_free(model);
+}
+
+static void the_seed_alone_decides(void **state)
+{
+    (void)state;
+    hnbrdf_model *model = ggx_model();
+    for (int index = 0; index < hnbrdf_measured_builtin_count(); index++) {
+        hnbrdf_measured *measured = builtin(index);
+        hnbrdf_comparison one = compare(model, measured, HNBRDF_SAMPLER_GRID, 1);
+        hnbrdf_comparison again = compare(model, measured, HNBRDF_SAMPLER_GRID, 1);
+        hnbrdf_comparison other = compare(model, measured, HNBRDF_SAMPLER_GRID, 2);
+        assert_true(one.smape == again.smape && one.mse == again.mse);
+        assert_true(one.smape != other.smape);
+        assert_true(one.smape > 0.0 && one.smape <= 2.0);
+        hnbrdf_measured_close(measured);
+    }
+    hnbrdf_model_free(model);
+}
+
+static void a_ggx_model_is_its_analytic_part(void **state)
+{
+    (void)state;
+    hnbrdf_model *model = ggx_model();
+    hnbrdf_measured *measured = builtin(0);
+    for (int s = 0; s < 3; s++) {
+        hnbrdf_comparison comparison = compare(model, measured, (hnbrdf_sampler)s, 1);
+        assert_true(comparison.smape == comparison.smape_analytic);
+    }
+    hnbrdf_measured_close(measured);
+    hnbrdf_model_free(model);
+}
+
+/* ---- Images -------------------------------------------------------------------------------------- */
+
+static void image_errors_have_their_known_values(void **state)
+{
+    (void)state;
+    const float image[4] = {1.0f, 2.0f, 0.0f, 4.0f}, reference[4] = {1.0f, 4.0f, 0.0f, 2.0f};
+    hnbrdf_image_error error;
+    hnbrdf_image_compare(image, reference, 4, &error);
+    assert_true(error.mae == 1.0);
+    assert_true(error.mse == 2.0);
+    assert_close(error.psnr, 9.030899869919435, 1e-15); /* 10 log10(4^2 / 2), rounded once or twice */
+}
+
+static void equal_images_have_infinite_psnr(void **state)
+{
+    (void)state;
+    const float image[3] = {0.25f, 0.5f, 7.0f};
+    hnbrdf_image_error error;
+    hnbrdf_image_compare(image, image, 3, &error);
+    assert_true(error.mae == 0.0 && error.mse == 0.0);
+    assert_true(isinf(error.psnr) && error.psnr > 0.0);
+}
+
+static void a_tenth_of_the_error_is_20_db_more(void **state)
+{
+    (void)state;
+    float image[2][64], reference[64];
+    for (int k = 0; k < 64; k++) {
+        reference[k] = (float)k;
+        image[0][k] = reference[k] + 0.5f;
+        image[1][k] = reference[k] + 0.05f;
+    }
+    hnbrdf_image_error error[2];
+    for (int k = 0; k < 2; k++)
+        hnbrdf_image_compare(image[k], reference, 64, &error[k]);
+    /* 63.05f is known to 4e-6, 8e-5 of the difference of 0.05, 7e-4 dB. */
+    assert_true(fabs(error[1].psnr - error[0].psnr - 20.0) < 1e-3);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(smape_of_one_value_has_its_definition),
+        cmocka_unit_test(smape_is_symmetric_and_between_0_and_2),
+        cmocka_unit_test(constants_compare_to_their_closed_form),
+        cmocka_unit_test(pairs_without_a_measurement_are_drawn_again),
+        cmocka_unit_test(no_valid_pair_is_an_error_and_changes_nothing),
+        cmocka_unit_test(arguments_out_of_range_are_refused),
+        cmocka_unit_test(the_seed_alone_decides),
+        cmocka_unit_test(a_ggx_model_is_its_analytic_part),
+        cmocka_unit_test(image_errors_have_their_known_values),
+        cmocka_unit_test(equal_images_have_infinite_psnr),
+        cmocka_unit_test(a_tenth_of_the_error_is_20_db_more),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
