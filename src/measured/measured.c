@@ -1,0 +1,315 @@
+/* measured.c: open a measured material from a file, from memory or from the built-in list, and ask it
+ * for values. Which format it is, is decided here by content; everything else lies in the formats. */
+#include "measured/format.h"
+#include "core/error.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    LABEL_SIZE = 161,     /* of a path in a message: leaves room for what was found and expected */
+    FIRST_CHUNK = 1 << 20 /* bytes; the buffer doubles from here */
+};
+static const size_t DEFAULT_MAX_BYTES = (size_t)1 << 30;
+
+struct hnbrdf_measured {
+    hnbrdf_measured_format format;
+    measured_body body;
+    char name[HNBRDF_MAX_NAME + 1];
+};
+
+/* ---- Names --------------------------------------------------------------------------------------- */
+
+/* Bytes of the character at p, 0 if it is a control character or not UTF-8 (Unicode 15, table 3-7). */
+static size_t utf8_length(const unsigned char *p)
+{
+    unsigned first = p[0];
+    if (first < 0x80)
+        return first >= 0x20 && first != 0x7f;
+    unsigned low = first == 0xc2 || first == 0xe0 ? 0xa0 : first == 0xf0 ? 0x90 : 0x80;
+    unsigned high = first == 0xed ? 0x9f : first == 0xf4 ? 0x8f : 0xbf;
+    size_t length = first < 0xc2 || first > 0xf4 ? 0 : first < 0xe0 ? 2 : first < 0xf0 ? 3 : 4;
+    if (length == 0 || p[1] < low || p[1] > high)
+        return 0;
+    for (size_t i = 2; i < length; i++)
+        if ((p[i] & 0xc0) != 0x80)
+            return 0;
+    return length;
+}
+
+/* Copies text[0..length), cut at a character to fit size - 1 bytes; what is not UTF-8 and what is a
+ * control character becomes '_'. text is NUL-terminated somewhere at or after length. */
+static void copy_clean(char *out, size_t size, const char *text, size_t length)
+{
+    size_t n = 0;
+    for (size_t i = 0; i < length;) {
+        size_t step = utf8_length((const unsigned char *)text + i);
+        if (n + (step ? step : 1) >= size)
+            break;
+        if (step)
+            memcpy(out + n, text + i, step);
+        else
+            out[n] = '_';
+        n += step ? step : 1;
+        i += step ? step : 1;
+    }
+    out[n] = 0;
+}
+
+/* The path as messages show it: long ones lose their beginning. */
+static void make_label(char label[LABEL_SIZE], const char *path)
+{
+    size_t length = strlen(path), most = LABEL_SIZE - 1;
+    if (length <= most) {
+        copy_clean(label, LABEL_SIZE, path, length);
+        return;
+    }
+    const char *tail = path + (length - (most - 3));
+    while (((unsigned char)*tail & 0xc0) == 0x80)
+        tail++;
+    memcpy(label, "...", 3);
+    copy_clean(label + 3, LABEL_SIZE - 3, tail, strlen(tail));
+}
+
+static const char *base_name(const char *path)
+{
+    const char *base = path;
+    for (const char *p = path; *p; p++)
+        if (*p == '/')
+            base = p + 1;
+#ifdef _WIN32
+    for (const char *p = base; *p; p++)
+        if (*p == '\\')
+            base = p + 1;
+#endif
+    return base;
+}
+
+/* The file's name without directory, extension and a trailing "_rgb"; all of it if nothing is left. */
+static void make_name(char name[HNBRDF_MAX_NAME + 1], const char *path)
+{
+    const char *base = base_name(path), *dot = strrchr(base, '.');
+    size_t length = dot ? (size_t)(dot - base) : strlen(base);
+    if (length >= 4 && memcmp(base + length - 4, "_rgb", 4) == 0)
+        length -= 4;
+    if (length == 0)
+        length = strlen(base);
+    copy_clean(name, HNBRDF_MAX_NAME + 1, base, length);
+    if (!name[0])
+        memcpy(name, "unnamed", sizeof "unnamed");
+}
+
+/* ---- Opening ------------------------------------------------------------------------------------- */
+
+static size_t limit_of(const hnbrdf_measured_options *options)
+{
+    return options && options->max_bytes ? options->max_bytes : DEFAULT_MAX_BYTES;
+}
+
+/* Everything up to the end of the stream, at most limit bytes, into *bytes (malloc'ed, also when
+ * empty). The size is what could be read: pipes and special files have no other. */
+static hnbrdf_result read_stream(FILE *stream, size_t limit, const char *label, unsigned char **bytes,
+                                 size_t *size, hnbrdf_error *error)
+{
+    size_t capacity = FIRST_CHUNK, used = 0;
+    unsigned char *buffer = malloc(capacity);
+    while (buffer) {
+        used += fread(buffer + used, 1, capacity - used, stream);
+        if (used > limit) {
+            free(buffer);
+            return hnbrdf_fail(error, HNBRDF_ERROR_LIMIT, "%s: larger than the limit of %zu bytes",
+                               label, limit);
+        }
+        if (ferror(stream)) {
+            free(buffer);
+            return hnbrdf_fail(error, HNBRDF_ERROR_IO,
+                               "%s: cannot be read after %zu bytes, expected a regular file", label,
+                               used);
+        }
+        if (used < capacity) {
+            *bytes = buffer;
+            *size = used;
+            return HNBRDF_OK;
+        }
+        unsigned char *larger = capacity <= SIZE_MAX / 2 ? realloc(buffer, capacity * 2) : NULL;
+        if (!larger)
+            free(buffer);
+        buffer = larger;
+        capacity *= 2;
+    }
+    return hnbrdf_fail(error, HNBRDF_ERROR_MEMORY, "%s: out of memory after reading %zu bytes", label,
+                       used);
+}
+
+static hnbrdf_result unrecognised(const unsigned char *bytes, size_t size, const char *label,
+                                  hnbrdf_error *error)
+{
+    static const char expected[] =
+        "expected an RGL .bsdf (starts with \"tensor_file\") or a MERL .binary "
+        "(starts with the sizes 90 90 180)";
+    if (size == 0)
+        return hnbrdf_fail(error, HNBRDF_ERROR_FORMAT, "%s: empty, %s", label, expected);
+    char start[3 * 12 + 1] = "";
+    for (size_t i = 0; i < 12 && i < size; i++)
+        snprintf(start + 3 * i, sizeof start - 3 * i, " %02x", bytes[i]);
+    return hnbrdf_fail(error, HNBRDF_ERROR_FORMAT, "%s: %zu bytes starting with%s, %s", label, size,
+                       start, expected);
+}
+
+static hnbrdf_result open_bytes(const unsigned char *bytes, size_t size, const char *label,
+                                hnbrdf_measured *measured, hnbrdf_error *error)
+{
+    if (rgl_recognise(bytes, size)) {
+        measured->format = HNBRDF_MEASURED_RGL;
+        return rgl_open(bytes, size, label, &measured->body, error);
+    }
+    if (merl_recognise(bytes, size)) {
+        measured->format = HNBRDF_MEASURED_MERL;
+        return merl_open(bytes, size, label, &measured->body, error);
+    }
+    return unrecognised(bytes, size, label, error);
+}
+
+static hnbrdf_result open_labelled(const unsigned char *bytes, size_t size, const char *path,
+                                   const char *label, hnbrdf_measured **measured, hnbrdf_error *error)
+{
+    hnbrdf_measured *opened = calloc(1, sizeof *opened);
+    if (!opened)
+        return hnbrdf_fail(error, HNBRDF_ERROR_MEMORY, "%s: out of memory", label);
+    hnbrdf_result result = open_bytes(bytes, size, label, opened, error);
+    if (result) {
+        free(opened);
+        return result;
+    }
+    make_name(opened->name, path);
+    *measured = opened;
+    return HNBRDF_OK;
+}
+
+hnbrdf_result hnbrdf_measured_open(const char *path, const hnbrdf_measured_options *options,
+                                   hnbrdf_measured **measured, hnbrdf_error *error)
+{
+    if (!path || !measured)
+        return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT,
+                           "hnbrdf_measured_open: path or result is NULL");
+    char label[LABEL_SIZE];
+    make_label(label, path);
+    FILE *stream = fopen(path, "rb");
+    if (!stream)
+        return hnbrdf_fail(error, HNBRDF_ERROR_IO, "%s: cannot be opened for reading", label);
+    unsigned char *bytes = NULL;
+    size_t size = 0;
+    hnbrdf_result result = read_stream(stream, limit_of(options), label, &bytes, &size, error);
+    fclose(stream);
+    if (!result)
+        result = open_labelled(bytes, size, path, label, measured, error);
+    free(bytes);
+    return result;
+}
+
+hnbrdf_result hnbrdf_measured_open_memory(const void *data, size_t size, const char *path,
+                                          const hnbrdf_measured_options *options,
+                                          hnbrdf_measured **measured, hnbrdf_error *error)
+{
+    if (!path || !measured || (!data && size))
+        return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT,
+                           "hnbrdf_measured_open_memory: data, path or result is NULL");
+    char label[LABEL_SIZE];
+    make_label(label, path);
+    if (size > limit_of(options))
+        return hnbrdf_fail(error, HNBRDF_ERROR_LIMIT, "%s: %zu bytes, larger than the limit of %zu",
+                           label, size, limit_of(options));
+    return open_labelled(data, size, path, label, measured, error);
+}
+
+hnbrdf_result hnbrdf_measured_open_builtin(int index, hnbrdf_measured **measured, hnbrdf_error *error)
+{
+    const char *name = hnbrdf_measured_builtin_name(index);
+    if (!name || !measured)
+        return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT, "built-in material %d: expected 0 to %d%s",
+                           index, hnbrdf_measured_builtin_count() - 1,
+                           measured ? "" : " and a place for the result");
+    hnbrdf_measured *opened = calloc(1, sizeof *opened);
+    if (!opened)
+        return hnbrdf_fail(error, HNBRDF_ERROR_MEMORY, "%s: out of memory", name);
+    opened->format = HNBRDF_MEASURED_BUILTIN;
+    hnbrdf_result result = builtin_open(index, &opened->body, error);
+    if (result) {
+        free(opened);
+        return result;
+    }
+    copy_clean(opened->name, sizeof opened->name, name, strlen(name));
+    *measured = opened;
+    return HNBRDF_OK;
+}
+
+void hnbrdf_measured_close(hnbrdf_measured *measured)
+{
+    if (!measured)
+        return;
+    measured->body.release(measured->body.data);
+    free(measured);
+}
+
+/* ---- Asking -------------------------------------------------------------------------------------- */
+
+const char *hnbrdf_measured_format_name(hnbrdf_measured_format format)
+{
+    switch (format) {
+    case HNBRDF_MEASURED_BUILTIN:
+        return "builtin";
+    case HNBRDF_MEASURED_MERL:
+        return "MERL";
+    case HNBRDF_MEASURED_RGL:
+        return "RGL";
+    }
+    return NULL;
+}
+
+const char *hnbrdf_measured_name(const hnbrdf_measured *measured)
+{
+    return measured->name;
+}
+
+hnbrdf_measured_format hnbrdf_measured_format_of(const hnbrdf_measured *measured)
+{
+    return measured->format;
+}
+
+int hnbrdf_measured_is_isotropic(const hnbrdf_measured *measured)
+{
+    return measured->body.isotropic;
+}
+
+const char *hnbrdf_measured_summary(const hnbrdf_measured *measured)
+{
+    return measured->body.summary;
+}
+
+/* The unit vector along w in double precision; 0 if w is not finite or not above the horizon. */
+static int unit_above_horizon(const float w[3], double unit[3])
+{
+    if (!(w[2] > 0.0f) || !isfinite(w[0]) || !isfinite(w[1]) || !isfinite(w[2]))
+        return 0;
+    double x = w[0], y = w[1], z = w[2], scale = 1.0 / sqrt(x * x + y * y + z * z);
+    unit[0] = x * scale;
+    unit[1] = y * scale;
+    unit[2] = z * scale;
+    return 1;
+}
+
+int hnbrdf_measured_eval(const hnbrdf_measured *measured, const float wi[3], const float wo[3],
+                         float f[3])
+{
+    double i[3], o[3], value[3];
+    f[0] = f[1] = f[2] = 0.0f;
+    if (!unit_above_horizon(wi, i) || !unit_above_horizon(wo, o) ||
+        !measured->body.eval(measured->body.data, i, o, value))
+        return 0;
+    for (int c = 0; c < 3; c++)
+        if (value[c] > 0.0)
+            f[c] = value[c] < (double)HNBRDF_MAX_VALUE ? (float)value[c] : HNBRDF_MAX_VALUE;
+    return 1;
+}

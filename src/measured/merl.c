@@ -1,0 +1,165 @@
+/* merl.c: MERL .binary tables (Matusik et al. 2003): 90 x 90 x 180 bins over the half and difference
+ * angles of Rusinkiewicz 1998. Nearest bin, as the database's own code looks up. */
+#include "measured/format.h"
+#include "measured/bytes.h"
+#include "core/error.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+enum {
+    THETA_H_BINS = 90, /* theta_h = (i/90)^2 pi/2 at the lower edge of bin i */
+    THETA_D_BINS = 90, /* theta_d = (j/90) pi/2 */
+    PHI_D_BINS = 180,  /* phi_d in [0, pi): f(phi_d + pi) = f(phi_d) is reciprocity */
+    BINS = THETA_H_BINS * THETA_D_BINS * PHI_D_BINS,
+    FULL_CIRCLE_BINS = 360, /* phi_d bins of a derived, non-reciprocal variant */
+    HEADER_SIZE = 12,
+    TYPICAL_VALID = 1111432 /* bins whose lower edge is above the horizon for wi and wo */
+};
+static const size_t PLANE_SIZE = (size_t)BINS * 8;
+static const size_t FILE_SIZE = HEADER_SIZE + (size_t)BINS * 24;
+static const double PI = 3.14159265358979323846;
+/* What a stored sample is multiplied by to become f in 1/sr. */
+static const double SCALE[3] = {1.00 / 1500.0, 1.15 / 1500.0, 1.66 / 1500.0};
+
+/* f per bin; a bin that holds no measurement has a negative red. phi_d is the fastest axis. */
+typedef struct merl_table {
+    float f[BINS][3];
+} merl_table;
+
+static int min_int(int a, int b)
+{
+    return a < b ? a : b;
+}
+
+/* The bin of two unit vectors above the horizon. With h the half vector, t and b the frame that
+ * carries z to h, wi.t = (wi - wo).t / 2: swapping wi and wo negates both components to the last
+ * bit, and the fold to [0, pi) makes the bin the same. */
+static int bin_of(const double wi[3], const double wo[3])
+{
+    double s[3] = {wi[0] + wo[0], wi[1] + wo[1], wi[2] + wo[2]};
+    double d[3] = {wi[0] - wo[0], wi[1] - wo[1], wi[2] - wo[2]};
+    double across2 = s[0] * s[0] + s[1] * s[1], across = sqrt(across2);
+    double sum = sqrt(across2 + s[2] * s[2]);
+    double theta_h = atan2(across, s[2]);
+    double theta_d = atan2(sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]), sum);
+
+    /* d.t and d.b, both times the same positive factor; phi_h = 0 at the pole */
+    double x = d[0], y = d[1];
+    if (across > 0.0) {
+        x = (s[0] * d[0] + s[1] * d[1]) * s[2] / sum - across2 * d[2] / sum;
+        y = s[0] * d[1] - s[1] * d[0];
+    }
+    if (y < 0.0 || (y == 0.0 && x < 0.0)) {
+        x = -x;
+        y = -y;
+    }
+    double phi_d = y == 0.0 ? 0.0 : atan2(y, x);
+
+    int i = min_int((int)(THETA_H_BINS * sqrt(theta_h / (PI / 2))), THETA_H_BINS - 1);
+    int j = min_int((int)(THETA_D_BINS * theta_d / (PI / 2)), THETA_D_BINS - 1);
+    int k = min_int((int)(PHI_D_BINS * phi_d / PI), PHI_D_BINS - 1);
+    return (i * THETA_D_BINS + j) * PHI_D_BINS + k;
+}
+
+static int merl_eval(const void *data, const double wi[3], const double wo[3], double f[3])
+{
+    const float *bin = ((const merl_table *)data)->f[bin_of(wi, wo)];
+    for (int c = 0; c < 3; c++)
+        f[c] = (double)bin[c];
+    return bin[0] >= 0.0f;
+}
+
+int merl_recognise(const unsigned char *bytes, size_t size)
+{
+    if (size == FILE_SIZE)
+        return 1;
+    if (size < HEADER_SIZE)
+        return 0;
+    uint64_t bins = 1;
+    for (int axis = 0; axis < 3; axis++) {
+        uint32_t dim = le32(bytes + 4 * axis);
+        if (dim < 1 || dim > 4096)
+            return 0;
+        bins *= dim;
+    }
+    return bins == BINS || bins == (uint64_t)BINS * 2;
+}
+
+static hnbrdf_result check_header(const unsigned char *bytes, size_t size, const char *label,
+                                  hnbrdf_error *error)
+{
+    uint32_t theta_h = le32(bytes), theta_d = le32(bytes + 4), phi_d = le32(bytes + 8);
+    if (theta_h == THETA_H_BINS && theta_d == THETA_D_BINS && phi_d == FULL_CIRCLE_BINS)
+        return hnbrdf_fail(
+            error, HNBRDF_ERROR_UNSUPPORTED,
+            "%s: MERL header says 90 90 360 bins, a variant over the full circle of phi_d "
+            "that is not read; expected 90 90 180",
+            label);
+    if (theta_h != THETA_H_BINS || theta_d != THETA_D_BINS || phi_d != PHI_D_BINS)
+        return hnbrdf_fail(error, HNBRDF_ERROR_FORMAT,
+                           "%s: MERL header says %lu %lu %lu bins, expected 90 90 180", label,
+                           (unsigned long)theta_h, (unsigned long)theta_d, (unsigned long)phi_d);
+    if (size < FILE_SIZE)
+        return hnbrdf_fail(error, HNBRDF_ERROR_FORMAT,
+                           "%s: MERL table is truncated: %zu bytes, expected %zu", label, size,
+                           FILE_SIZE);
+    return HNBRDF_OK;
+}
+
+/* Scales every sample; returns how many bins are valid: finite, not negative, within a float. */
+static int fill_table(merl_table *table, const unsigned char *samples)
+{
+    int valid = 0;
+    for (size_t bin = 0; bin < BINS; bin++) {
+        int good = 1;
+        float *f = table->f[bin];
+        for (size_t c = 0; c < 3; c++) {
+            double value = le_double(samples + c * PLANE_SIZE + bin * 8) * SCALE[c];
+            good &= value >= 0.0 && value <= (double)HNBRDF_MAX_VALUE; /* false for NaN */
+            f[c] = good ? (float)value : 0.0f;
+        }
+        if (!good)
+            f[0] = -1.0f;
+        valid += good;
+    }
+    return valid;
+}
+
+static void summarise(char summary[256], int valid, size_t size)
+{
+    int permille = (int)((int64_t)valid * 1000 / BINS);
+    int unusual = valid < TYPICAL_VALID / 10 * 9 || valid > TYPICAL_VALID / 10 * 11;
+    int n =
+        snprintf(summary, 256, "MERL 90 x 90 x 180 bins (theta_h, theta_d, phi_d), %d.%d %% valid%s",
+                 permille / 10, permille % 10, unusual ? " (unusual: 76 % is typical)" : "");
+    if (size > FILE_SIZE && n > 0 && n < 256)
+        snprintf(summary + n, (size_t)(256 - n), ", %zu bytes after the table ignored",
+                 size - FILE_SIZE);
+}
+
+hnbrdf_result merl_open(const unsigned char *bytes, size_t size, const char *label, measured_body *body,
+                        hnbrdf_error *error)
+{
+    hnbrdf_result result = check_header(bytes, size, label, error);
+    if (result)
+        return result;
+    merl_table *table = malloc(sizeof *table);
+    if (!table)
+        return hnbrdf_fail(error, HNBRDF_ERROR_MEMORY, "%s: out of memory (%zu bytes)", label,
+                           sizeof *table);
+    int valid = fill_table(table, bytes + HEADER_SIZE);
+    if (valid == 0) {
+        free(table);
+        return hnbrdf_fail(
+            error, HNBRDF_ERROR_FORMAT,
+            "%s: all %d MERL bins are negative or not finite, expected about %d valid ones", label,
+            BINS, TYPICAL_VALID);
+    }
+    body->data = table;
+    body->eval = merl_eval;
+    body->release = free;
+    body->isotropic = 1;
+    summarise(body->summary, valid, size);
+    return HNBRDF_OK;
+}
