@@ -1,0 +1,11 @@
+/* kernel_avx512.c: the trainer's kernel compiled for AVX512; the same bits as kernel.c. */
+#include "fit/kernel.h"
+
+#ifdef FIT_KERNEL_X86
+#define KERNEL_WIDTH 16
+#include "fit/kernel_float.h"
+
+const fit_kernel fit_kernel_avx512 = {"avx512", kernel_derive, kernel_network, kernel_analytic};
+#else
+typedef int fit_kernel_avx512_is_empty; /* ISO C wants something in a file */
+#endif
