@@ -1,0 +1,49 @@
+/* environment.h: distant light from all directions, as a latitude-longitude map that can be sampled.
+ *
+ *   World       right-handed, y up; the camera looks along -z with +x to its right.
+ *   Map         top row is up (+y), bottom row down. The centre column is -z, straight ahead of the
+ *               camera; +x lies a quarter of the width to the right of it, +z at the two edges: the map
+ *               looks as seen from inside.
+ *   Radiance    constant within a texel, and so is the density: proportional to the luminance of the
+ *               texel, drawn uniformly in solid angle inside it. Both stay exact at the poles.
+ */
+#ifndef HNBRDF_RENDER_ENVIRONMENT_H
+#define HNBRDF_RENDER_ENVIRONMENT_H
+
+#include "render/image.h"
+
+/* Immutable once made; may be shared between threads. */
+typedef struct render_environment {
+    int width, height;
+    float *rgb;      /* [height][width][3], finite, >= 0 */
+    double *rows;    /* [height] inclusive sums of luminance times solid angle, row by row */
+    double *columns; /* [height][width] inclusive sums of luminance along each row */
+    double total;    /* luminance integrated over the sphere, = rows[height - 1] */
+    double rotation; /* radians about +y: the direction that the centre column shows is -z turned
+                        counter-clockwise, seen from above */
+} render_environment;
+
+/* Takes over image->rgb and empties the image. Negative values become 0; a value that is not finite
+ * or a map that is black throughout is refused. `name` is used in messages. */
+hnbrdf_result render_environment_create(render_image *image, double rotation, const char *name,
+                                        render_environment *environment, hnbrdf_error *error);
+/* "sky", the built-in one, or a latitude-longitude map in an OpenEXR or Radiance file. */
+hnbrdf_result render_environment_open(const char *source, double rotation,
+                                      render_environment *environment, hnbrdf_error *error);
+void render_environment_free(render_environment *environment);
+
+/* Radiance from a unit direction; returns the density with which sample() draws it, in 1/sr. */
+double render_environment_lookup(const render_environment *environment, const float direction[3],
+                                 float radiance[3]);
+/* Draws a direction; u in [0, 1)^2. Returns its density in 1/sr, > 0. */
+double render_environment_sample(const render_environment *environment, const double u[2],
+                                 float direction[3], float radiance[3]);
+/* Mean luminance over the sphere. */
+double render_environment_level(const render_environment *environment);
+
+/* The built-in sky: blue gradient over a warm ground, a sun of 3 degrees radius high at the camera's
+ * left shoulder, a soft box to the right and a strip light behind. A white diffuse sphere in it comes
+ * out near 1. 1024 x 512, deterministic. */
+hnbrdf_result render_sky(render_image *image, hnbrdf_error *error);
+
+#endif

@@ -1,0 +1,116 @@
+/* render.h: a sphere of one material under an environment, one bounce of light, by Monte Carlo. */
+#ifndef HNBRDF_RENDER_RENDER_H
+#define HNBRDF_RENDER_RENDER_H
+
+#include "hnbrdf/measured.h"
+#include "render/environment.h"
+
+/* ---- Surfaces: what is put on the sphere
+ * ------------------------------------------------------------- Three functions with the conventions of
+ * hnbrdf.h. sample() and pdf() must agree, and must cover every direction in which eval() is not 0; how
+ * closely they follow eval() only changes the noise. */
+typedef struct render_surface {
+    /* f for count pairs; wi, wo and f are packed [count][3] and do not overlap. */
+    void (*eval)(const struct render_surface *surface, size_t count, const float *wi, const float *wo,
+                 float *f);
+    void (*sample)(const struct render_surface *surface, const float wo[3], const float u[3],
+                   hnbrdf_sample_result *result);
+    float (*pdf)(const struct render_surface *surface, const float wi[3], const float wo[3]);
+
+    /* What those below use; borrowed, must outlive the surface. Other surfaces may leave them NULL. */
+    const hnbrdf_model *model;
+    hnbrdf_material material;
+    const hnbrdf_measured *measured;
+    /* A model whose hnbrdf_sample() and hnbrdf_pdf() choose directions in place of the surface's own.
+     */
+    const hnbrdf_model *guide;
+    hnbrdf_material guide_material;
+} render_surface;
+
+/* hnbrdf_eval(), hnbrdf_sample(), hnbrdf_pdf(). */
+render_surface render_surface_model(const hnbrdf_model *model, const hnbrdf_material *material);
+/* hnbrdf_eval_analytic(), directions from the same material's density. */
+render_surface render_surface_analytic(const hnbrdf_model *model, const hnbrdf_material *material);
+/* hnbrdf_measured_eval(), invalid measurements count as black; directions from the guide. */
+render_surface render_surface_measured(const hnbrdf_measured *measured, const hnbrdf_model *guide,
+                                       const hnbrdf_material *guide_material);
+
+/* A GGX model with a few materials of different roughness to guide with, and the one of them that
+ * samples this surface's eval() with the least variance: an estimate with a fixed seed. */
+hnbrdf_result render_guide_create(hnbrdf_model **guide, hnbrdf_error *error);
+void render_guide_choose(render_surface *surface, const hnbrdf_model *guide);
+
+/* ---- The estimator ----------------------------------------------------------------------------------
+ */
+
+typedef enum render_strategy {
+    RENDER_MIS = 0, /* environment and BRDF sampling joined by the balance heuristic (Veach 1995) */
+    RENDER_LIGHT,   /* environment sampling alone */
+    RENDER_BRDF     /* BRDF sampling alone */
+} render_strategy;
+
+/* Random numbers for `count` samples of one pixel: (0,2)-sequences (Sobol 1967), each with a random
+ * digital shift and in a random order of its own. Every number is uniform on its own, the first 2^k
+ * pairs of a sequence are stratified, and pairs of different sequences are not tied to each other. */
+enum {
+    RENDER_PAIR_LENS,
+    RENDER_PAIR_LIGHT,
+    RENDER_PAIR_DIRECTION,
+    RENDER_PAIR_LOBE, /* first number only */
+    RENDER_PAIRS
+};
+typedef struct render_stream {
+    uint32_t mask, order[RENDER_PAIRS], shift[RENDER_PAIRS][2];
+} render_stream;
+void render_stream_begin(render_stream *stream, uint64_t seed, uint64_t pixel, uint32_t count);
+/* Sample `index` < count as two 32-bit fractions. */
+void render_stream_pair(const render_stream *stream, int pair, uint32_t index, uint32_t u[2]);
+
+/* A visible point: columns of the rotation to the world, and the local direction to the viewer. */
+typedef struct render_point {
+    float tangent[3], bitangent[3], normal[3];
+    float wo[3];
+} render_point;
+
+/* Sum over count points of an estimate of the radiance towards wo; sample i of the stream, from `first`
+ * on, belongs to points[i - first]. At most RENDER_BLOCK points. */
+enum { RENDER_BLOCK = 64 };
+void render_shade(const render_surface *surface, const render_environment *environment,
+                  render_strategy strategy, const render_stream *stream, uint32_t first,
+                  const render_point *points, int count, double sum[3]);
+
+/* ---- The picture ------------------------------------------------------------------------------------
+ */
+
+/* Seen along -z by a camera at 8 radii with a long lens; the unit sphere fills 1 / RENDER_FRAME of the
+ * square picture. */
+#define RENDER_FRAME 1.06
+/* The ray through (x, y) in [-1, 1]^2, y up. Returns 1 and the point it hits, or 0. The tangent points
+ * along increasing longitude about y; at the poles along +x. */
+int render_sphere_hit(double x, double y, render_point *point);
+
+/* Zero-initialise for defaults. */
+typedef struct render_options {
+    int size;      /* pixels a side; 0 stands for 512 */
+    int spp;       /* samples a pixel; 0 stands for 64; powers of 2 are stratified best */
+    uint64_t seed; /* the picture depends on it and never on the number of threads */
+    int threads;   /* 0: all cores */
+    render_strategy strategy;
+    /* Called from the caller's thread with the share done, 0 to 1; non-zero stops with
+     * HNBRDF_ERROR_CANCELLED. May be NULL. */
+    int (*progress)(void *user, double share);
+    void *progress_user;
+} render_options;
+
+/* Pixels of radiance with the sphere's coverage as alpha; black and 0 beside it. */
+hnbrdf_result render_sphere(const render_surface *surface, const render_environment *environment,
+                            const render_options *options, render_image *image, hnbrdf_error *error);
+
+/* ---- What is behind the sphere ------------------------------------------------------------------- */
+
+/* A neutral backdrop, lit like a studio wall: brighter at the middle, `level` there. Drops alpha. */
+void render_over_backdrop(render_image *image, double level);
+/* The environment ahead of the camera through a 60 degree lens, times `gain`. Drops alpha. */
+void render_over_environment(render_image *image, const render_environment *environment, double gain);
+
+#endif

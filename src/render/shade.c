@@ -1,0 +1,160 @@
+/* shade.c: the radiance that a point reflects: one bounce, environment and BRDF sampling joined by
+ * multiple importance sampling (Veach and Guibas 1995, balance heuristic). */
+#include "render/render.h"
+
+#include <string.h>
+
+/* ---- Random numbers
+ * ---------------------------------------------------------------------------------- */
+
+void render_stream_begin(render_stream *stream, uint64_t seed, uint64_t pixel, uint32_t count)
+{
+    hnbrdf_rng rng;
+    hnbrdf_rng_seed(&rng, seed, pixel);
+    stream->mask = 0;
+    while (stream->mask < count - 1)
+        stream->mask = 2 * stream->mask + 1;
+    for (int pair = 0; pair < RENDER_PAIRS; pair++) {
+        stream->order[pair] = hnbrdf_rng_u32(&rng);
+        stream->shift[pair][0] = hnbrdf_rng_u32(&rng);
+        stream->shift[pair][1] = hnbrdf_rng_u32(&rng);
+    }
+}
+
+static uint32_t reversed(uint32_t x)
+{
+    x = (x & 0x55555555u) << 1 | (x >> 1 & 0x55555555u);
+    x = (x & 0x33333333u) << 2 | (x >> 2 & 0x33333333u);
+    x = (x & 0x0f0f0f0fu) << 4 | (x >> 4 & 0x0f0f0f0fu);
+    x = (x & 0x00ff00ffu) << 8 | (x >> 8 & 0x00ff00ffu);
+    return x << 16 | x >> 16;
+}
+
+/* Flips each bit depending on the seed and the bits above it (Owen 1995, by the hash of Laine and
+ * Karras 2011): aligned blocks of 2^k indices go to aligned blocks, in another order. */
+static uint32_t shuffled(uint32_t index, uint32_t seed)
+{
+    uint32_t x = reversed(index) + seed;
+    x ^= x * 0x6c50b47cu;
+    x ^= x * 0xb82f1e52u;
+    x ^= x * 0xc7afe638u;
+    x ^= x * 0x8d22f6e6u;
+    return reversed(x);
+}
+
+/* Second dimension of Sobol's sequence, direction numbers v_{k+1} = v_k ^ (v_k >> 1); the first one
+ * reverses the bits of the index. */
+static uint32_t sobol(uint32_t index)
+{
+    uint32_t value = 0;
+    for (uint32_t v = UINT32_C(1) << 31; index; index >>= 1, v ^= v >> 1)
+        value ^= index & 1 ? v : 0;
+    return value;
+}
+
+void render_stream_pair(const render_stream *stream, int pair, uint32_t index, uint32_t u[2])
+{
+    uint32_t place = shuffled(index, stream->order[pair]) & stream->mask;
+    u[0] = reversed(place) ^ stream->shift[pair][0];
+    u[1] = sobol(place) ^ stream->shift[pair][1];
+}
+
+static float unit_float(uint32_t u)
+{
+    return (float)(u >> 8) * 0x1p-24f;
+}
+
+/* ---- Geometry
+ * ---------------------------------------------------------------------------------------- */
+
+static float dot(const float a[3], const float b[3])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static void to_local(const render_point *point, const float world[3], float local[3])
+{
+    local[0] = dot(world, point->tangent);
+    local[1] = dot(world, point->bitangent);
+    local[2] = dot(world, point->normal);
+}
+
+static void to_world(const render_point *point, const float local[3], float world[3])
+{
+    for (int k = 0; k < 3; k++)
+        world[k] =
+            local[0] * point->tangent[k] + local[1] * point->bitangent[k] + local[2] * point->normal[k];
+}
+
+/* ---- The estimator
+ * ----------------------------------------------------------------------------------- */
+
+/* Light samples of a block wait here for one batch of evaluations; factor is radiance wi.z / density.
+ */
+typedef struct light_batch {
+    float wi[RENDER_BLOCK][3], wo[RENDER_BLOCK][3], f[RENDER_BLOCK][3];
+    double factor[RENDER_BLOCK][3];
+    size_t count;
+} light_batch;
+
+static void add_light_sample(const render_surface *surface, const render_environment *environment,
+                             render_strategy strategy, const uint32_t u[2], const render_point *point,
+                             light_batch *batch)
+{
+    float world[3], radiance[3];
+    double place[2] = {u[0] * 0x1p-32, u[1] * 0x1p-32};
+    double density = render_environment_sample(environment, place, world, radiance);
+    float *wi = batch->wi[batch->count];
+    to_local(point, world, wi);
+    if (!(wi[2] > 0.0f))
+        return;
+    if (strategy == RENDER_MIS)
+        density += (double)surface->pdf(surface, wi, point->wo);
+    for (int k = 0; k < 3; k++)
+        batch->factor[batch->count][k] = (double)radiance[k] * (double)wi[2] / density;
+    memcpy(batch->wo[batch->count], point->wo, sizeof point->wo);
+    batch->count++;
+}
+
+static void add_brdf_sample(const render_surface *surface, const render_environment *environment,
+                            render_strategy strategy, const uint32_t u[2], uint32_t lobe,
+                            const render_point *point, double sum[3])
+{
+    float numbers[3] = {unit_float(lobe), unit_float(u[0]), unit_float(u[1])}, world[3], radiance[3];
+    hnbrdf_sample_result drawn;
+    surface->sample(surface, point->wo, numbers, &drawn);
+    if (!(drawn.pdf > 0.0f))
+        return;
+    to_world(point, drawn.wi, world);
+    double density = render_environment_lookup(environment, world, radiance);
+    double weight = strategy == RENDER_MIS ? (double)drawn.pdf / ((double)drawn.pdf + density) : 1.0;
+    for (int k = 0; k < 3; k++)
+        sum[k] += weight * (double)drawn.weight[k] * (double)radiance[k];
+}
+
+void render_shade(const render_surface *surface, const render_environment *environment,
+                  render_strategy strategy, const render_stream *stream, uint32_t first,
+                  const render_point *points, int count, double sum[3])
+{
+    light_batch batch;
+    batch.count = 0;
+    for (int i = 0; i < count; i++) {
+        if (!(points[i].wo[2] > 0.0f))
+            continue;
+        uint32_t u[2], lobe[2], index = first + (uint32_t)i;
+        if (strategy != RENDER_BRDF) {
+            render_stream_pair(stream, RENDER_PAIR_LIGHT, index, u);
+            add_light_sample(surface, environment, strategy, u, &points[i], &batch);
+        }
+        if (strategy != RENDER_LIGHT) {
+            render_stream_pair(stream, RENDER_PAIR_DIRECTION, index, u);
+            render_stream_pair(stream, RENDER_PAIR_LOBE, index, lobe);
+            add_brdf_sample(surface, environment, strategy, u, lobe[0], &points[i], sum);
+        }
+    }
+    if (batch.count > 0)
+        surface->eval(surface, batch.count, batch.wi[0], batch.wo[0], batch.f[0]);
+    for (size_t i = 0; i < batch.count; i++)
+        for (int k = 0; k < 3; k++)
+            sum[k] += (double)batch.f[i][k] * batch.factor[i][k];
+}
