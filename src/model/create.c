@@ -12,19 +12,6 @@
 
 enum { ALIGNMENT = 64 };
 
-int hnbrdf_layer_inputs(const hnbrdf_model_desc *desc, int layer)
-{
-    return layer == 0 ? HNBRDF_ENCODING_SIZE + desc->latent : desc->hidden;
-}
-
-int hnbrdf_layer_outputs(const hnbrdf_model_desc *desc, int layer)
-{
-    if (layer < desc->layers) {
-        return desc->hidden;
-    }
-    return desc->kind == HNBRDF_KIND_HYBRID ? 6 : 3;
-}
-
 static int matrix_count(const hnbrdf_model_desc *desc)
 {
     return desc->kind == HNBRDF_KIND_GGX ? 0 : desc->layers + 1;
