@@ -1,0 +1,251 @@
+// hybrid_brdf.glsl: the parts a hybrid neural-microfacet BRDF is made of (De Oliveira et al., EGSR 2026).
+// Include it first, then what `hnbrdf export` wrote for a scene: that calls these.
+//
+// The same functions as in the C library, named alike and in the same order of operations. Frame and units
+// as there: n = +z, wi towards the light, wo towards the viewer, f in 1/sr without the cosine.
+//
+// Runs as Vulkan GLSL 450, desktop GLSL 330, GLSL ES 300. What can be defined before including:
+//   HNBRDF_EXACT 1       the bits of the C library, on a device whose + - * / sqrt are correctly rounded:
+//                        exp and log of exact operations, `precise` where the language has it.
+//                        0 (default): the built-in exp and log, contraction allowed; fastest.
+//   HNBRDF_EXP(x)        exp of a vec3 in [-80, 80]
+//   HNBRDF_LOG(x)        log of a float in [1e-5, +inf], finite for +inf
+//   HNBRDF_PRECISE       qualifier of every function and variable that holds arithmetic
+// In GLSL ES the default precision of float and int becomes highp from here on.
+#ifndef HNBRDF_HYBRID_BRDF_GLSL
+#define HNBRDF_HYBRID_BRDF_GLSL
+
+#ifndef HNBRDF_EXACT
+#define HNBRDF_EXACT 0
+#endif
+
+#ifndef HNBRDF_PRECISE
+#if HNBRDF_EXACT && ((defined(GL_ES) && __VERSION__ >= 320) || (!defined(GL_ES) && __VERSION__ >= 400))
+#define HNBRDF_PRECISE precise
+#else
+#define HNBRDF_PRECISE
+#endif
+#endif
+
+#ifndef HNBRDF_EXP
+#if HNBRDF_EXACT
+#define HNBRDF_EXP(x) hnbrdf_exp(x)
+#else
+#define HNBRDF_EXP(x) exp(x)
+#endif
+#endif
+
+// The largest float in place of infinity: hnbrdf_log(+inf) is finite too.
+#ifndef HNBRDF_LOG
+#if HNBRDF_EXACT
+#define HNBRDF_LOG(x) hnbrdf_log(x)
+#else
+#define HNBRDF_LOG(x) log(min(x, 3.40282347e38))
+#endif
+#endif
+
+#ifdef GL_ES
+precision highp float;
+precision highp int;
+#endif
+
+#define HNBRDF_PI 3.14159265
+#define HNBRDF_INV_PI 0.318309886
+#define HNBRDF_MAX_EXPONENT 80.0
+#define HNBRDF_MAX_VALUE 3.0e38
+
+// ---- Functions of one number -------------------------------------------------------------------------
+
+// x in [low, high]; a NaN becomes low, which clamp() does not promise.
+float hnbrdf_clamp(float x, float low, float high)
+{
+    return x > low ? (x < high ? x : high) : low;
+}
+
+vec3 hnbrdf_clamp(vec3 x, float low, float high)
+{
+    return vec3(hnbrdf_clamp(x.x, low, high), hnbrdf_clamp(x.y, low, high), hnbrdf_clamp(x.z, low, high));
+}
+
+// exp(x) for x in [-80, 80]; within 1.1 ulp.
+HNBRDF_PRECISE float hnbrdf_exp(float x)
+{
+    HNBRDF_PRECISE float y = x * 1.44269504;
+    int k = int(y + (y >= 0.0 ? 0.5 : -0.5));
+    HNBRDF_PRECISE float fk = float(k);
+    HNBRDF_PRECISE float r = (x - fk * 0.693359375) - fk * -2.12194440e-4; // ln 2 in two parts, the first exact
+    HNBRDF_PRECISE float q = 1.98909809e-4;
+    q = q * r + 1.39336410e-3;
+    q = q * r + 8.33331093e-3;
+    q = q * r + 4.16664650e-2;
+    q = q * r + 1.66666667e-1;
+    q = q * r + 0.5;
+    HNBRDF_PRECISE float e = (q * (r * r) + r) + 1.0;
+    return e * intBitsToFloat((k + 127) * 0x800000);
+}
+
+vec3 hnbrdf_exp(vec3 x)
+{
+    return vec3(hnbrdf_exp(x.x), hnbrdf_exp(x.y), hnbrdf_exp(x.z));
+}
+
+// ln(x) for normal x > 0; error at most 1 ulp of the result plus 6e-8. +inf gives a finite 88.7.
+HNBRDF_PRECISE float hnbrdf_log(float x)
+{
+    int i = floatBitsToInt(x) - 0x3f3504f3; // mantissa to [sqrt(1/2), sqrt(2))
+    int e = i >> 23;
+    HNBRDF_PRECISE float f = intBitsToFloat((i & 0x7fffff) + 0x3f3504f3) - 1.0;
+    HNBRDF_PRECISE float s = f / (2.0 + f);
+    HNBRDF_PRECISE float s2 = s * s;
+    HNBRDF_PRECISE float p = 2.95799494e-1;
+    p = p * s2 + 3.99887806e-1;
+    p = p * s2 + 6.66666850e-1;
+    return float(e) * 0.693147181 + (2.0 * s + s * (s2 * p));
+}
+
+// x clamp(x/3 + 1/2, 0, 1), the paper's three-branch HardGELU.
+HNBRDF_PRECISE float hnbrdf_hard_gelu(float x)
+{
+    return x * clamp(x * 0.333333333 + 0.5, 0.0, 1.0);
+}
+
+// ---- A pair of directions ----------------------------------------------------------------------------
+
+// Into the tangent frame of a material: turned about n by the angle with this (cosine, sine).
+HNBRDF_PRECISE vec3 hnbrdf_to_tangent(vec2 rotation, vec3 w)
+{
+    return vec3(rotation.x * w.x + rotation.y * w.y, rotation.x * w.y - rotation.y * w.x, w.z);
+}
+
+HNBRDF_PRECISE float hnbrdf_dot3(vec3 v)
+{
+    return (v.x * v.x + v.y * v.y) + v.z * v.z;
+}
+
+// What the analytic part and the encodings share of one pair, in the tangent frame of the material.
+struct hnbrdf_pair {
+    vec3 wi, wo;
+    vec3 s;        // wi + wo: the half vector, not normalised
+    float length2; // s.s
+    float c;       // cosine of the difference angle, wi.h = |s|/2 for unit vectors
+};
+
+HNBRDF_PRECISE hnbrdf_pair hnbrdf_pair_make(vec3 wi, vec3 wo)
+{
+    HNBRDF_PRECISE hnbrdf_pair p;
+    p.wi = wi;
+    p.wo = wo;
+    p.s = wi + wo;
+    p.length2 = hnbrdf_dot3(p.s);
+    p.c = 0.5 * sqrt(p.length2);
+    return p;
+}
+
+// ---- The analytic part: Lambert + GGX (Walter et al. 2007; Heitz 2014) ---------------------------------
+
+// GGX normal density D(h), 1/sr (Walter 2007 Eq. 33, anisotropic: Heitz 2014 Eq. 86), in the
+// tangent-frame form: 1 - (n.h)^2 would lose every digit of a narrow lobe.
+HNBRDF_PRECISE float hnbrdf_ggx_d(vec3 s, float length2, vec2 alpha)
+{
+    HNBRDF_PRECISE float t = hnbrdf_dot3(vec3(s.x / alpha.x, s.y / alpha.y, s.z)) / length2;
+    return 1.0 / (((HNBRDF_PI * alpha.x) * alpha.y) * (t * t));
+}
+
+// Smith masking of one direction over its share of the denominator, V(w) = G1(w) / (2 w.z), so that
+// G1 G1 / (4 wi.z wo.z) = V V, finite at grazing (Heitz 2014 Eq. 43).
+HNBRDF_PRECISE float hnbrdf_smith_v(vec3 w, vec2 alpha)
+{
+    return 1.0 / (w.z + sqrt(hnbrdf_dot3(vec3(alpha.x * w.x, alpha.y * w.y, w.z))));
+}
+
+// Unpolarised Fresnel reflectance of a dielectric with index eta > 1 at cosine c = wi.h (Walter 2007
+// Eq. 22). g - c is taken as (eta^2 - 1)/(g + c): the difference itself loses digits as eta nears 1.
+HNBRDF_PRECISE vec3 hnbrdf_fresnel_dielectric(vec3 eta, float c)
+{
+    HNBRDF_PRECISE vec3 e = (eta - 1.0) * (eta + 1.0);
+    HNBRDF_PRECISE vec3 sum = sqrt(e + c * c) + c; // g + c
+    HNBRDF_PRECISE vec3 difference = e / sum;      // g - c
+    HNBRDF_PRECISE vec3 a = difference / sum;
+    HNBRDF_PRECISE vec3 b = (c * sum - 1.0) / (c * difference + 1.0);
+    return (0.5 * (a * a)) * (1.0 + b * b);
+}
+
+float hnbrdf_fresnel_dielectric(float eta, float c)
+{
+    return hnbrdf_fresnel_dielectric(vec3(eta), c).x;
+}
+
+// D V V, what the Fresnel factor of every channel multiplies; 1/sr.
+HNBRDF_PRECISE float hnbrdf_specular(hnbrdf_pair p, vec2 alpha)
+{
+    return hnbrdf_ggx_d(p.s, p.length2, alpha) * (hnbrdf_smith_v(p.wi, alpha) * hnbrdf_smith_v(p.wo, alpha));
+}
+
+// f_a, 1/sr.
+HNBRDF_PRECISE vec3 hnbrdf_microfacet(vec3 kd, vec3 eta, float c, float specular)
+{
+    return kd * HNBRDF_INV_PI + hnbrdf_fresnel_dielectric(eta, c) * specular;
+}
+
+// ---- Encodings: what the network sees of a pair, six numbers -------------------------------------------
+
+// The paper's: the six Cartesian components.
+void hnbrdf_encode_directions(hnbrdf_pair p, out vec3 x0, out vec3 x1)
+{
+    x0 = p.wi;
+    x1 = p.wo;
+}
+
+// Functions of h and of the difference angle that do not change, to the last bit, when wi and wo swap:
+//   1 + ln(1e-5 + tan^2 th)/4, sqrt(sin th), c, sqrt(1 - c), wi.z wo.z, wi.z + wo.z
+// th is the angle between n and h, c = wi.h. sqrt(1 - c) is taken from |wi - wo|^2 = 4 (1 - c^2), exact
+// where 1 - c would cancel (near retroreflection).
+void hnbrdf_encode_half_difference(hnbrdf_pair p, out vec3 x0, out vec3 x1)
+{
+    HNBRDF_PRECISE float r2 = p.s.x * p.s.x + p.s.y * p.s.y;
+    HNBRDF_PRECISE float d2 = hnbrdf_dot3(p.wi - p.wo);
+    HNBRDF_PRECISE float tan2 = 1e-5 + r2 / (p.s.z * p.s.z);
+    HNBRDF_PRECISE float x = 1.0 + 0.25 * HNBRDF_LOG(tan2);
+    HNBRDF_PRECISE float y = sqrt(sqrt(r2 / p.length2));
+    HNBRDF_PRECISE float z = sqrt((0.25 * d2) / (1.0 + p.c));
+    HNBRDF_PRECISE float product = p.wi.z * p.wo.z;
+    x0 = vec3(x, y, p.c);
+    x1 = vec3(z, product, p.s.z);
+}
+
+// ---- Composition ---------------------------------------------------------------------------------------
+
+// [0, HNBRDF_MAX_VALUE]; a NaN becomes 0.
+vec3 hnbrdf_finish(vec3 f)
+{
+    return hnbrdf_clamp(f, 0.0, HNBRDF_MAX_VALUE);
+}
+
+// exp of the exponent s c + m, clamped.
+vec3 hnbrdf_correction(vec3 exponent)
+{
+    return HNBRDF_EXP(hnbrdf_clamp(exponent, -HNBRDF_MAX_EXPONENT, HNBRDF_MAX_EXPONENT));
+}
+
+// sigmoid(g).
+HNBRDF_PRECISE vec3 hnbrdf_gate(vec3 g)
+{
+    HNBRDF_PRECISE vec3 e = HNBRDF_EXP(hnbrdf_clamp(-g, -HNBRDF_MAX_EXPONENT, HNBRDF_MAX_EXPONENT));
+    return 1.0 / (1.0 + e);
+}
+
+// max(0, exp(s c + m) + sigmoid(g) f_a - b); the first argument is s c + m, the last b.
+vec3 hnbrdf_compose_hybrid(vec3 exponent, vec3 g, vec3 analytic, float b)
+{
+    HNBRDF_PRECISE vec3 f = (hnbrdf_correction(exponent) + hnbrdf_gate(g) * analytic) - b;
+    return hnbrdf_finish(f);
+}
+
+// max(0, exp(s c + m) - b).
+vec3 hnbrdf_compose_neural(vec3 exponent, float b)
+{
+    HNBRDF_PRECISE vec3 f = hnbrdf_correction(exponent) - b;
+    return hnbrdf_finish(f);
+}
+
+#endif
