@@ -67,20 +67,25 @@ static size_t min3(size_t a, size_t b, size_t c)
     return ab < c ? ab : c;
 }
 
-/* Levenshtein distance of the first HNBRDF_MAX_NAME bytes. */
+/* Insertions, deletions, substitutions and swaps of neighbours from a to b, each part taken once
+ * (optimal string alignment), of their first HNBRDF_MAX_NAME bytes. */
 static size_t edit_distance(const char *a, const char *b)
 {
-    size_t row[HNBRDF_MAX_NAME + 1];
-    size_t length_a = strnlen(a, HNBRDF_MAX_NAME), length_b = strnlen(b, HNBRDF_MAX_NAME);
+    enum { SIZE = HNBRDF_MAX_NAME + 1 };
+    size_t rows[3][SIZE], *before = rows[0], *above = rows[1], *row = rows[2];
+    size_t length_a = strnlen(a, SIZE - 1), length_b = strnlen(b, SIZE - 1);
     for (size_t j = 0; j <= length_b; j++)
         row[j] = j;
     for (size_t i = 1; i <= length_a; i++) {
-        size_t diagonal = row[0];
+        size_t *oldest = before;
+        before = above;
+        above = row;
+        row = oldest;
         row[0] = i;
         for (size_t j = 1; j <= length_b; j++) {
-            size_t above = row[j];
-            row[j] = min3(above + 1, row[j - 1] + 1, diagonal + (a[i - 1] != b[j - 1]));
-            diagonal = above;
+            row[j] = min3(above[j] + 1, row[j - 1] + 1, above[j - 1] + (a[i - 1] != b[j - 1]));
+            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+                row[j] = min3(row[j], before[j - 2] + 1, row[j]);
         }
     }
     return row[length_b];
