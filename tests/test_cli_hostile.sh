@@ -25,12 +25,12 @@ offset_of() {
         awk -v hex="$2" '{ k = index($0, hex); print k ? (k - 1) / 2 : -1 }'
 }
 
-# must_fail NAME FILE COMMAND...: exit 1 and one line that names the file.
+# must_fail NAME FILE COMMAND...: exit 1 and one line that names the file (of a .brdf, the material).
 must_fail() {
     name=$1 file=$2
     shift 2
     run "$@" "$file"
-    expect_failure "$name" "$file"
+    expect_failure "$name" "${file%.brdf}"
 }
 # must_not_crash NAME FILE COMMAND...: either good, or exit 1 with one line.
 must_not_crash() {

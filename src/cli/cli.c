@@ -160,6 +160,7 @@ static void print_option(const cli_option *option, int width)
 static void print_indented(const char *text)
 {
     while (*text) {
+        text += strspn(text, " ");
         int length = (int)strcspn(text, "\n");
         printf("  %.*s\n", length, text);
         text += length + (text[length] == '\n');

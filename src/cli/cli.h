@@ -45,7 +45,7 @@ typedef struct cli_command {
     const char *name;     /* "fit" */
     const char *synopsis; /* "DATA... [options] -o MODEL.safetensors" */
     const char *about;    /* a few lines */
-    const char *examples; /* lines that can be pasted */
+    const char *examples; /* lines that can be pasted; --help indents them */
 } cli_command;
 
 /* Parses argv[1..]. `--name value`, `--name=value`, `-o value`; "--" ends options; "-" is positional.

@@ -201,8 +201,9 @@ int cmd_eval(int argc, char **argv)
     const cli_option options[] = {
         {"material", 'm', CLI_TEXT, &material, 0, 0, "NAME",
          "material of the model (default: the only one, or the column `material`)"},
-        {"in", 'i', CLI_TEXT, &in, 0, 0, "FILE", "read the pairs from FILE (default: standard input)"},
-        {"out", 'o', CLI_TEXT, &out, 0, 0, "FILE",
+        {"input", 'i', CLI_TEXT, &in, 0, 0, "FILE",
+         "read the pairs from FILE (default: standard input)"},
+        {"output", 'o', CLI_TEXT, &out, 0, 0, "FILE",
          "write the values to FILE (default: standard output)"},
         {0},
     };
