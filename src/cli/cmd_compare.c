@@ -182,8 +182,8 @@ static void print_wins(const job *j)
         wins += gain > 0.0;
         losses += gain < 0.0;
     }
-    printf("against = %s; %s is better for %d, it for %d, equal %d\n", j->path_against, j->path, wins,
-           losses, j->count - wins - losses);
+    printf("lower SMAPE: %s for %d of %d materials, %s (against) for %d\n", j->path, wins, j->count,
+           j->path_against, losses);
 }
 
 static void print_table(const job *j)

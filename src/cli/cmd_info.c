@@ -54,7 +54,7 @@ static void print_model(const char *path, const hnbrdf_model *model)
     printf("  latent     %d\n", desc.latent);
     printf("  weights    %zu, shared by all materials\n", hnbrdf_model_weight_count(model));
     printf("  mults      %zu for one evaluation\n", hnbrdf_model_multiplications(model));
-    printf("  scale      %.9g\n  shift      %.9g\n  floor      %.9g\n", (double)desc.scale,
+    printf("  scale      %.6g\n  shift      %.6g\n  floor      %.6g\n", (double)desc.scale,
            (double)desc.shift, (double)desc.floor);
     printf("  materials  %d\n\n", desc.material_count);
     int width = (int)strlen("material");
