@@ -41,11 +41,11 @@ typedef struct hnbrdf_fit_options {
     int encoding_set;               /* 0: half-difference whatever `encoding` says; 1: use `encoding` */
     float floor;                    /* b; 0 stands for the default of 0.003, negative for none */
     hnbrdf_fit_analytic analytic;
-    long steps;                     /* network steps; 0 stands for 3000 unless seconds is set */
+    long steps;                     /* network steps; 0 stands for 32000 */
     double seconds;                 /* time budget for the network stage instead of steps */
-    int batch;                      /* pairs a step; 0 stands for 16384; rounded to the inner tile */
+    int batch;                      /* pairs a step; 0 stands for 2048; rounded up to a multiple of 1024 */
     int pool;                       /* pairs drawn per material before training; 0: 131072 */
-    float learning_rate;            /* Adam's peak rate; 0 stands for 5e-3 */
+    float learning_rate;            /* Adam's peak rate; 0 stands for 1e-2 */
     uint64_t seed;
     int threads;                    /* 0: all cores */
     hnbrdf_fit_progress_fn progress;

@@ -59,7 +59,7 @@ int cmd_fit(int argc, char **argv)
     const char *kind = "hybrid", *encoding = "half-difference", *analytic = "faithful", *output = NULL;
     int net[2] = {32, 2};
     long latent = 0, steps = 0, seed = 1, threads = 0, batch = 0, pool = 0;
-    double seconds = 0.0, floor = 0.003, rate = 5e-3;
+    double seconds = 0.0, floor = 0.003, rate = 1e-2;
     const cli_option options[] = {
         {"output", 'o', CLI_TEXT, &output, 0, 0, "FILE", "the model file to write (required)"},
         {"kind", 0, CLI_TEXT, &kind, 0, 0, "KIND", "hybrid, neural or ggx (default hybrid)"},
@@ -70,11 +70,11 @@ int cmd_fit(int argc, char **argv)
         {"analytic", 0, CLI_TEXT, &analytic, 0, 0, "HOW",
          "faithful: keep the GGX fit; joint: train it along (default faithful)"},
         {"floor", 0, CLI_REAL, &floor, 0, 0.999, "B", "the floor b, 1/sr; 0 for none (default 0.003)"},
-        {"steps", 0, CLI_INT, &steps, 1, 1e9, "N", "training steps (default 8000)"},
+        {"steps", 0, CLI_INT, &steps, 1, 1e9, "N", "training steps (default 32000)"},
         {"seconds", 0, CLI_REAL, &seconds, 0.1, 1e7, "S", "train the network for this long instead"},
-        {"batch", 0, CLI_INT, &batch, 1, 1 << 24, "N", "direction pairs a step (default 16384)"},
+        {"batch", 0, CLI_INT, &batch, 1, 1 << 24, "N", "direction pairs a step (default 2048)"},
         {"pool", 0, CLI_INT, &pool, 64, 1 << 26, "N", "direction pairs drawn a material (default 131072)"},
-        {"rate", 0, CLI_REAL, &rate, 1e-7, 10, "R", "peak learning rate of Adam (default 0.005)"},
+        {"rate", 0, CLI_REAL, &rate, 1e-7, 10, "R", "peak learning rate of Adam (default 0.01)"},
         {"seed", 0, CLI_INT, &seed, 0, 9e15, "N", "seed of everything random (default 1)"},
         {"threads", 0, CLI_INT, &threads, 1, 256, "N", "threads (default one a core)"},
         {NULL, 0, CLI_FLAG, NULL, 0, 0, NULL, NULL}};

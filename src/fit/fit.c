@@ -18,7 +18,7 @@
 enum {
     CHUNKS = 16,          /* gradients are summed in this many pieces, whatever the number of threads */
     WARM_UP = 100,        /* steps */
-    DEFAULT_STEPS = 8000,
+    DEFAULT_STEPS = 32000,
     SNAPSHOT_EVERY = 100, /* steps between copies of a state to fall back to */
 };
 #define POOL_LIMIT 1.25e9 /* bytes of training data; beyond, fewer pairs a material */
@@ -311,10 +311,10 @@ static hnbrdf_result fill_options(hnbrdf_fit_options *o, int count, hnbrdf_error
         o->encoding = HNBRDF_ENCODING_HALF_DIFFERENCE;
     o->floor = o->floor == 0.0f ? 0.003f : fmaxf(o->floor, 0.0f);
     o->steps = o->steps ? o->steps : DEFAULT_STEPS;
-    o->batch = o->batch ? o->batch : 16384;
+    o->batch = o->batch ? o->batch : 2048;
     if (o->pool == 0)
         o->pool = (int)fmin(131072.0, POOL_LIMIT / ((double)count * FIT_POOL_TILE / FIT_TILE * sizeof(float)));
-    o->learning_rate = o->learning_rate == 0.0f ? 5e-3f : o->learning_rate;
+    o->learning_rate = o->learning_rate == 0.0f ? 1e-2f : o->learning_rate;
     if (o->hidden < 1 || o->hidden > HNBRDF_MAX_HIDDEN || o->layers < 1 || o->layers > HNBRDF_MAX_LAYERS)
         return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT, "network %dx%d, expected 1x1 to %dx%d", o->hidden,
                            o->layers, HNBRDF_MAX_HIDDEN, HNBRDF_MAX_LAYERS);

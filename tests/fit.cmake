@@ -1,0 +1,2 @@
+hnbrdf_test(test_fit_gradients test_fit_gradients.c)
+hnbrdf_test(test_fit test_fit.c)

@@ -1,0 +1,302 @@
+/* test_fit.c: whole fits on built-in materials and on a table made from known parameters. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include "hnbrdf/fit.h"
+#include "hnbrdf/metrics.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { COUNT = 3 };
+static hnbrdf_measured *data[COUNT];
+
+static int open_data(void **state)
+{
+    (void)state;
+    for (int i = 0; i < COUNT; i++)
+        if (hnbrdf_measured_open_builtin(i, &data[i], NULL))
+            return -1;
+    return 0;
+}
+
+static int close_data(void **state)
+{
+    (void)state;
+    for (int i = 0; i < COUNT; i++)
+        hnbrdf_measured_close(data[i]);
+    return 0;
+}
+
+static hnbrdf_fit_options small(hnbrdf_kind kind)
+{
+    hnbrdf_fit_options o = {0};
+    o.kind = kind;
+    o.hidden = 16;
+    o.layers = 2;
+    o.steps = 600;
+    o.batch = 2048;
+    o.pool = 8192;
+    o.seed = 5;
+    return o;
+}
+
+static hnbrdf_model *fit(const hnbrdf_fit_options *options, hnbrdf_fit_report *report)
+{
+    hnbrdf_model *model = NULL;
+    hnbrdf_error error;
+    if (hnbrdf_fit((const hnbrdf_measured *const *)data, COUNT, options, &model, report, &error))
+        fail_msg("%s", error.text);
+    return model;
+}
+
+typedef struct bytes {
+    unsigned char data[1 << 16];
+    size_t size;
+} bytes;
+
+static int append(void *user, const void *from, size_t size)
+{
+    bytes *b = user;
+    if (size > sizeof b->data - b->size)
+        return 1;
+    memcpy(b->data + b->size, from, size);
+    b->size += size;
+    return 0;
+}
+
+static void threads_do_not_change_the_model(void **state)
+{
+    (void)state;
+    static bytes one, three;
+    for (int joint = 0; joint < 2; joint++) {
+        hnbrdf_fit_options o = small(HNBRDF_KIND_HYBRID);
+        o.steps = 60;
+        o.analytic = joint ? HNBRDF_FIT_JOINT : HNBRDF_FIT_FAITHFUL;
+        one.size = three.size = 0;
+        o.threads = 1;
+        hnbrdf_model *a = fit(&o, NULL);
+        o.threads = 3;
+        hnbrdf_model *b = fit(&o, NULL);
+        assert_int_equal(hnbrdf_model_write(a, append, &one, NULL), HNBRDF_OK);
+        assert_int_equal(hnbrdf_model_write(b, append, &three, NULL), HNBRDF_OK);
+        assert_int_equal(one.size, three.size);
+        assert_memory_equal(one.data, three.data, one.size);
+        hnbrdf_model_free(a);
+        hnbrdf_model_free(b);
+    }
+}
+
+static double smape(const hnbrdf_model *model, int i)
+{
+    hnbrdf_comparison c;
+    assert_int_equal(hnbrdf_compare(model, hnbrdf_model_material(model, i), data[i], HNBRDF_SAMPLER_GRID, 20000,
+                                    3, &c, NULL),
+                     HNBRDF_OK);
+    return c.smape;
+}
+
+static void hybrid_is_closer_than_ggx_and_keeps_its_analytic_part(void **state)
+{
+    (void)state;
+    hnbrdf_fit_options o = small(HNBRDF_KIND_GGX);
+    hnbrdf_model *ggx = fit(&o, NULL);
+    o = small(HNBRDF_KIND_HYBRID);
+    hnbrdf_fit_report report;
+    hnbrdf_model *hybrid = fit(&o, &report);
+    assert_int_equal(report.steps, 600);
+    for (int i = 0; i < COUNT; i++) {
+        const hnbrdf_material *a = hnbrdf_model_material(ggx, i), *b = hnbrdf_model_material(hybrid, i);
+        assert_true(smape(hybrid, i) < 0.9 * smape(ggx, i));
+        assert_memory_equal(a->kd, b->kd, sizeof a->kd);
+        assert_memory_equal(a->eta, b->eta, sizeof a->eta);
+        assert_memory_equal(a->alpha, b->alpha, sizeof a->alpha);
+        assert_string_equal(hnbrdf_model_material_name(hybrid, i), hnbrdf_measured_name(data[i]));
+    }
+    hnbrdf_model_free(ggx);
+    hnbrdf_model_free(hybrid);
+}
+
+static void every_kind_and_encoding_fits(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 4; k++) {
+        hnbrdf_fit_options o = small(k < 2 ? HNBRDF_KIND_NEURAL : HNBRDF_KIND_HYBRID);
+        o.steps = 100;
+        o.layers = 1 + k;
+        o.encoding_set = 1;
+        o.encoding = k % 2 ? HNBRDF_ENCODING_DIRECTIONS : HNBRDF_ENCODING_HALF_DIFFERENCE;
+        o.analytic = k == 3 ? HNBRDF_FIT_JOINT : HNBRDF_FIT_FAITHFUL;
+        o.floor = k == 2 ? -1.0f : 0.0f;
+        hnbrdf_fit_report report;
+        hnbrdf_model *model = fit(&o, &report);
+        hnbrdf_model_desc desc;
+        hnbrdf_model_describe(model, &desc);
+        assert_int_equal(desc.kind, o.kind);
+        assert_int_equal(desc.encoding, o.encoding);
+        assert_int_equal(desc.layers, o.layers);
+        assert_int_equal(desc.latent, k < 2 ? 12 : 4);
+        assert_true(desc.floor == (k == 2 ? 0.0f : 0.003f));
+        assert_true(isfinite(report.final_loss) && report.final_loss < 2.0);
+        hnbrdf_model_free(model);
+    }
+}
+
+/* A MERL table filled with Lambert + GGX of known parameters; the bins' centres are what is stored. */
+static hnbrdf_measured *known_table(const hnbrdf_material *material)
+{
+    enum { N = 90 * 90 * 180 };
+    static const double scale[3] = {1.0 / 1500, 1.15 / 1500, 1.66 / 1500};
+    size_t size = 12 + 24 * (size_t)N;
+    unsigned char *file = calloc(size, 1);
+    hnbrdf_model_desc desc = {0};
+    const char *name = "known";
+    desc.kind = HNBRDF_KIND_GGX;
+    desc.material_count = 1;
+    desc.materials = material;
+    desc.names = &name;
+    hnbrdf_model *model;
+    assert_non_null(file);
+    assert_int_equal(hnbrdf_model_create(&desc, NULL, &model, NULL), HNBRDF_OK);
+    file[0] = file[4] = 90;
+    file[8] = 180;
+    const double half_pi = 1.57079632679489662;
+    for (int i = 0; i < 90; i++)
+        for (int j = 0; j < 90; j++)
+            for (int k = 0; k < 180; k++) {
+                double th = (i + 0.5) / 90 * (i + 0.5) / 90 * half_pi, td = (j + 0.5) / 90 * half_pi;
+                double pd = (k + 0.5) / 180 * 2 * half_pi;
+                double a = cos(th) * cos(td), b = sin(th) * sin(td) * cos(pd);
+                double c = sin(th) * cos(td), d = cos(th) * sin(td) * cos(pd), y = sin(td) * sin(pd);
+                float wi[3] = {(float)(c + d), (float)y, (float)(a - b)}, f[3];
+                float wo[3] = {(float)(c - d), (float)-y, (float)(a + b)};
+                hnbrdf_eval(model, material, wi, wo, f);
+                for (int ch = 0; ch < 3; ch++) {
+                    double v = wi[2] > 0 && wo[2] > 0 ? (double)f[ch] / scale[ch] : -1.0;
+                    uint64_t bits;
+                    memcpy(&bits, &v, sizeof bits);
+                    size_t at = 12 + 8 * ((size_t)ch * N + (size_t)(k + 180 * (j + 90 * i)));
+                    for (int byte = 0; byte < 8; byte++)
+                        file[at + (size_t)byte] = (unsigned char)(bits >> (8 * byte));
+                }
+            }
+    hnbrdf_measured *measured = NULL;
+    hnbrdf_error error;
+    if (hnbrdf_measured_open_memory(file, size, "known.binary", NULL, &measured, &error))
+        fail_msg("%s", error.text);
+    free(file);
+    hnbrdf_model_free(model);
+    return measured;
+}
+
+/* Nearest-bin lookup quantises theta_h: near the peak a bin is about 2 sqrt(theta_h) / 90 wide, up to 10 %
+ * of a lobe of alpha 0.1; the parameters come back within that. */
+static void ggx_fit_recovers_known_parameters(void **state)
+{
+    (void)state;
+    static const float alphas[] = {0.1f, 0.4f};
+    for (int k = 0; k < 2; k++) {
+        hnbrdf_material known;
+        hnbrdf_material_init(&known);
+        known.alpha[0] = known.alpha[1] = alphas[k];
+        for (int c = 0; c < 3; c++) {
+            known.kd[c] = 0.1f + 0.2f * (float)c;
+            known.eta[c] = 1.4f + 0.6f * (float)c;
+        }
+        hnbrdf_measured *table = known_table(&known);
+        hnbrdf_fit_options o = small(HNBRDF_KIND_GGX);
+        hnbrdf_model *model;
+        assert_int_equal(hnbrdf_fit((const hnbrdf_measured *const *)&table, 1, &o, &model, NULL, NULL), HNBRDF_OK);
+        const hnbrdf_material *m = hnbrdf_model_material(model, 0);
+        assert_true(fabsf(m->alpha[0] / known.alpha[0] - 1.0f) < 0.1f);
+        assert_true(m->alpha[0] == m->alpha[1] && m->rotation == 0.0f);
+        for (int c = 0; c < 3; c++) {
+            assert_true(fabsf(m->kd[c] - known.kd[c]) < 0.02f);
+            assert_true(fabsf((m->eta[c] - 1.0f) / (known.eta[c] - 1.0f) - 1.0f) < 0.1f);
+        }
+        hnbrdf_model_free(model);
+        hnbrdf_measured_close(table);
+    }
+}
+
+static void learning_rate_100_times_too_large_stays_finite(void **state)
+{
+    (void)state;
+    hnbrdf_fit_options o = small(HNBRDF_KIND_HYBRID);
+    o.learning_rate = 0.5f;
+    o.steps = 300;
+    hnbrdf_fit_report report;
+    hnbrdf_model *model = fit(&o, &report); /* create() refuses a weight that is not finite */
+    assert_true(isfinite(report.final_loss));
+    hnbrdf_model_free(model);
+}
+
+static int stop_in_network(void *user, const hnbrdf_fit_progress *p)
+{
+    int *calls = user;
+    assert_true(p->done >= 0.0 && p->done <= 1.0);
+    if (strcmp(p->stage, "network"))
+        return 0;
+    ++*calls;
+    return 1;
+}
+
+static void progress_can_stop_and_the_model_so_far_is_returned(void **state)
+{
+    (void)state;
+    int calls = 0;
+    hnbrdf_fit_options o = small(HNBRDF_KIND_HYBRID);
+    o.steps = 1000000;
+    o.progress = stop_in_network;
+    o.progress_user = &calls;
+    hnbrdf_fit_report report;
+    hnbrdf_model *model = fit(&o, &report);
+    assert_int_equal(calls, 1);
+    assert_int_equal(report.stopped, 1);
+    assert_true(report.steps < 1000000);
+    hnbrdf_model_free(model);
+}
+
+static void bad_options_are_refused_with_a_message(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 8; k++) {
+        hnbrdf_fit_options o = small(HNBRDF_KIND_HYBRID);
+        switch (k) {
+        case 0: o.hidden = HNBRDF_MAX_HIDDEN + 1; break;
+        case 1: o.layers = -1; break;
+        case 2: o.latent = HNBRDF_MAX_LATENT + 1; break;
+        case 3: o.learning_rate = NAN; break;
+        case 4: o.seconds = -1.0; break;
+        case 5: o.kind = (hnbrdf_kind)9; break;
+        case 6: o.encoding_set = 1, o.encoding = (hnbrdf_encoding)9; break;
+        default: o.batch = -5; break;
+        }
+        hnbrdf_model *model = NULL;
+        hnbrdf_error error = {{0}};
+        assert_int_equal(hnbrdf_fit((const hnbrdf_measured *const *)data, COUNT, &o, &model, NULL, &error),
+                         HNBRDF_ERROR_ARGUMENT);
+        assert_null(model);
+        assert_true(error.text[0] != '\0');
+    }
+    assert_int_equal(hnbrdf_fit((const hnbrdf_measured *const *)data, 0, NULL, NULL, NULL, NULL),
+                     HNBRDF_ERROR_ARGUMENT);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(threads_do_not_change_the_model),
+        cmocka_unit_test(hybrid_is_closer_than_ggx_and_keeps_its_analytic_part),
+        cmocka_unit_test(every_kind_and_encoding_fits),
+        cmocka_unit_test(ggx_fit_recovers_known_parameters),
+        cmocka_unit_test(learning_rate_100_times_too_large_stays_finite),
+        cmocka_unit_test(progress_can_stop_and_the_model_so_far_is_returned),
+        cmocka_unit_test(bad_options_are_refused_with_a_message),
+    };
+    return cmocka_run_group_tests(tests, open_data, close_data);
+}

@@ -1,0 +1,252 @@
+/* test_fit_gradients.c: the hand-written gradients against finite differences in double precision, for
+ * every kind of parameter, and the float kernels of every instruction set against the double one. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <cmocka.h>
+
+#include "fit/kernel.h"
+#include "hnbrdf/measured.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct problem {
+    fit_layout layout;
+    float x[FIT_TILE * FIT_INPUTS], wi[3 * FIT_TILE], wo[3 * FIT_TILE], target[3 * FIT_TILE];
+    float frozen[3 * FIT_TILE];
+    fit_tile tile;
+    double *parameters, *gradient, *derived, *scratch;
+} problem;
+
+static void problem_make(problem *p, hnbrdf_kind kind, int hidden, int layers, int latent, int train_analytic,
+                         float floor)
+{
+    hnbrdf_rng rng;
+    hnbrdf_rng_seed(&rng, 7, (uint64_t)(hidden * 100 + layers * 10 + (int)kind));
+    memset(p, 0, sizeof *p);
+    fit_layout_make(&p->layout, kind, hidden, layers, latent, 2, train_analytic, floor);
+    p->parameters = calloc(p->layout.count, sizeof(double));
+    p->gradient = calloc(p->layout.count, sizeof(double));
+    p->derived = calloc(p->layout.derived_count + 1, sizeof(double));
+    p->scratch = calloc(p->layout.scratch_count + 1, sizeof(double));
+    for (size_t i = 0; i < p->layout.count; i++) {
+        size_t unit = i % (size_t)p->layout.padded; /* padding must stay zero */
+        int weight = i < p->layout.last;
+        if (!weight || unit < (size_t)hidden)
+            p->parameters[i] = ((double)hnbrdf_rng_float(&rng) - 0.5) * 0.8;
+    }
+    for (size_t o = 0; o < (size_t)p->layout.outputs && kind != HNBRDF_KIND_GGX; o++)
+        for (size_t u = (size_t)hidden; u < (size_t)p->layout.padded; u++)
+            p->parameters[p->layout.last + o * (size_t)p->layout.padded + u] = 0.0;
+    for (int m = 0; m < 2; m++) {
+        double *a = p->parameters + p->layout.analytic + (size_t)m * FIT_ANALYTIC;
+        for (int c = 0; c < 3; c++) {
+            a[FIT_KD + c] = 0.1 + 0.2 * c;
+            a[FIT_ETA + c] = log(0.2 + 0.5 * c);
+        }
+        a[FIT_ALPHA] = log(0.3);
+        a[FIT_ALPHA + 1] = log(0.12);
+        a[FIT_ROTATION] = 0.4;
+    }
+    for (int b = 0; b < FIT_TILE; b++) {
+        float wi[3], wo[3];
+        hnbrdf_sampler_draw(b % 2 ? HNBRDF_SAMPLER_GRID : HNBRDF_SAMPLER_UNIFORM, &rng, wi, wo);
+        for (int c = 0; c < 3; c++) {
+            p->wi[c * FIT_TILE + b] = wi[c];
+            p->wo[c * FIT_TILE + b] = wo[c];
+            p->target[c * FIT_TILE + b] = b % 5 ? 0.01f + hnbrdf_rng_float(&rng) : 0.0f;
+            p->frozen[c * FIT_TILE + b] = 0.2f * hnbrdf_rng_float(&rng);
+        }
+        for (int i = 0; i < FIT_INPUTS; i++)
+            p->x[b * FIT_INPUTS + i] = 2.0f * hnbrdf_rng_float(&rng) - 1.0f;
+    }
+    fit_tile tile = {p->x, p->frozen, p->wi, p->wo, p->target};
+    p->tile = tile;
+}
+
+static void problem_free(problem *p)
+{
+    free(p->parameters);
+    free(p->gradient);
+    free(p->derived);
+    free(p->scratch);
+}
+
+static double loss_at(problem *p, double *gradient, double mix)
+{
+    if (p->layout.kind == HNBRDF_KIND_GGX)
+        return fit_kernel_double.analytic(p->parameters + p->layout.analytic + FIT_ANALYTIC, &p->tile, mix,
+                                          p->scratch, gradient + p->layout.analytic + FIT_ANALYTIC);
+    fit_kernel_double.derive(&p->layout, p->parameters, p->derived);
+    return fit_kernel_double.network(&p->layout, p->parameters, p->derived, &p->tile, 1, mix, p->scratch,
+                                     gradient);
+}
+
+/* Central differences with h = 1e-6: truncation h^2 f''' and rounding 1e-16 |f|/h leave about 1e-8 of the
+ * loss. The loss has kinks (HardGELU, |.|, the floor); a parameter whose two one-sided slopes differ sits on
+ * one within h, and is counted instead of compared: at most 1 in 50. */
+static void check_all(problem *p, double mix)
+{
+    double *unused = calloc(p->layout.count, sizeof(double));
+    memset(p->gradient, 0, sizeof(double) * p->layout.count);
+    double loss = loss_at(p, p->gradient, mix);
+    size_t kinks = 0, moved = 0;
+    for (size_t i = 0; i < p->layout.count; i++) {
+        const double h = 1e-6, keep = p->parameters[i];
+        p->parameters[i] = keep + h;
+        double above = loss_at(p, unused, mix);
+        p->parameters[i] = keep - h;
+        double below = loss_at(p, unused, mix);
+        p->parameters[i] = keep;
+        double right = (above - loss) / h, left = (loss - below) / h, central = (above - below) / (2 * h);
+        double scale = 1.0 + fabs(central);
+        moved += fabs(central) > 1e-3;
+        if (fabs(right - left) > 1e-3 * scale) {
+            kinks++;
+            continue;
+        }
+        if (fabs(p->gradient[i] - central) > 2e-6 * scale + 0.5 * fabs(right - left)) {
+            print_error("parameter %zu: gradient %.9g, difference quotient %.9g (mix %g)\n", i,
+                        p->gradient[i], central, mix);
+            fail();
+        }
+    }
+    assert_true(kinks * 50 <= p->layout.count);
+    assert_true(moved > p->layout.count / 4 || p->layout.kind == HNBRDF_KIND_GGX);
+    free(unused);
+}
+
+static void gradient_matches_finite_differences(void **state)
+{
+    (void)state;
+    static const struct {
+        hnbrdf_kind kind;
+        int hidden, layers, latent, train_analytic;
+        float floor;
+    } cases[] = {{HNBRDF_KIND_HYBRID, 16, 2, 4, 1, 0.003f},  {HNBRDF_KIND_HYBRID, 20, 3, 8, 0, 0.0f},
+                 {HNBRDF_KIND_HYBRID, 8, 1, 2, 1, 0.05f},    {HNBRDF_KIND_HYBRID, 33, 4, 16, 1, 0.0f},
+                 {HNBRDF_KIND_NEURAL, 16, 2, 12, 0, 0.003f}, {HNBRDF_KIND_GGX, 0, 0, 0, 0, 0.0f}};
+    for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++)
+        for (int m = 0; m <= 2; m++) {
+            problem p;
+            problem_make(&p, cases[k].kind, cases[k].hidden, cases[k].layers, cases[k].latent,
+                         cases[k].train_analytic, cases[k].floor);
+            check_all(&p, 0.5 * m);
+            problem_free(&p);
+        }
+}
+
+/* Where the value is clipped to 0 below a positive target, the gradient still pulls it up. */
+static void clipped_value_is_pulled_up(void **state)
+{
+    (void)state;
+    problem p;
+    problem_make(&p, HNBRDF_KIND_NEURAL, 16, 1, 4, 0, 0.9f);
+    memset(p.parameters, 0, sizeof(double) * p.layout.count);
+    p.parameters[p.layout.bias[1]] = -5.0; /* f = exp(-5) - 0.9 < 0 everywhere */
+    for (int b = 0; b < FIT_TILE; b++)
+        p.target[b] = 0.3f;
+    loss_at(&p, p.gradient, 1.0);
+    assert_true(p.gradient[p.layout.bias[1]] < 0.0);
+    problem_free(&p);
+}
+
+static const fit_kernel *kernel_number(int k)
+{
+    switch (k) {
+    case 0:
+        return &fit_kernel_plain;
+#ifdef FIT_KERNEL_X86
+    case 1:
+        return __builtin_cpu_supports("avx2") ? &fit_kernel_avx2 : NULL;
+    case 2:
+        return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") ? &fit_kernel_avx512
+                                                                                       : NULL;
+#endif
+    default:
+        return NULL;
+    }
+}
+
+/* Float against double: sums of at most 64 products and a chain of at most 4 layers; 1e-4 of the largest
+ * entry is some 800 ulp of it, what cancellation in 64-term sums of mixed sign may take. Among themselves
+ * the float kernels must agree to the bit. */
+static void instruction_sets_agree_to_the_bit(void **state)
+{
+    (void)state;
+    static const int sizes[][3] = {{8, 1, 2}, {16, 2, 4}, {32, 2, 4}, {40, 3, 8}, {64, 4, 16}};
+    for (size_t s = 0; s < 5; s++) {
+        problem p;
+        problem_make(&p, HNBRDF_KIND_HYBRID, sizes[s][0], sizes[s][1], sizes[s][2], 1, 0.003f);
+        double wanted_loss = loss_at(&p, p.gradient, 0.4), largest = 0.0;
+        size_t count = p.layout.count;
+        float *parameters = malloc(sizeof(float) * count), *first = calloc(count, sizeof(float));
+        float *gradient = malloc(sizeof(float) * count), *derived = malloc(sizeof(float) * p.layout.derived_count);
+        float *scratch = malloc(sizeof(float) * p.layout.scratch_count);
+        for (size_t i = 0; i < count; i++) {
+            parameters[i] = (float)p.parameters[i];
+            largest = fmax(largest, fabs(p.gradient[i]));
+        }
+        double first_loss = 0.0;
+        for (int k = 0; k < 3; k++) {
+            const fit_kernel *kernel = kernel_number(k);
+            if (!kernel)
+                continue;
+            memset(gradient, 0, sizeof(float) * count);
+            kernel->derive(&p.layout, parameters, derived);
+            double loss = kernel->network(&p.layout, parameters, derived, &p.tile, 1, 0.4f, scratch, gradient);
+            if (k == 0) {
+                first_loss = loss;
+                memcpy(first, gradient, sizeof(float) * count);
+                assert_true(fabs(loss - wanted_loss) <= 1e-5 * wanted_loss);
+                for (size_t i = 0; i < count; i++)
+                    assert_true(fabs((double)gradient[i] - p.gradient[i]) <= 1e-4 * largest);
+            }
+            assert_true(loss == first_loss);
+            assert_memory_equal(gradient, first, sizeof(float) * count);
+        }
+        free(parameters);
+        free(first);
+        free(gradient);
+        free(derived);
+        free(scratch);
+        problem_free(&p);
+    }
+}
+
+/* Mirror-like roughness and eta near 1: every gradient stays finite. */
+static void gradients_stay_finite_at_the_limits(void **state)
+{
+    (void)state;
+    problem p;
+    problem_make(&p, HNBRDF_KIND_GGX, 0, 0, 0, 0, 0.0f);
+    static const float alphas[] = {1e-4f, 1e-2f, 1.0f}, above[] = {1e-3f, 0.5f, 999.0f};
+    for (int i = 0; i < 9; i++) {
+        float a[FIT_ANALYTIC] = {0.5f, 0.0f, 1.0f, logf(above[i % 3]), logf(above[i % 3]), logf(above[i % 3]),
+                                 logf(alphas[i / 3]), logf(alphas[(i / 3 + 1) % 3]), 1.0f};
+        float g[FIT_ANALYTIC] = {0};
+        for (int b = 0; b < FIT_TILE; b += 4) /* exact mirror pairs among them */
+            for (int c = 0; c < 3; c++)
+                p.wo[c * FIT_TILE + b] = c < 2 ? -p.wi[c * FIT_TILE + b] : p.wi[c * FIT_TILE + b];
+        double loss = fit_kernel_choose()->analytic(a, &p.tile, 0.5f, NULL, g);
+        assert_true(isfinite(loss));
+        for (int k = 0; k < FIT_ANALYTIC; k++)
+            assert_true(isfinite(g[k]));
+    }
+    problem_free(&p);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(gradient_matches_finite_differences),
+        cmocka_unit_test(clipped_value_is_pulled_up),
+        cmocka_unit_test(instruction_sets_agree_to_the_bit),
+        cmocka_unit_test(gradients_stay_finite_at_the_limits),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
