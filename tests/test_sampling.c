@@ -343,6 +343,25 @@ static void ends_of_u_give_finite_directions_and_densities(void **state)
     hnbrdf_model_free(model);
 }
 
+/* u[2] = 0 is the normal between n and wo (turned no farther from n than wo is): its reflection is above the
+ * horizon, so a refusal would mean that the radicand fell below 0. */
+static void smallest_u_is_never_refused(void **state)
+{
+    (void)state;
+    rng r = rng_make(50);
+    hnbrdf_model *model = random_model(&r, HNBRDF_KIND_GGX, HNBRDF_ENCODING_DIRECTIONS, 0, 0, 0);
+    for (int k = 0; k < 20000; k++) {
+        hnbrdf_material m = random_material(&r, 1);
+        const float u[3] = {0.0f, rng_float(&r), 0.0f};
+        hnbrdf_sample_result s;
+        float wo[3];
+        direction_uniform(&r, wo);
+        hnbrdf_sample(model, &m, wo, u, &s);
+        assert_true(s.pdf > 0.0f);
+    }
+    hnbrdf_model_free(model);
+}
+
 static void bad_numbers_give_a_result_that_can_be_used(void **state)
 {
     (void)state;
@@ -416,6 +435,7 @@ int main(void)
         cmocka_unit_test(neural_samples_follow_the_density_and_weights_are_unbiased),
         cmocka_unit_test(every_sample_keeps_the_promises_of_the_header),
         cmocka_unit_test(ends_of_u_give_finite_directions_and_densities),
+        cmocka_unit_test(smallest_u_is_never_refused),
         cmocka_unit_test(bad_numbers_give_a_result_that_can_be_used),
         cmocka_unit_test(density_is_zero_below_the_horizon),
         cmocka_unit_test(ggx_gains_no_energy),
