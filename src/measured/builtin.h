@@ -4,9 +4,11 @@
 #define HNBRDF_MEASURED_BUILTIN_H
 
 /* A film of index n and thickness in nm, seen from a medium of index outside_n, on a base of index
- * base_n - i base_k; all constant over the visible spectrum. */
+ * base_n - i base_k; all constant over the visible spectrum. Several such plates may lie in a pile,
+ * farther apart than light interferes. */
 typedef struct film_stack {
     double outside_n, n, thickness, base_n, base_k;
+    int plates;
 } film_stack;
 
 /* Its reflectance as linear RGB over the cosine of incidence: entry k at k / FILM_STEPS. */

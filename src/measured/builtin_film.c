@@ -46,7 +46,8 @@ static double complex boundary(double complex n0, double complex cos0, double co
     return (a - b) / (a + b);
 }
 
-static double airy(const film_stack *film, double c, double nm)
+/* Airy's sum for one plate; Stokes 1862 for a pile of them. */
+static double reflectance(const film_stack *film, double c, double nm)
 {
     double complex base = film->base_n - film->base_k * I;
     double sine = film->outside_n * sqrt(1.0 - c * c);
@@ -60,14 +61,15 @@ static double airy(const film_stack *film, double c, double nm)
         double amplitude = cabs((r01 + r12) / (1.0 + r01 * r12));
         sum += amplitude * amplitude;
     }
-    return sum / 2;
+    double plate = sum / 2;
+    return film->plates * plate / (1.0 + (film->plates - 1) * plate);
 }
 
 static void film_colour(const film_stack *film, double c, double rgb[3])
 {
     double xyz[3] = {0}, white[3] = {0}, grey[3], weight[3];
     for (int nm = FIRST_NM; nm <= LAST_NM; nm += STEP_NM) {
-        double reflected = airy(film, c, nm);
+        double reflected = reflectance(film, c, nm);
         cie_xyz(nm, weight);
         for (int i = 0; i < 3; i++) {
             xyz[i] += reflected * weight[i];

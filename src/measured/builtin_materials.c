@@ -16,8 +16,8 @@ static const double IRON_N[3] = {2.89, 2.95, 2.59}, IRON_K[3] = {3.35, 2.93, 2.7
 static const double CHROMIUM_N[3] = {3.11, 2.98, 2.08}, CHROMIUM_K[3] = {3.32, 3.33, 3.02};
 
 /* Titania on mica in a coat; the oxide of titanium on the metal, in air. */
-static const film_stack PEARL_FILM = {1.5, 2.4, 115.0, 1.58, 0.0};
-static const film_stack TITANIUM_FILM = {1.0, 2.4, 150.0, 2.7, 3.6};
+static const film_stack PEARL_FILM = {1.5, 2.4, 255.0, 1.58, 0.0, 4};
+static const film_stack TITANIUM_FILM = {1.0, 2.4, 178.0, 2.7, 3.6, 1};
 
 static void add(double f[3], double value, const double colour[3])
 {

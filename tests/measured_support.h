@@ -1,0 +1,51 @@
+/* measured_support.h: files in memory for the tests of measured data: tensor files made from formulas,
+ * and what every refusal must look like. */
+#ifndef MEASURED_SUPPORT_H
+#define MEASURED_SUPPORT_H
+
+#include "hnbrdf/measured.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+typedef struct test_bytes {
+    unsigned char *data;
+    size_t size;
+} test_bytes;
+
+void put_le(unsigned char *p, uint64_t value, int bytes);
+void put_float(unsigned char *p, float value);
+void put_double(unsigned char *p, double value);
+
+/* The parts of the phi_i circle that the synthetic RGL files of docs/FORMATS.md 6.2 cover. */
+typedef enum test_circle { TEST_ISOTROPIC, TEST_WHOLE, TEST_HALF, TEST_QUARTER } test_circle;
+
+/* A complete small RGL file; free() its data. */
+test_bytes test_rgl(test_circle circle);
+/* Offset of the record of a field, and of its type byte, offset, shape and data. */
+size_t test_record(const test_bytes *file, const char *field);
+size_t test_type_at(const test_bytes *file, const char *field);
+size_t test_offset_at(const test_bytes *file, const char *field);
+size_t test_shape_at(const test_bytes *file, const char *field, int axis);
+size_t test_data_at(const test_bytes *file, const char *field);
+
+/* Opening must fail with `result` and one line that names the file and holds `words`. */
+void expect_refusal(const void *data, size_t size, hnbrdf_result result, const char *words);
+hnbrdf_measured *expect_opens(const void *data, size_t size, const char *path);
+/* Any outcome but a crash: refused with a message, or opened with values that are finite and >= 0. */
+void expect_sane(const void *data, size_t size);
+
+/* f at spherical angles in radians. */
+int eval_angles(const hnbrdf_measured *measured, const double angles[4], float f[3]);
+/* The pair of directions at half and difference angles; 0 if one is below the horizon. */
+int pair_at(double theta_h, double theta_d, double phi_d, double phi_h, float wi[3], float wo[3]);
+
+#endif

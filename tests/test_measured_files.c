@@ -1,0 +1,264 @@
+/* test_measured_files.c: opening by path: names, limits, and files that are none. Files are written to
+ * the working directory and removed. */
+#include "measured_support.h"
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+static char folder[] = "measured-XXXXXX";
+
+static int set_up(void **state)
+{
+    (void)state;
+    return mkdtemp(folder) ? 0 : -1;
+}
+
+static int tear_down(void **state)
+{
+    (void)state;
+    return rmdir(folder);
+}
+
+static void in_folder(char path[512], const char *name)
+{
+    snprintf(path, 512, "%s/%s", folder, name);
+}
+
+static void write_file(const char *path, const void *data, size_t size)
+{
+    FILE *file = fopen(path, "wb");
+    assert_non_null(file);
+    assert_int_equal(fwrite(data, 1, size, file), size);
+    assert_int_equal(fclose(file), 0);
+}
+
+static void expect_open_fails(const char *path, const hnbrdf_measured_options *options,
+                              hnbrdf_result result, const char *words)
+{
+    hnbrdf_error error = {""};
+    hnbrdf_measured *measured = NULL;
+    assert_int_equal(hnbrdf_measured_open(path, options, &measured, &error), result);
+    assert_null(measured);
+    if (!strstr(error.text, path) || !strstr(error.text, words) || strchr(error.text, '\n'))
+        fail_msg("expected one line with %s and \"%s\": %s", path, words, error.text);
+}
+
+static void a_file_and_its_bytes_give_the_same_values(void **state)
+{
+    test_bytes file = test_rgl(TEST_ISOTROPIC);
+    char path[512];
+    float f[3], g[3];
+    (void)state;
+    in_folder(path, "some.material_rgb.bsdf");
+    write_file(path, file.data, file.size);
+    hnbrdf_measured *from_file = NULL, *from_bytes = expect_opens(file.data, file.size, path);
+    assert_int_equal(hnbrdf_measured_open(path, NULL, &from_file, NULL), HNBRDF_OK);
+    assert_string_equal(hnbrdf_measured_name(from_file), "some.material");
+    assert_string_equal(hnbrdf_measured_name(from_bytes), "some.material");
+    assert_int_equal(hnbrdf_measured_format_of(from_file), HNBRDF_MEASURED_RGL);
+    eval_angles(from_file, (double[4]){0.4, 1, 0.8, 2}, f);
+    eval_angles(from_bytes, (double[4]){0.4, 1, 0.8, 2}, g);
+    assert_memory_equal(f, g, sizeof f);
+    hnbrdf_measured_close(from_file);
+    hnbrdf_measured_close(from_bytes);
+    remove(path);
+    free(file.data);
+}
+
+static void missing_empty_and_foreign_files_are_refused(void **state)
+{
+    char path[512];
+    (void)state;
+    in_folder(path, "none.bsdf");
+    expect_open_fails(path, NULL, HNBRDF_ERROR_IO, "cannot be opened");
+    expect_open_fails(folder, NULL, HNBRDF_ERROR_IO, "expected a regular file");
+    write_file(path, "", 0);
+    expect_open_fails(path, NULL, HNBRDF_ERROR_FORMAT, "empty, expected an RGL .bsdf");
+    write_file(path, "%PDF-1.7 is not a material", 26);
+    expect_open_fails(path, NULL, HNBRDF_ERROR_FORMAT, "26 bytes starting with 25 50 44 46");
+    remove(path);
+}
+
+static void files_above_the_limit_are_refused_at_the_limit(void **state)
+{
+    test_bytes file = test_rgl(TEST_ISOTROPIC);
+    hnbrdf_measured_options options = {file.size - 1};
+    hnbrdf_measured *measured = NULL;
+    char path[512];
+    (void)state;
+    in_folder(path, "large.bsdf");
+    write_file(path, file.data, file.size);
+    expect_open_fails(path, &options, HNBRDF_ERROR_LIMIT, "limit of");
+    assert_int_equal(hnbrdf_measured_open_memory(file.data, file.size, "x", &options, &measured, NULL),
+                     HNBRDF_ERROR_LIMIT);
+    options.max_bytes = file.size;
+    assert_int_equal(hnbrdf_measured_open(path, &options, &measured, NULL), HNBRDF_OK);
+    hnbrdf_measured_close(measured);
+    remove(path);
+    free(file.data);
+}
+
+/* A sparse file of 2 GiB: refused after the limit, not after reading it all. */
+static void a_huge_file_is_refused_without_reading_it_all(void **state)
+{
+    hnbrdf_measured_options options = {3u << 20};
+    char path[512];
+    (void)state;
+    in_folder(path, "huge.binary");
+    write_file(path, "", 0);
+    assert_int_equal(truncate(path, (off_t)1 << 31), 0);
+    expect_open_fails(path, &options, HNBRDF_ERROR_LIMIT, "larger than the limit of 3145728 bytes");
+    remove(path);
+}
+
+/* Larger than the first chunk that is read: the buffer has to grow. */
+static void files_of_several_chunks_are_read_whole(void **state)
+{
+    static unsigned char zeros[(3 << 20) + 5];
+    char path[512], words[64];
+    (void)state;
+    in_folder(path, "zeros.binary");
+    for (size_t size = (1u << 20) - 1; size <= sizeof zeros;
+         size += size < (1u << 20) + 1 ? 1 : 1u << 20) {
+        snprintf(words, sizeof words, "%zu bytes starting with 00 00", size);
+        write_file(path, zeros, size);
+        expect_open_fails(path, NULL, HNBRDF_ERROR_FORMAT, words);
+    }
+    remove(path);
+}
+
+static void names_come_from_the_file_name(void **state)
+{
+    static const char *const names[][2] = {
+        {"gold.binary", "gold"},
+        {"a/b.c/chm_mint_rgb.bsdf", "chm_mint"},
+        {"/x/no_extension", "no_extension"},
+        {"a/.bsdf", ".bsdf"},
+        {"_rgb.bsdf", "_rgb.bsdf"},
+        {"two.dots_rgb.bsdf", "two.dots"},
+        {"rgb.bsdf", "rgb"},
+        {"", "unnamed"},
+        {"a/", "unnamed"},
+        {"line\nfeed\x7f.bsdf", "line_feed_"},
+        {"gr\xc3\xbcn.bsdf", "gr\xc3\xbcn"},
+        {"bad\xff\xc3.bsdf", "bad__"},
+        {"overlong\xc0\xaf\xed\xa0\x80.bsdf", "overlong_____"},
+    };
+    test_bytes file = test_rgl(TEST_ISOTROPIC);
+    (void)state;
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
+        hnbrdf_measured *measured = expect_opens(file.data, file.size, names[i][0]);
+        assert_string_equal(hnbrdf_measured_name(measured), names[i][1]);
+        hnbrdf_measured_close(measured);
+    }
+    free(file.data);
+}
+
+static void long_names_are_cut_at_a_character(void **state)
+{
+    test_bytes file = test_rgl(TEST_ISOTROPIC);
+    char path[600];
+    (void)state;
+    for (size_t i = 0; i < 500; i += 2)
+        memcpy(path + i, "\xc3\xbc", 2);
+    memcpy(path + 500, ".bsdf", 6);
+    hnbrdf_measured *measured = expect_opens(file.data, file.size, path);
+    assert_int_equal(strlen(hnbrdf_measured_name(measured)), HNBRDF_MAX_NAME - 1);
+    hnbrdf_measured_close(measured);
+    free(file.data);
+}
+
+/* The path loses its beginning, never the message what was found and expected. */
+static void long_paths_leave_room_for_the_message(void **state)
+{
+    char path[2000];
+    hnbrdf_error error;
+    hnbrdf_measured *measured = NULL;
+    (void)state;
+    memset(path, 'a', sizeof path);
+    memcpy(path + sizeof path - 11, "/last.bsdf", 11);
+    assert_int_equal(hnbrdf_measured_open_memory("123456789012", 12, path, NULL, &measured, &error),
+                     HNBRDF_ERROR_FORMAT);
+    assert_non_null(strstr(error.text, "aaa/last.bsdf: 12 bytes starting with"));
+    assert_non_null(strstr(error.text, "90 90 180)"));
+}
+
+static void wrong_arguments_are_refused(void **state)
+{
+    hnbrdf_measured *measured = NULL;
+    hnbrdf_error error = {""};
+    (void)state;
+    assert_int_equal(hnbrdf_measured_open(NULL, NULL, &measured, &error), HNBRDF_ERROR_ARGUMENT);
+    assert_int_equal(hnbrdf_measured_open("x", NULL, NULL, &error), HNBRDF_ERROR_ARGUMENT);
+    assert_int_equal(hnbrdf_measured_open_memory(NULL, 1, "x", NULL, &measured, &error),
+                     HNBRDF_ERROR_ARGUMENT);
+    assert_int_equal(hnbrdf_measured_open_memory(NULL, 0, "x", NULL, &measured, &error),
+                     HNBRDF_ERROR_FORMAT);
+    assert_int_equal(hnbrdf_measured_open_builtin(-1, &measured, &error), HNBRDF_ERROR_ARGUMENT);
+    assert_int_equal(hnbrdf_measured_open_builtin(1000, &measured, &error), HNBRDF_ERROR_ARGUMENT);
+    assert_int_equal(hnbrdf_measured_open_builtin(0, NULL, &error), HNBRDF_ERROR_ARGUMENT);
+    assert_null(measured);
+    hnbrdf_measured_close(NULL);
+    assert_null(hnbrdf_measured_format_name((hnbrdf_measured_format)9));
+}
+
+static void directions_below_the_horizon_or_not_finite_are_no_measurement(void **state)
+{
+    static const float bad[][3] = {{0, 0, -1},  {1, 0, 0},        {0, 0, 0},        {0, 0, NAN},
+                                   {NAN, 0, 1}, {0, INFINITY, 1}, {0, 0, INFINITY}, {0.6f, 0, -0.0f}};
+    const float good[3] = {0, 0, 1};
+    test_bytes file = test_rgl(TEST_WHOLE);
+    hnbrdf_measured *items[2] = {expect_opens(file.data, file.size, "x"), NULL};
+    (void)state;
+    assert_int_equal(hnbrdf_measured_open_builtin(0, &items[1], NULL), HNBRDF_OK);
+    for (size_t i = 0; i < 2 * sizeof bad / sizeof bad[0]; i++) {
+        float f[3] = {1, 1, 1}, g[3] = {1, 1, 1};
+        assert_int_equal(hnbrdf_measured_eval(items[i % 2], bad[i / 2], good, f), 0);
+        assert_int_equal(hnbrdf_measured_eval(items[i % 2], good, bad[i / 2], g), 0);
+        assert_true(f[0] == 0.0f && f[1] == 0.0f && f[2] == 0.0f);
+        assert_true(g[0] == 0.0f && g[1] == 0.0f && g[2] == 0.0f);
+    }
+    hnbrdf_measured_close(items[0]);
+    hnbrdf_measured_close(items[1]);
+    free(file.data);
+}
+
+/* Lengths are divided out: rounding of the product is all that differs. */
+static void the_length_of_directions_does_not_matter(void **state)
+{
+    const float wi[3] = {0.3f, 0.2f, 0.9f}, wo[3] = {-0.5f, 0.1f, 0.6f};
+    test_bytes file = test_rgl(TEST_WHOLE);
+    hnbrdf_measured *measured = expect_opens(file.data, file.size, "x");
+    (void)state;
+    for (float scale = 1e-30f; scale < 1e30f; scale *= 1024.0f) {
+        float a[3], b[3], f[3], g[3];
+        for (int i = 0; i < 3; i++) {
+            a[i] = wi[i] * scale;
+            b[i] = wo[i] / scale;
+        }
+        assert_int_equal(hnbrdf_measured_eval(measured, wi, wo, f), 1);
+        assert_int_equal(hnbrdf_measured_eval(measured, a, b, g), 1);
+        for (int c = 0; c < 3; c++)
+            assert_true(fabs((double)f[c] - (double)g[c]) < 1e-5 * (double)f[c]);
+    }
+    hnbrdf_measured_close(measured);
+    free(file.data);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_file_and_its_bytes_give_the_same_values),
+        cmocka_unit_test(missing_empty_and_foreign_files_are_refused),
+        cmocka_unit_test(files_above_the_limit_are_refused_at_the_limit),
+        cmocka_unit_test(a_huge_file_is_refused_without_reading_it_all),
+        cmocka_unit_test(files_of_several_chunks_are_read_whole),
+        cmocka_unit_test(names_come_from_the_file_name),
+        cmocka_unit_test(long_names_are_cut_at_a_character),
+        cmocka_unit_test(long_paths_leave_room_for_the_message),
+        cmocka_unit_test(wrong_arguments_are_refused),
+        cmocka_unit_test(directions_below_the_horizon_or_not_finite_are_no_measurement),
+        cmocka_unit_test(the_length_of_directions_does_not_matter),
+    };
+    return cmocka_run_group_tests(tests, set_up, tear_down);
+}
