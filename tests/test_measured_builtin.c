@@ -111,7 +111,8 @@ static void directional_albedo(const hnbrdf_measured *measured, double theta, do
         }
 }
 
-/* Doubling the quadrature moves no albedo by more than 0.004; the largest is 0.87. */
+/* Against a 16 times finer quadrature these albedos are off by less than 0.001, for retro-tape (whose
+ * lobe is not around n) by 0.04; the largest is 0.87. */
 static void no_material_reflects_more_than_arrives(void **state)
 {
     static const double degrees[] = {0, 30, 60, 75, 85, 89};
@@ -220,60 +221,123 @@ static void draw_samples(const hnbrdf_measured *measured, double tangent, sample
     }
 }
 
-/* The best SMAPE of kd/pi + F D G / (4 wi.z wo.z) in one channel, over kd and eta, for given lobes. */
-static double best_of_channel(const samples *s, int channel, const double lobe[PAIRS])
+/* Lambert plus one GGX lobe, channel by channel: x = (ln(eta - 1), sqrt(kd)). */
+typedef struct fit {
+    const samples *s;
+    int channel;
+    double lobe[PAIRS];
+} fit;
+
+static double smape_of_channel(const double x[2], void *context)
 {
-    double best = 2.0;
-    for (int e = 0; e < ETAS; e++) {
-        double eta = 1.0 + 0.1 * pow(1.9, e), specular[PAIRS]; /* 1.1 to 33 */
-        for (int k = 0; k < PAIRS; k++)
-            specular[k] = fresnel_dielectric(eta, s->pairs[k].c) * lobe[k];
-        for (int d = 0; d < KDS; d++) {
-            double kd = d * d / (double)((KDS - 1) * (KDS - 1)), sum = 0.0;
-            for (int k = 0; k < PAIRS; k++) {
-                double f = kd / PI + specular[k], reference = (double)s->f[k][channel];
-                sum += fabs(f - reference) / (f + reference);
-            }
-            best = fmin(best, 2 * sum / PAIRS);
+    const fit *t = context;
+    double eta = 1.0 + exp(x[0]), diffuse = fmin(x[1] * x[1], 1.0) / PI, sum = 0.0;
+    for (int k = 0; k < PAIRS; k++) {
+        double f = diffuse + fresnel_dielectric(eta, t->s->pairs[k].c) * t->lobe[k];
+        double reference = (double)t->s->f[k][t->channel];
+        sum += fabs(f - reference) / (f + reference);
+    }
+    return 2 * sum / PAIRS;
+}
+
+/* Pattern search: steps along each axis while that helps, then half the step. */
+static double descend(double *x, int n, const double *steps, double (*cost)(const double *, void *),
+                      void *context)
+{
+    double best = cost(x, context);
+    for (double scale = 1.0; scale > 0.002;) {
+        int better = 0;
+        for (int axis = 0; axis < 2 * n; axis++) {
+            double old = x[axis / 2];
+            x[axis / 2] += (axis % 2 ? -scale : scale) * steps[axis / 2];
+            double found = cost(x, context);
+            better |= found < best;
+            if (found < best)
+                best = found;
+            else
+                x[axis / 2] = old;
         }
+        if (!better)
+            scale /= 2;
     }
     return best;
 }
 
-static double best_single_lobe(const samples *s, int isotropic)
+static double best_of_channel(fit *t)
 {
-    double best = 2.0;
-    for (int x = 0; x < ALPHAS; x++)
-        for (int y = isotropic ? x : 0; y < (isotropic ? x + 1 : ALPHAS); y++) {
-            double ax = 0.004 * pow(1.65, x), ay = 0.004 * pow(1.65, y), lobe[PAIRS],
-                   sum = 0.0; /* to 0.98 */
-            for (int k = 0; k < PAIRS; k++)
-                lobe[k] = ggx(&s->pairs[k], ax, ay);
-            for (int c = 0; c < 3; c++)
-                sum += best_of_channel(s, c, lobe);
-            best = fmin(best, sum / 3);
+    const double steps[2] = {0.32, 0.055};
+    double best = 2.0, at[2] = {0.0, 0.0};
+    for (int e = 0; e < ETAS; e++)
+        for (int d = 0; d < KDS; d++) {
+            const double x[2] = {log(0.1) + 0.64 * e, d / (double)(KDS - 1)}; /* eta from 1.1 to 33 */
+            double found = smape_of_channel(x, t);
+            if (found < best) {
+                best = found;
+                memcpy(at, x, sizeof at);
+            }
         }
-    return best;
+    return descend(at, 2, steps, smape_of_channel, t);
 }
 
-/* The yardstick works: a material of one lobe on the search grid is found with (almost) no error. */
-static void the_search_finds_a_single_lobe(void **state)
+/* x = ln alpha, or (ln alpha_x, ln alpha_y): the mean of the best of each channel. */
+typedef struct lobe_search {
+    const samples *s;
+    int isotropic;
+} lobe_search;
+
+static double smape_of_lobe(const double *x, void *context)
+{
+    const lobe_search *search = context;
+    fit t = {.s = search->s};
+    double sum = 0.0, ax = exp(fmin(x[0], 0.0)), ay = search->isotropic ? ax : exp(fmin(x[1], 0.0));
+    for (int k = 0; k < PAIRS; k++)
+        t.lobe[k] = ggx(&t.s->pairs[k], ax, ay);
+    for (t.channel = 0; t.channel < 3; t.channel++)
+        sum += best_of_channel(&t);
+    return sum / 3;
+}
+
+static double best_single_lobe(const samples *s, int isotropic)
+{
+    lobe_search search = {s, isotropic};
+    const double steps[2] = {0.25, 0.25};
+    double best = 2.0, at[2] = {0.0, 0.0};
+    for (int i = 0; i < ALPHAS; i++)
+        for (int j = 0; j < (isotropic ? 1 : ALPHAS); j++) {
+            const double x[2] = {log(0.004) + 0.5 * i, log(0.004) + 0.5 * j}; /* to 0.98 */
+            double found = smape_of_lobe(x, &search);
+            if (found < best) {
+                best = found;
+                memcpy(at, x, sizeof at);
+            }
+        }
+    return descend(at, isotropic ? 1 : 2, steps, smape_of_lobe, &search);
+}
+
+/* The yardstick works: materials that are one lobe, of any width, are found to about a per cent. */
+static void the_search_finds_single_lobes(void **state)
 {
     static samples s;
+    static const double lobes[][3] = {
+        {0.011, 1.3, 0.01}, {0.03, 1.9, 0.2}, {0.09, 1.5, 0.4}, {0.3, 2.7, 0.05}, {0.7, 1.4, 0.7}};
     hnbrdf_measured *measured = open_builtin(0);
     (void)state;
     draw_samples(measured, 0.0, &s);
-    for (int k = 0; k < PAIRS; k++)
-        for (int c = 0; c < 3; c++)
-            s.f[k][c] = (float)(16.0 / 81.0 / PI +
-                                fresnel_dielectric(1.361, s.pairs[k].c) *
-                                    ggx(&s.pairs[k], 0.004 * pow(1.65, 8), 0.004 * pow(1.65, 8)));
-    assert_true(best_single_lobe(&s, 1) < 1e-6);
     hnbrdf_measured_close(measured);
+    for (size_t i = 0; i < sizeof lobes / sizeof lobes[0]; i++) {
+        for (int k = 0; k < PAIRS; k++) {
+            double specular = fresnel_dielectric(lobes[i][1], s.pairs[k].c);
+            double f = lobes[i][2] / PI + specular * ggx(&s.pairs[k], lobes[i][0], lobes[i][0]);
+            s.f[k][0] = s.f[k][1] = s.f[k][2] = (float)f;
+        }
+        double smape = best_single_lobe(&s, 1);
+        if (smape > 0.015)
+            fail_msg("alpha %.3f: found only to %.3f", lobes[i][0], smape);
+    }
 }
 
-/* Lambert plus one GGX lobe with the best parameters of a grid, each channel with its own kd and eta,
- * stays at least 0.08 SMAPE away; the grid's own coarseness is worth about half of that. */
+/* Lambert plus one GGX lobe, each channel with the kd and eta that suit it best, stays away from every
+ * material by far more than the search itself misses. */
 static void no_single_lobe_follows_any_of_them(void **state)
 {
     static samples s;
@@ -284,7 +348,7 @@ static void no_single_lobe_follows_any_of_them(void **state)
         draw_samples(measured, strcmp(name, "brushed-steel") == 0 ? PI / 6 : 0.0, &s);
         double smape = best_single_lobe(&s, hnbrdf_measured_is_isotropic(measured));
         print_message("    %-24s %.3f\n", name, smape);
-        assert_true(smape > 0.08);
+        assert_true(smape > 0.1);
         hnbrdf_measured_close(measured);
     }
 }
@@ -298,7 +362,7 @@ int main(void)
         cmocka_unit_test(no_material_reflects_more_than_arrives),
         cmocka_unit_test(isotropic_materials_and_no_others_ignore_a_turn),
         cmocka_unit_test(some_materials_hold_exact_zeros),
-        cmocka_unit_test(the_search_finds_a_single_lobe),
+        cmocka_unit_test(the_search_finds_single_lobes),
         cmocka_unit_test(no_single_lobe_follows_any_of_them),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
