@@ -1,0 +1,36 @@
+/* verify_report.h: what `hnbrdf verify` found, for people and for programs. */
+#ifndef HNBRDF_CLI_VERIFY_REPORT_H
+#define HNBRDF_CLI_VERIFY_REPORT_H
+
+#include "gpu/verify.h"
+
+#include <stdio.h>
+
+/* One device that was tried; failed holds why it could not be run, or is empty. */
+typedef struct verified_device {
+    int index;
+    const char *name, *kind, *driver;
+    hnbrdf_error failed;
+    gpu_report report;
+} verified_device;
+
+typedef struct verification {
+    const char *path; /* of the model */
+    const hnbrdf_model *model;
+    const int *materials;
+    int material_count;
+    size_t pairs;
+    int validated, messages; /* of the validation layer */
+    verified_device *devices;
+    int device_count;
+} verification;
+
+/* 1 if every device is within its bounds and the validation layer said nothing. */
+int verification_passed(const verification *v);
+
+void verification_print(const verification *v, FILE *file);
+/* One row a device, material, build and stage. */
+void verification_write_csv(const verification *v, FILE *file);
+void verification_write_json(const verification *v, FILE *file);
+
+#endif

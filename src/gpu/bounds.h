@@ -1,0 +1,27 @@
+/* bounds.h: how far a device may be from C, derived pair by pair (running forward error analysis). */
+#ifndef HNBRDF_GPU_BOUNDS_H
+#define HNBRDF_GPU_BOUNDS_H
+
+#include "core/network.h"
+#include "gpu/probe.h"
+
+/* A number as C computes it, and a bound on |device - C|; infinite where nothing is promised. */
+typedef struct gpu_tracked {
+    float v;
+    double e;
+} gpu_tracked;
+
+/* One evaluation, stage by stage. `fed` is the network with the inputs that C encoded. */
+typedef struct gpu_bounds {
+    gpu_tracked encoding[HNBRDF_ENCODING_SIZE];
+    gpu_tracked fed[HNBRDF_MAX_OUTPUTS];
+    gpu_tracked analytic[3];
+    gpu_tracked value[3];
+} gpu_bounds;
+
+/* Directions above the horizon; the values v are, bit by bit, those of the C library. Entries that the
+ * kind of model does not have are 0. */
+void gpu_bounds_make(const gpu_rules *rules, const hnbrdf_model_desc *desc, const hnbrdf_material *material,
+                     const float wi[3], const float wo[3], gpu_bounds *bounds);
+
+#endif
