@@ -4,13 +4,14 @@ set(HNBRDF_TOOL_SOURCES
   src/cli/progress.c
   src/cli/cmd_fit.c src/cli/cmd_eval.c src/cli/cmd_compare.c src/cli/cmd_export.c
   src/cli/cmd_verify.c src/cli/cmd_render.c src/cli/cmd_sheet.c src/cli/cmd_import.c
-  src/cli/cmd_info.c)
+  src/cli/cmd_info.c src/cli/picture.c)
 
 # The renderer is a library only so that its tests need not compile it again; it is not installed.
 add_library(hnbrdf_render STATIC EXCLUDE_FROM_ALL
   src/render/image.c src/render/exr.c src/render/radiance.c src/render/png.c
-  src/render/environment.c src/render/sky.c src/render/surface.c src/render/shade.c
-  src/render/sphere.c src/render/backdrop.c src/render/label.c src/render/glyphs.c)
+  src/render/environment.c src/render/sky.c src/render/surface.c src/render/guide.c src/render/shade.c
+  src/render/sphere.c src/render/backdrop.c src/render/label.c src/render/glyphs.c
+  src/render/sheet.c)
 target_link_libraries(hnbrdf_render PRIVATE hnbrdf_flags PUBLIC hnbrdf_measured_static Threads::Threads)
 target_include_directories(hnbrdf_render SYSTEM PRIVATE ${STB_INCLUDE_DIR})
 target_compile_definitions(hnbrdf_render PRIVATE _POSIX_C_SOURCE=200809L)
@@ -25,7 +26,24 @@ target_link_libraries(hnbrdf_cli PRIVATE hnbrdf_flags hnbrdf_render hnbrdf_fit_s
   hnbrdf_metrics_static)
 target_compile_definitions(hnbrdf_cli PRIVATE _POSIX_C_SOURCE=200809L)
 if(HNBRDF_WITH_VULKAN)
-  target_sources(hnbrdf_cli PRIVATE src/gpu/device.c src/gpu/compile.c src/gpu/compute.c src/gpu/verify.c)
+  # What the harness compiles, as texts named hnbrdf_ and the file's name with _ for the dot.
+  set(HNBRDF_SHADER_TEXTS "")
+  foreach(shader verify.comp probe.comp)
+    string(REPLACE "." "_" symbol ${shader})
+    set(text ${CMAKE_CURRENT_BINARY_DIR}/generated/${symbol}.c)
+    add_custom_command(OUTPUT ${text}
+      COMMAND ${CMAKE_COMMAND} -DINPUT=${CMAKE_CURRENT_SOURCE_DIR}/shaders/${shader} -DOUTPUT=${text}
+              -DNAME=hnbrdf_${symbol} -P ${CMAKE_CURRENT_SOURCE_DIR}/src/embed.cmake
+      DEPENDS shaders/${shader} src/embed.cmake VERBATIM)
+    list(APPEND HNBRDF_SHADER_TEXTS ${text})
+  endforeach()
+  # A library only so that its tests need not compile it again; it is not installed.
+  add_library(hnbrdf_gpu STATIC EXCLUDE_FROM_ALL
+    src/gpu/device.c src/gpu/compile.c src/gpu/compute.c src/gpu/probe.c src/gpu/pairs.c
+    src/gpu/bounds.c src/gpu/reference.c src/gpu/verify.c ${HNBRDF_SHADER_TEXTS})
+  target_link_libraries(hnbrdf_gpu PRIVATE hnbrdf_flags PUBLIC hnbrdf_measured_static Vulkan::Vulkan)
+  target_compile_definitions(hnbrdf_gpu PRIVATE _POSIX_C_SOURCE=200809L)
+  target_sources(hnbrdf_cli PRIVATE src/cli/verify_report.c)
   target_compile_definitions(hnbrdf_cli PRIVATE HNBRDF_WITH_VULKAN)
-  target_link_libraries(hnbrdf_cli PRIVATE Vulkan::Vulkan)
+  target_link_libraries(hnbrdf_cli PRIVATE hnbrdf_gpu)
 endif()

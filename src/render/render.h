@@ -5,40 +5,57 @@
 #include "hnbrdf/measured.h"
 #include "render/environment.h"
 
-/* ---- Surfaces: what is put on the sphere
- * ------------------------------------------------------------- Three functions with the conventions of
- * hnbrdf.h. sample() and pdf() must agree, and must cover every direction in which eval() is not 0; how
- * closely they follow eval() only changes the noise. */
+/* ---- Surfaces: what is put on the sphere ------------------------------------------------------------
+ */
+
+/* Where to look for light: a mixture of GGX densities (hnbrdf_pdf() of a GGX model), each about the
+ * mirror direction or, for retroreflection, about the view. Any guide gives the right picture; one that
+ * follows f wi.z gives it with little noise. */
+enum { RENDER_LOBES = 5 };
+typedef struct render_guide {
+    const hnbrdf_model *model; /* of kind GGX; borrowed */
+    int count;
+    struct {
+        hnbrdf_material material;
+        int retro;
+        float share; /* of the samples; all of them sum to 1 */
+    } lobes[RENDER_LOBES];
+} render_guide;
+
+/* Three functions with the conventions of hnbrdf.h. sample() and pdf() must agree and must cover every
+ * direction in which eval() is not 0. */
 typedef struct render_surface {
     /* f for count pairs; wi, wo and f are packed [count][3] and do not overlap. */
     void (*eval)(const struct render_surface *surface, size_t count, const float *wi, const float *wo,
                  float *f);
-    void (*sample)(const struct render_surface *surface, const float wo[3], const float u[3],
-                   hnbrdf_sample_result *result);
+    /* Draws wi; returns its density, 0 for none. u is three numbers in [0, 1). */
+    float (*sample)(const struct render_surface *surface, const float wo[3], const float u[3],
+                    float wi[3]);
     float (*pdf)(const struct render_surface *surface, const float wi[3], const float wo[3]);
 
-    /* What those below use; borrowed, must outlive the surface. Other surfaces may leave them NULL. */
+    /* What those below use; models and measurements are borrowed. Other surfaces leave them zero. */
     const hnbrdf_model *model;
     hnbrdf_material material;
     const hnbrdf_measured *measured;
-    /* A model whose hnbrdf_sample() and hnbrdf_pdf() choose directions in place of the surface's own.
-     */
-    const hnbrdf_model *guide;
-    hnbrdf_material guide_material;
+    render_guide guide;
 } render_surface;
 
-/* hnbrdf_eval(), hnbrdf_sample(), hnbrdf_pdf(). */
+/* hnbrdf_eval(), and hnbrdf_sample() and hnbrdf_pdf() until it is given a guide. */
 render_surface render_surface_model(const hnbrdf_model *model, const hnbrdf_material *material);
-/* hnbrdf_eval_analytic(), directions from the same material's density. */
+/* hnbrdf_eval_analytic(); likewise. */
 render_surface render_surface_analytic(const hnbrdf_model *model, const hnbrdf_material *material);
-/* hnbrdf_measured_eval(), invalid measurements count as black; directions from the guide. */
-render_surface render_surface_measured(const hnbrdf_measured *measured, const hnbrdf_model *guide,
-                                       const hnbrdf_material *guide_material);
+/* hnbrdf_measured_eval(), invalid measurements count as black. Must be given a guide. */
+render_surface render_surface_measured(const hnbrdf_measured *measured);
 
-/* A GGX model with a few materials of different roughness to guide with, and the one of them that
- * samples this surface's eval() with the least variance: an estimate with a fixed seed. */
-hnbrdf_result render_guide_create(hnbrdf_model **guide, hnbrdf_error *error);
-void render_guide_choose(render_surface *surface, const hnbrdf_model *guide);
+/* Lets a guide choose the directions. Surfaces with the same guide share their random directions, so
+ * that what differs between their pictures is hardly noise. */
+void render_surface_guide(render_surface *surface, const render_guide *guide);
+/* A GGX model for guides to borrow. */
+hnbrdf_result render_guide_model(hnbrdf_model **model, hnbrdf_error *error);
+/* The mixture, out of lobes of many widths and shapes, that follows the surface's eval() most closely:
+ * fitted by expectation maximisation to a few thousand values, always the same ones. A surface that
+ * reflects nothing gets a cosine lobe. */
+render_guide render_guide_fit(const render_surface *surface, const hnbrdf_model *model);
 
 /* ---- The estimator ----------------------------------------------------------------------------------
  */

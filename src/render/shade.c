@@ -89,54 +89,61 @@ static void to_world(const render_point *point, const float local[3], float worl
 /* ---- The estimator
  * ----------------------------------------------------------------------------------- */
 
-/* Light samples of a block wait here for one batch of evaluations; factor is radiance wi.z / density.
+/* Samples of a block wait here for one batch of evaluations: factor is radiance wi.z weight / density.
  */
-typedef struct light_batch {
-    float wi[RENDER_BLOCK][3], wo[RENDER_BLOCK][3], f[RENDER_BLOCK][3];
-    double factor[RENDER_BLOCK][3];
+typedef struct sample_batch {
+    float wi[2 * RENDER_BLOCK][3], wo[2 * RENDER_BLOCK][3], f[2 * RENDER_BLOCK][3];
+    double factor[2 * RENDER_BLOCK][3];
     size_t count;
-} light_batch;
+} sample_batch;
 
-static void add_light_sample(const render_surface *surface, const render_environment *environment,
-                             render_strategy strategy, const uint32_t u[2], const render_point *point,
-                             light_batch *batch)
+/* With the balance heuristic weight / density is 1 over the sum of both densities, whichever drew it.
+ */
+static void add_sample(sample_batch *batch, const float wi[3], const float wo[3],
+                       const float radiance[3], double density)
 {
-    float world[3], radiance[3];
-    double place[2] = {u[0] * 0x1p-32, u[1] * 0x1p-32};
-    double density = render_environment_sample(environment, place, world, radiance);
-    float *wi = batch->wi[batch->count];
-    to_local(point, world, wi);
     if (!(wi[2] > 0.0f))
         return;
-    if (strategy == RENDER_MIS)
-        density += (double)surface->pdf(surface, wi, point->wo);
+    memcpy(batch->wi[batch->count], wi, sizeof batch->wi[0]);
+    memcpy(batch->wo[batch->count], wo, sizeof batch->wo[0]);
     for (int k = 0; k < 3; k++)
         batch->factor[batch->count][k] = (double)radiance[k] * (double)wi[2] / density;
-    memcpy(batch->wo[batch->count], point->wo, sizeof point->wo);
     batch->count++;
 }
 
-static void add_brdf_sample(const render_surface *surface, const render_environment *environment,
-                            render_strategy strategy, const uint32_t u[2], uint32_t lobe,
-                            const render_point *point, double sum[3])
+static void sample_light(const render_surface *surface, const render_environment *environment,
+                         render_strategy strategy, const uint32_t u[2], const render_point *point,
+                         sample_batch *batch)
 {
-    float numbers[3] = {unit_float(lobe), unit_float(u[0]), unit_float(u[1])}, world[3], radiance[3];
-    hnbrdf_sample_result drawn;
-    surface->sample(surface, point->wo, numbers, &drawn);
-    if (!(drawn.pdf > 0.0f))
+    float world[3], wi[3], radiance[3];
+    double place[2] = {u[0] * 0x1p-32, u[1] * 0x1p-32};
+    double density = render_environment_sample(environment, place, world, radiance);
+    to_local(point, world, wi);
+    if (strategy == RENDER_MIS)
+        density += (double)surface->pdf(surface, wi, point->wo);
+    add_sample(batch, wi, point->wo, radiance, density);
+}
+
+static void sample_brdf(const render_surface *surface, const render_environment *environment,
+                        render_strategy strategy, const uint32_t u[2], uint32_t lobe,
+                        const render_point *point, sample_batch *batch)
+{
+    float numbers[3] = {unit_float(lobe), unit_float(u[0]), unit_float(u[1])};
+    float world[3], wi[3], radiance[3];
+    float drawn = surface->sample(surface, point->wo, numbers, wi);
+    if (!(drawn > 0.0f))
         return;
-    to_world(point, drawn.wi, world);
+    to_world(point, wi, world);
     double density = render_environment_lookup(environment, world, radiance);
-    double weight = strategy == RENDER_MIS ? (double)drawn.pdf / ((double)drawn.pdf + density) : 1.0;
-    for (int k = 0; k < 3; k++)
-        sum[k] += weight * (double)drawn.weight[k] * (double)radiance[k];
+    add_sample(batch, wi, point->wo, radiance,
+               strategy == RENDER_MIS ? density + (double)drawn : (double)drawn);
 }
 
 void render_shade(const render_surface *surface, const render_environment *environment,
                   render_strategy strategy, const render_stream *stream, uint32_t first,
                   const render_point *points, int count, double sum[3])
 {
-    light_batch batch;
+    sample_batch batch;
     batch.count = 0;
     for (int i = 0; i < count; i++) {
         if (!(points[i].wo[2] > 0.0f))
@@ -144,12 +151,12 @@ void render_shade(const render_surface *surface, const render_environment *envir
         uint32_t u[2], lobe[2], index = first + (uint32_t)i;
         if (strategy != RENDER_BRDF) {
             render_stream_pair(stream, RENDER_PAIR_LIGHT, index, u);
-            add_light_sample(surface, environment, strategy, u, &points[i], &batch);
+            sample_light(surface, environment, strategy, u, &points[i], &batch);
         }
         if (strategy != RENDER_LIGHT) {
             render_stream_pair(stream, RENDER_PAIR_DIRECTION, index, u);
             render_stream_pair(stream, RENDER_PAIR_LOBE, index, lobe);
-            add_brdf_sample(surface, environment, strategy, u, lobe[0], &points[i], sum);
+            sample_brdf(surface, environment, strategy, u, lobe[0], &points[i], &batch);
         }
     }
     if (batch.count > 0)
