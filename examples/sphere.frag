@@ -1,0 +1,37 @@
+// sphere.frag: a sphere of one exported material under one light, in a single fragment shader.
+//
+//   build/hnbrdf export model.safetensors --materials gold -o scene.glsl
+//   glslangValidator -V -Ishaders -I. examples/sphere.frag -o sphere.spv
+//
+// Draw one triangle that covers the screen; uv runs over the picture from -1 to 1, y up.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "hybrid_brdf.glsl"
+#include "scene.glsl"
+
+layout(location = 0) in vec2 uv;
+layout(location = 0) out vec4 colour;
+
+const vec3 to_light = vec3(0.4364358, 0.5345225, 0.7237469);
+const vec3 light = vec3(3.0); // irradiance on a surface that faces the light, W/m^2
+const vec3 to_viewer = vec3(0.0, 0.0, 1.0);
+
+// v in the shading frame whose normal is n: tangent along the circles of latitude, z = n.
+vec3 to_shading_frame(vec3 v, vec3 n)
+{
+    vec3 tangent = normalize(vec3(n.z, 0.0, -n.x) + vec3(1e-6, 0.0, 0.0));
+    return vec3(dot(v, tangent), dot(v, cross(n, tangent)), dot(v, n));
+}
+
+void main()
+{
+    float r2 = dot(uv, uv);
+    if (r2 >= 1.0)
+        discard;
+    vec3 n = vec3(uv, sqrt(1.0 - r2));
+    vec3 wi = to_shading_frame(to_light, n);
+    vec3 wo = to_shading_frame(to_viewer, n);
+    hnbrdf_material material = hnbrdf_scene_material(0);
+    vec3 radiance = hnbrdf_eval(material, wi, wo) * light * max(wi.z, 0.0); // f comes without the cosine
+    colour = vec4(pow(clamp(radiance, 0.0, 1.0), vec3(1.0 / 2.2)), 1.0);
+}

@@ -1,0 +1,48 @@
+# What `cmake --install` puts where, and how others find it: find_package(hnbrdf) and pkg-config.
+include(CMakePackageConfigHelpers)
+
+get_property(HNBRDF_PARTS GLOBAL PROPERTY HNBRDF_PARTS)
+set(_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/hnbrdf)
+
+foreach(part ${HNBRDF_PARTS})
+  install(TARGETS ${part}_static ${part}_shared EXPORT hnbrdfTargets
+    ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
+    LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
+    RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  string(REPLACE hnbrdf_ "" header ${part})
+  install(FILES include/hnbrdf/${header}.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/hnbrdf)
+endforeach()
+install(FILES shaders/hybrid_brdf.glsl DESTINATION ${CMAKE_INSTALL_DATADIR}/hnbrdf)
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+if(TARGET hnbrdf_cli)
+  install(TARGETS hnbrdf_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+endif()
+
+# find_package(hnbrdf)
+install(EXPORT hnbrdfTargets NAMESPACE hnbrdf:: DESTINATION ${_package_dir})
+set(HNBRDF_SHADER_DIR ${CMAKE_INSTALL_DATADIR}/hnbrdf)
+configure_package_config_file(src/hnbrdfConfig.cmake.in ${CMAKE_CURRENT_BINARY_DIR}/generated/hnbrdfConfig.cmake
+  INSTALL_DESTINATION ${_package_dir} PATH_VARS HNBRDF_SHADER_DIR)
+write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/generated/hnbrdfConfigVersion.cmake
+  COMPATIBILITY SameMajorVersion)
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/generated/hnbrdfConfig.cmake
+  ${CMAKE_CURRENT_BINARY_DIR}/generated/hnbrdfConfigVersion.cmake DESTINATION ${_package_dir})
+
+# pkg-config: one file a part, which find the prefix from their own place.
+set(_about_hnbrdf "evaluate, sample, load and export hybrid neural-microfacet BRDFs")
+set(_about_hnbrdf_measured "measured and procedural BRDFs behind one interface")
+set(_about_hnbrdf_metrics "errors of BRDF models against measurements")
+set(_about_hnbrdf_fit "fit hybrid neural-microfacet BRDFs to measurements")
+file(RELATIVE_PATH PC_PREFIX "/${CMAKE_INSTALL_LIBDIR}/pkgconfig" "/")
+foreach(PC_NAME ${HNBRDF_PARTS})
+  set(PC_ABOUT ${_about_${PC_NAME}})
+  get_target_property(PC_NEEDS ${PC_NAME}_shared HNBRDF_NEEDS)
+  get_target_property(_links ${PC_NAME}_shared HNBRDF_LINKS)
+  string(REPLACE ";" " " PC_NEEDS "${PC_NEEDS}")
+  string(REPLACE "Threads::Threads" "${CMAKE_THREAD_LIBS_INIT}" PC_LIBS "${_links}")
+  list(TRANSFORM PC_LIBS REPLACE "^([^-])" "-l\\1")
+  string(REPLACE ";" " " PC_LIBS "${PC_LIBS}")
+  configure_file(src/hnbrdf.pc.in ${CMAKE_CURRENT_BINARY_DIR}/generated/${PC_NAME}.pc @ONLY)
+  install(FILES ${CMAKE_CURRENT_BINARY_DIR}/generated/${PC_NAME}.pc
+    DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+endforeach()
