@@ -282,8 +282,8 @@ static int write_sheet(sheet_job *job)
 {
     hnbrdf_error error;
     hnbrdf_image_error means[KINDS] = {{0}};
-    char kind[96], what[192], light[192], difference[24];
-    const char *titles[KINDS] = {"reference", "GGX alone", kind, difference, difference};
+    char kind[96], what[192], light[192], ggx_error[32], model_error[32];
+    const char *titles[KINDS] = {"reference", "GGX alone", kind, ggx_error, model_error};
     render_sheet sheet = {.lines = {base_name(job->path), what, light},
                           .columns = job->kind_count,
                           .cell = (int)job->size,
@@ -308,7 +308,9 @@ static int write_sheet(sheet_job *job)
                      job->kinds[c] == GGX ? "GGX" : "model", means[job->kinds[c]].psnr);
     snprintf(light + length, sizeof light - (size_t)length, "; light %.60s, %ld samples a pixel",
              base_name(job->picture.env), job->picture.spp);
-    snprintf(difference, sizeof difference, "error \xc3\x97 %g", (double)difference_gain);
+    snprintf(ggx_error, sizeof ggx_error, "GGX error \xc3\x97 %g", (double)difference_gain);
+    snprintf(model_error, sizeof model_error, "%s error \xc3\x97 %g", hnbrdf_kind_name(job->desc.kind),
+             (double)difference_gain);
     for (int c = 0; c < job->kind_count; c++)
         sheet.titles[c] = titles[job->kinds[c]];
 

@@ -52,10 +52,11 @@ render_surface render_surface_measured(const hnbrdf_measured *measured);
 void render_surface_guide(render_surface *surface, const render_guide *guide);
 /* A GGX model for guides to borrow. */
 hnbrdf_result render_guide_model(hnbrdf_model **model, hnbrdf_error *error);
-/* The mixture, out of lobes of many widths and shapes, that follows the surface's eval() most closely:
- * fitted by expectation maximisation to a few thousand values, always the same ones. A surface that
- * reflects nothing gets a cosine lobe. */
-render_guide render_guide_fit(const render_surface *surface, const hnbrdf_model *model);
+/* The mixture, out of lobes of many widths and shapes, that follows the eval() of all these surfaces
+ * most closely: fitted by expectation maximisation to a few thousand values, always the same ones.
+ * Surfaces that reflect nothing get a cosine lobe. */
+render_guide render_guide_fit(const render_surface *const *surfaces, int count,
+                              const hnbrdf_model *model);
 
 /* ---- The estimator ----------------------------------------------------------------------------------
  */
