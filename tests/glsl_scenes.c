@@ -1,0 +1,56 @@
+/* glsl_scenes.c: writes scenes of many shapes into a directory, for the tests that are shell scripts:
+ * NAME.glsl (include), NAME.alone.glsl (standalone), NAME.safetensors (the model). */
+#include "gpu_support.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const struct {
+    const char *name;
+    scene_shape shape;
+} scenes[] = {
+    {"hybrid_32x2", {.encoding = HNBRDF_ENCODING_HALF_DIFFERENCE, .hidden = 32, .layers = 2, .latent = 4, .floor = 0.003f}},
+    {"hybrid_8x4_rotated",
+     {.encoding = HNBRDF_ENCODING_HALF_DIFFERENCE, .hidden = 8, .layers = 4, .latent = 6, .anisotropic = 1,
+      .rotated = 1, .scale = 2.0f, .shift = 1.0f}},
+    {"neural_16x3_directions",
+     {.kind = HNBRDF_KIND_NEURAL, .encoding = HNBRDF_ENCODING_DIRECTIONS, .hidden = 16, .layers = 3, .latent = 12}},
+    {"ggx", {.kind = HNBRDF_KIND_GGX}},
+    {"ggx_rotated", {.kind = HNBRDF_KIND_GGX, .anisotropic = 1, .rotated = 1}},
+};
+
+static int write_text(const char *directory, const char *name, const char *ending, const char *text)
+{
+    char path[1024];
+    snprintf(path, sizeof path, "%s/%s%s", directory, name, ending);
+    FILE *file = fopen(path, "wb");
+    int written = file && fputs(text, file) >= 0;
+    return file && fclose(file) == 0 && written;
+}
+
+static int write_scene(const char *directory, const char *name, const scene_shape *shape)
+{
+    char path[1024];
+    hnbrdf_model *model = scene_model(shape);
+    char *include = scene_text(model, 0), *alone = scene_text(model, 1);
+    snprintf(path, sizeof path, "%s/%s.safetensors", directory, name);
+    int written = write_text(directory, name, ".glsl", include) && write_text(directory, name, ".alone.glsl", alone) &&
+                  hnbrdf_model_save(model, path, NULL) == HNBRDF_OK;
+    free(include);
+    free(alone);
+    hnbrdf_model_free(model);
+    return written;
+}
+
+int main(int argc, char **argv)
+{
+    if (argc != 2)
+        return 2;
+    for (size_t i = 0; i < sizeof scenes / sizeof scenes[0]; i++) {
+        if (!write_scene(argv[1], scenes[i].name, &scenes[i].shape))
+            return 1;
+        printf("%s\n", scenes[i].name);
+    }
+    return 0;
+}

@@ -1,0 +1,288 @@
+/* test_glsl_export.c: what the exporter writes, read as text. */
+#include "gpu_support.h"
+
+#include "model/text.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdint.h>
+#include <stddef.h>
+#include <cmocka.h>
+#include <ctype.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const scene_shape PLAIN = {
+    .encoding = HNBRDF_ENCODING_HALF_DIFFERENCE, .hidden = 8, .layers = 2, .latent = 4, .floor = 0.003f};
+
+static char *export_shape(const scene_shape *shape)
+{
+    hnbrdf_model *model = scene_model(shape);
+    char *text = scene_text(model, 0);
+    hnbrdf_model_free(model);
+    return text;
+}
+
+static int contains(const char *text, const char *part)
+{
+    return strstr(text, part) != NULL;
+}
+
+static int identifier(char c)
+{
+    return isalnum((unsigned char)c) || c == '_';
+}
+
+/* The text behind "{" of this function, up to the closing brace in the first column. */
+static char *body_of(const char *text, const char *function)
+{
+    const char *begin = strstr(text, function);
+    assert_non_null(begin);
+    const char *end = strstr(begin, "\n}");
+    assert_non_null(end);
+    size_t length = (size_t)(end - begin);
+    char *body = malloc(length + 1);
+    assert_non_null(body);
+    memcpy(body, begin, length);
+    body[length] = '\0';
+    return body;
+}
+
+/* ---- Numbers ------------------------------------------------------------------------------------------ */
+
+/* GLSL ES has no conversion from int to float. */
+static void every_literal_of_the_network_is_a_float(void **state)
+{
+    (void)state;
+    char *text = export_shape(&PLAIN), *body = body_of(text, "void hnbrdf_network");
+    int numbers = 0;
+    for (const char *c = body + 1; *c; c++) {
+        if (!isdigit((unsigned char)*c) || identifier(c[-1]) || c[-1] == '.')
+            continue;
+        size_t length = strspn(c, "0123456789.e");
+        while (c[length - 1] == 'e')
+            length += strspn(c + length, "+-0123456789");
+        assert_true(memchr(c, '.', length) || memchr(c, 'e', length));
+        numbers++;
+        c += length - 1;
+    }
+    assert_int_equal(numbers, 8 * 10 + 8 + 8 * 8 + 8 + 6 * 8 + 6);
+    free(body);
+    free(text);
+}
+
+/* Every weight and bias, read back from the text in the canonical order, has the bits it had. */
+static void numbers_read_back_with_the_same_bits(void **state)
+{
+    (void)state;
+    hnbrdf_model *model = scene_model(&PLAIN);
+    hnbrdf_model_desc desc;
+    hnbrdf_model_describe(model, &desc);
+    char *text = scene_text(model, 0);
+    const char *at = strstr(text, "a0 = hnbrdf_hard_gelu(") + strlen("a0 = hnbrdf_hard_gelu(");
+    float expected[11] = {desc.biases[0][0]};
+    for (int i = 0; i < 4; i++)
+        expected[1 + i] = desc.weights[0][6 + i];
+    for (int i = 0; i < 6; i++)
+        expected[5 + i] = desc.weights[0][i];
+    for (int i = 0; i < 11; i++) {
+        float value = 0.0f;
+        int negative = 0;
+        for (; !isdigit((unsigned char)*at); at++)
+            negative = *at == '-' || (negative && *at == ' ');
+        at = hnbrdf_parse_float(at, at + 40, &value);
+        assert_non_null(at);
+        value = negative ? -value : value;
+        assert_memory_equal(&value, &expected[i], sizeof value);
+        at += strspn(at, " *");
+        at += strspn(at, "abcdefghijklmnopqrstuvwxyz0123456789."); /* the input it multiplies */
+    }
+    free(text);
+    hnbrdf_model_free(model);
+}
+
+static void identical_models_give_identical_texts(void **state)
+{
+    (void)state;
+    char *first = export_shape(&PLAIN), *second = export_shape(&PLAIN);
+    assert_string_equal(first, second);
+    free(first);
+    free(second);
+}
+
+/* ---- What is there and what is not ---------------------------------------------------------------------- */
+
+static void what_the_scene_does_not_need_is_left_out(void **state)
+{
+    (void)state;
+    char *plain = export_shape(&PLAIN);
+    assert_true(contains(plain, "float alpha;"));
+    assert_false(contains(plain, "vec2 rotation"));
+    assert_false(contains(plain, "hnbrdf_to_tangent"));
+    assert_true(contains(plain, "vec3 exponent = c;"));
+    free(plain);
+    scene_shape shape = PLAIN;
+    shape.anisotropic = shape.rotated = 1;
+    shape.scale = 2.5f;
+    shape.shift = -0.5f;
+    char *rich = export_shape(&shape);
+    assert_true(contains(rich, "vec2 alpha;"));
+    assert_true(contains(rich, "vec2 rotation;"));
+    assert_true(contains(rich, "hnbrdf_to_tangent(m.rotation, wi)"));
+    assert_true(contains(rich, "vec3 exponent = 2.5 * c + -0.5;"));
+    free(rich);
+    char *ggx = export_shape(&(scene_shape){.kind = HNBRDF_KIND_GGX});
+    assert_false(contains(ggx, "latent"));
+    assert_false(contains(ggx, "hnbrdf_network"));
+    free(ggx);
+    char *neural = export_shape(&(scene_shape){.kind = HNBRDF_KIND_NEURAL, .hidden = 4, .layers = 1, .latent = 5});
+    assert_false(contains(neural, " kd;"));
+    assert_true(contains(neural, "vec4 latent1;"));
+    assert_false(contains(neural, "vec4 latent2;"));
+    free(neural);
+}
+
+static void the_heading_tells_what_is_inside(void **state)
+{
+    (void)state;
+    char *text = export_shape(&PLAIN);
+    assert_true(contains(text, "kind       hybrid"));
+    assert_true(contains(text, "10 -> 8 -> 8 -> 6 (8x2)"));
+    assert_true(contains(text, "half-difference"));
+    assert_true(contains(text, "weights    214, 856 bytes"));
+    free(text);
+}
+
+static void standalone_carries_the_library_first(void **state)
+{
+    (void)state;
+    hnbrdf_model *model = scene_model(&PLAIN);
+    char *text = scene_text(model, 1);
+    const char *library = strstr(text, "#define HNBRDF_HYBRID_BRDF_GLSL");
+    assert_non_null(library);
+    assert_true(library < strstr(text, "struct hnbrdf_material"));
+    assert_false(contains(text, "#version"));
+    assert_false(contains(text, "#extension"));
+    free(text);
+    hnbrdf_model_free(model);
+}
+
+/* ---- Materials ------------------------------------------------------------------------------------------ */
+
+static size_t times_in(const char *name, char *const *seen, size_t count)
+{
+    size_t same = 0;
+    for (size_t i = 0; i < count; i++)
+        same += strcmp(seen[i], name) == 0;
+    return same;
+}
+
+static char *export_named(const char *const *names, int count)
+{
+    hnbrdf_material materials[8];
+    for (int m = 0; m < count; m++)
+        hnbrdf_material_init(&materials[m]);
+    const hnbrdf_model_desc desc = {
+        .kind = HNBRDF_KIND_GGX, .material_count = count, .materials = materials, .names = names};
+    hnbrdf_model *model = NULL;
+    assert_int_equal(hnbrdf_model_create(&desc, NULL, &model, NULL), HNBRDF_OK);
+    char *text = scene_text(model, 0);
+    hnbrdf_model_free(model);
+    return text;
+}
+
+/* Names that become one macro, none at all, or the name of the count. */
+static void macro_names_are_valid_and_unique(void **state)
+{
+    (void)state;
+    static const char *const names[8] = {"gold paint", "gold-paint", "gold__paint", "count", "\xe9\x87\x91",
+                                         "-", "gold paint 1", "7up\\"};
+    char *text = export_named(names, 8), *seen[9];
+    size_t count = 0;
+    for (const char *at = text; (at = strstr(at, "#define HNBRDF_MATERIAL_")) != NULL;) {
+        at += strlen("#define ");
+        size_t length = 0;
+        while (identifier(at[length]))
+            length++;
+        assert_true(count < 9);
+        seen[count] = strndup(at, length);
+        assert_true(at[length] == ' ');
+        assert_false(contains(seen[count], "__"));
+        assert_int_equal(times_in(seen[count], seen, count), 0);
+        count++;
+    }
+    assert_int_equal(count, 9);
+    assert_string_equal(seen[8], "HNBRDF_MATERIAL_COUNT");
+    while (count > 0)
+        free(seen[--count]);
+    assert_false(contains(text, "\\\n")); /* would continue the line */
+    free(text);
+}
+
+/* ---- Failures ------------------------------------------------------------------------------------------- */
+
+typedef struct limited {
+    size_t left;
+} limited;
+
+static int write_limited(void *user, const void *data, size_t size)
+{
+    limited *to = user;
+    (void)data;
+    if (size > to->left)
+        return 1;
+    to->left -= size;
+    return 0;
+}
+
+static void bad_indices_are_refused_before_anything_is_written(void **state)
+{
+    (void)state;
+    hnbrdf_model *model = scene_model(&PLAIN);
+    const int wrong[][2] = {{0, 3}, {-1, 0}, {2, 1 << 30}};
+    for (int i = 0; i < 3; i++) {
+        hnbrdf_error error = {""};
+        limited nothing = {0};
+        const hnbrdf_glsl_options options = {.materials = wrong[i], .material_count = 2};
+        assert_int_equal(hnbrdf_export_glsl(model, &options, write_limited, &nothing, &error), HNBRDF_ERROR_ARGUMENT);
+        assert_true(contains(error.text, "expected 0 to 2"));
+    }
+    const hnbrdf_glsl_options none = {.materials = wrong[0], .material_count = 0};
+    assert_int_equal(hnbrdf_export_glsl(model, &none, write_limited, NULL, NULL), HNBRDF_ERROR_ARGUMENT);
+    hnbrdf_model_free(model);
+}
+
+static void a_failing_write_is_reported_wherever_it_happens(void **state)
+{
+    (void)state;
+    hnbrdf_model *model = scene_model(&PLAIN);
+    char *text = scene_text(model, 1);
+    size_t size = strlen(text);
+    const hnbrdf_glsl_options options = {.standalone = 1};
+    for (size_t room = 0; room < size; room += 997) {
+        limited to = {room};
+        assert_int_equal(hnbrdf_export_glsl(model, &options, write_limited, &to, NULL), HNBRDF_ERROR_IO);
+    }
+    limited enough = {size};
+    assert_int_equal(hnbrdf_export_glsl(model, &options, write_limited, &enough, NULL), HNBRDF_OK);
+    assert_int_equal(enough.left, 0);
+    free(text);
+    hnbrdf_model_free(model);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_literal_of_the_network_is_a_float),
+        cmocka_unit_test(numbers_read_back_with_the_same_bits),
+        cmocka_unit_test(identical_models_give_identical_texts),
+        cmocka_unit_test(what_the_scene_does_not_need_is_left_out),
+        cmocka_unit_test(the_heading_tells_what_is_inside),
+        cmocka_unit_test(standalone_carries_the_library_first),
+        cmocka_unit_test(macro_names_are_valid_and_unique),
+        cmocka_unit_test(bad_indices_are_refused_before_anything_is_written),
+        cmocka_unit_test(a_failing_write_is_reported_wherever_it_happens),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,267 @@
+/* test_gpu_verify.c: exported shaders against the C library on every Vulkan device of this machine.
+ * Skipped where there is no device or no glslangValidator. */
+#include "gpu_support.h"
+
+#include "gpu/compile.h"
+#include "gpu/verify.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdint.h>
+#include <stddef.h>
+#include <cmocka.h>
+#include <dlfcn.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static gpu_instance instance;
+static gpu_device device;
+static int validated;
+
+static const hnbrdf_encoding DIRECTIONS = HNBRDF_ENCODING_DIRECTIONS, HALF = HNBRDF_ENCODING_HALF_DIFFERENCE;
+
+enum { PAIRS = 2048 };
+
+static gpu_report verify(const hnbrdf_model *model, const char *scene)
+{
+    static const int all[SCENE_MATERIALS] = {0, 1, 2};
+    const gpu_verify_options options = {.scene = scene,
+                                        .materials = all,
+                                        .material_count = SCENE_MATERIALS,
+                                        .pairs = PAIRS,
+                                        .seed = 3,
+                                        .without_timing = 1};
+    gpu_report report = {0};
+    hnbrdf_error error = {""};
+    if (gpu_verify(&device, model, &options, &report, &error))
+        fail_msg("%s", error.text);
+    return report;
+}
+
+/* Over all materials. */
+static gpu_comparison all_of(const gpu_report *report, int build, int stage)
+{
+    gpu_comparison sum = {0};
+    for (int m = 0; m < report->material_count; m++)
+        gpu_comparison_add(&sum, &report->comparisons[m][build][stage]);
+    return sum;
+}
+
+static int exact_device(const gpu_arithmetic *a)
+{
+    return a->exact_basic && a->exact_divide && a->exact_sqrt && a->keeps_denormals;
+}
+
+/* ---- What must hold ---------------------------------------------------------------------------------- */
+
+static void check_stage(const gpu_report *report, int build, int stage)
+{
+    gpu_comparison sum = all_of(report, build, stage);
+    const gpu_place *at = &sum.worst;
+    if (!sum.applies)
+        return;
+    if (sum.outside)
+        fail_msg("%s %s: %zu of %zu outside: %.9g, C %.9g, bound %g, %s pair (%.9g %.9g %.9g) (%.9g %.9g %.9g)",
+                 gpu_build_name((gpu_build)build), gpu_stage_name((gpu_stage)stage), sum.outside, sum.values,
+                 (double)at->device, (double)at->reference, at->bound, gpu_pair_class_name(at->class_of_pair),
+                 (double)at->pair[0], (double)at->pair[1], (double)at->pair[2], (double)at->pair[3],
+                 (double)at->pair[4], (double)at->pair[5]);
+    if (build == GPU_BUILD_EXACT && stage == GPU_STAGE_NETWORK && report->arithmetic.exact_basic &&
+        report->arithmetic.keeps_denormals)
+        assert_int_equal(sum.identical, sum.values);
+    if (build == GPU_BUILD_EXACT && exact_device(&report->arithmetic))
+        assert_int_equal(sum.identical, sum.values);
+    /* One pair in 64 is not finite and half of one in 32 below the horizon: the bounds must say something
+     * about nearly all others. */
+    assert_true(sum.unbounded * 16 < sum.values);
+}
+
+/* The shader of this scene is within the derived bounds at every stage; where the device's operations are
+ * exact, the exact build has the bits of C from end to end. */
+static void holds(const scene_shape *shape)
+{
+    hnbrdf_model *model = scene_model(shape);
+    char *scene = scene_text(model, 0);
+    gpu_report report = verify(model, scene);
+    for (int build = 0; build < GPU_BUILDS; build++)
+        for (int stage = 0; stage < GPU_STAGES; stage++)
+            check_stage(&report, build, stage);
+    assert_true(report.within);
+    gpu_report_free(&report);
+    free(scene);
+    hnbrdf_model_free(model);
+}
+
+static void isotropic_hybrid_equals_c(void **state)
+{
+    (void)state;
+    holds(&(scene_shape){.encoding = HALF, .hidden = 32, .layers = 2, .latent = 4, .floor = 0.003f});
+}
+
+static void published_form_equals_c(void **state)
+{
+    (void)state;
+    holds(&(scene_shape){
+        .encoding = DIRECTIONS, .hidden = 32, .layers = 2, .latent = 4, .scale = 2.3f, .shift = -1.7f});
+}
+
+static void anisotropic_rotated_hybrid_equals_c(void **state)
+{
+    (void)state;
+    holds(&(scene_shape){.encoding = HALF, .hidden = 16, .layers = 3, .latent = 8, .anisotropic = 1,
+                         .rotated = 1, .scale = 1.5f, .floor = 0.002f});
+    holds(&(scene_shape){
+        .encoding = DIRECTIONS, .hidden = 8, .layers = 2, .latent = 5, .rotated = 1, .shift = 0.25f});
+}
+
+static void neural_equals_c(void **state)
+{
+    (void)state;
+    holds(&(scene_shape){
+        .kind = HNBRDF_KIND_NEURAL, .encoding = HALF, .hidden = 16, .layers = 2, .latent = 12, .floor = 0.001f});
+    holds(&(scene_shape){
+        .kind = HNBRDF_KIND_NEURAL, .encoding = DIRECTIONS, .hidden = 64, .layers = 1, .latent = 16, .rotated = 1});
+}
+
+static void ggx_equals_c(void **state)
+{
+    (void)state;
+    holds(&(scene_shape){.kind = HNBRDF_KIND_GGX});
+    holds(&(scene_shape){.kind = HNBRDF_KIND_GGX, .anisotropic = 1, .rotated = 1});
+}
+
+static void smallest_and_deepest_networks_equal_c(void **state)
+{
+    (void)state;
+    holds(&(scene_shape){.encoding = HALF, .hidden = 1, .layers = 1, .latent = 1});
+    holds(&(scene_shape){.encoding = HALF, .hidden = 8, .layers = 4, .latent = 4});
+}
+
+/* ---- What must not pass ------------------------------------------------------------------------------- */
+
+/* The text with the first number behind `marker` moved: up by one float, or by 1 %. */
+static char *plant(const char *scene, const char *marker, int one_ulp)
+{
+    const char *at = strstr(scene, marker);
+    assert_non_null(at);
+    at += strlen(marker) + strspn(at + strlen(marker), "+- "); /* the sign may stand apart */
+    char *after, number[32];
+    float value = strtof(at, &after);
+    assert_true(after > at && value != 0.0f);
+    snprintf(number, sizeof number, "%.9e", (double)(one_ulp ? nextafterf(value, INFINITY) : value * 1.01f));
+    size_t size = strlen(scene) + sizeof number;
+    char *changed = malloc(size);
+    assert_non_null(changed);
+    snprintf(changed, size, "%.*s%s%s", (int)(at - scene), scene, number, after);
+    return changed;
+}
+
+static void is_found(const char *marker, int one_ulp, int stage)
+{
+    hnbrdf_model *model =
+        scene_model(&(scene_shape){.encoding = HALF, .hidden = 16, .layers = 2, .latent = 4, .floor = 0.003f});
+    char *scene = scene_text(model, 0), *changed = plant(scene, marker, one_ulp);
+    gpu_report report = verify(model, changed);
+    gpu_comparison found = all_of(&report, GPU_BUILD_EXACT, stage);
+    /* A device that divides inexactly may hide an ulp of the analytic part; the network never does. */
+    if (exact_device(&report.arithmetic) || stage == GPU_STAGE_NETWORK) {
+        assert_false(report.within);
+        assert_true(found.outside > 0);
+        assert_true(found.worst.ulp > 0.0);
+    }
+    gpu_report_free(&report);
+    free(scene);
+    free(changed);
+    hnbrdf_model_free(model);
+}
+
+static void a_changed_weight_is_found(void **state)
+{
+    (void)state;
+    is_found("a3 = hnbrdf_hard_gelu(", 0, GPU_STAGE_NETWORK);
+    is_found(" * a1 ", 0, GPU_STAGE_NETWORK);
+}
+
+static void one_ulp_of_one_number_is_found(void **state)
+{
+    (void)state;
+    is_found("float out4 = ", 1, GPU_STAGE_NETWORK);
+    is_found("hnbrdf_material(vec3(", 1, GPU_STAGE_ANALYTIC);
+}
+
+static void a_shader_that_does_not_compile_is_an_error(void **state)
+{
+    (void)state;
+    hnbrdf_model *model = scene_model(&(scene_shape){.kind = HNBRDF_KIND_GGX});
+    static const int first[] = {0};
+    const gpu_verify_options options = {
+        .scene = "int is_float = 1.0;\n", .materials = first, .material_count = 1, .pairs = 64};
+    gpu_report report = {0};
+    hnbrdf_error error = {""};
+    assert_int_equal(gpu_verify(&device, model, &options, &report, &error), HNBRDF_ERROR_FORMAT);
+    assert_non_null(strstr(error.text, "ERROR"));
+    hnbrdf_model_free(model);
+}
+
+static void validation_layer_says_nothing(void **state)
+{
+    (void)state;
+    if (!validated)
+        skip();
+    assert_int_equal(instance.messages, 0);
+}
+
+/* ---- Running ------------------------------------------------------------------------------------------- */
+
+static int run_on(int index)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(isotropic_hybrid_equals_c),
+        cmocka_unit_test(published_form_equals_c),
+        cmocka_unit_test(anisotropic_rotated_hybrid_equals_c),
+        cmocka_unit_test(neural_equals_c),
+        cmocka_unit_test(ggx_equals_c),
+        cmocka_unit_test(smallest_and_deepest_networks_equal_c),
+        cmocka_unit_test(a_changed_weight_is_found),
+        cmocka_unit_test(one_ulp_of_one_number_is_found),
+        cmocka_unit_test(a_shader_that_does_not_compile_is_an_error),
+        cmocka_unit_test(validation_layer_says_nothing),
+    };
+    hnbrdf_error error = {""};
+    printf("device %d: %s\n", index, instance.properties[index].deviceName);
+    if (gpu_device_open(&instance, index, &device, &error)) {
+        printf("%s\n", error.text);
+        return 1;
+    }
+    int failed = cmocka_run_group_tests_name(instance.properties[index].deviceName, tests, NULL, NULL);
+    gpu_device_close(&device);
+    return failed;
+}
+
+int main(void)
+{
+    hnbrdf_error error = {""};
+    int failed = 0;
+    if (!gpu_compiler_found()) {
+        printf("skipped: no glslangValidator\n");
+        return 77;
+    }
+    /* Kept loaded, or LeakSanitizer cannot tell what the driver still holds from a leak. */
+    dlopen("libvulkan_lvp.so", RTLD_NOW | RTLD_NODELETE);
+    validated = gpu_open(1, &instance, &error) == HNBRDF_OK;
+    if (!validated)
+        printf("without validation: %s\n", error.text);
+    if (!validated && gpu_open(0, &instance, &error)) {
+        printf("%s\n", error.text);
+        return 1;
+    }
+    if (instance.count == 0)
+        printf("skipped: no Vulkan device\n");
+    for (int i = 0; i < instance.count; i++)
+        failed += run_on(i);
+    int none = instance.count == 0;
+    gpu_close(&instance);
+    return none ? 77 : failed;
+}
