@@ -50,11 +50,11 @@ static int bin_of(const double wi[3], const double wo[3])
         x = (s[0] * d[0] + s[1] * d[1]) * s[2] / sum - across2 * d[2] / sum;
         y = s[0] * d[1] - s[1] * d[0];
     }
-    if (y < 0.0 || (y == 0.0 && x < 0.0)) {
+    if (y < 0.0) {
         x = -x;
         y = -y;
     }
-    double phi_d = y == 0.0 ? 0.0 : atan2(y, x);
+    double phi_d = y == 0.0 ? 0.0 : atan2(y, x); /* pi is 0 */
 
     int i = min_int((int)(THETA_H_BINS * sqrt(theta_h / (PI / 2))), THETA_H_BINS - 1);
     int j = min_int((int)(THETA_D_BINS * theta_d / (PI / 2)), THETA_D_BINS - 1);

@@ -144,9 +144,10 @@ static hnbrdf_result parse_header(cursor *c, size_t *count, unsigned *minor)
         return hnbrdf_fail(c->error, HNBRDF_ERROR_UNSUPPORTED,
                            "%s: tensor file of version %u.%u, expected 1.0", c->label, major, *minor);
     if (*count > left(c) / MIN_RECORD_SIZE)
-        return hnbrdf_fail(c->error, HNBRDF_ERROR_FORMAT,
-                           "%s: header claims %zu fields, expected at most %zu in the %zu bytes after it",
-                           c->label, *count, left(c) / MIN_RECORD_SIZE, left(c));
+        return hnbrdf_fail(
+            c->error, HNBRDF_ERROR_FORMAT,
+            "%s: header claims %zu fields, expected at most %zu in the %zu bytes after it", c->label,
+            *count, left(c) / MIN_RECORD_SIZE, left(c));
     if (*count > TENSOR_MAX_FIELDS)
         return hnbrdf_fail(c->error, HNBRDF_ERROR_LIMIT, "%s: %zu fields, expected at most %d",
                            c->label, *count, TENSOR_MAX_FIELDS);
