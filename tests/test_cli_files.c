@@ -1,7 +1,7 @@
 /* test_cli_files.c: writes the small files that the tests of the command line read and then spoil:
  *     test_cli_files DIRECTORY
  * hybrid.safetensors, ggx.safetensors (the built-in materials, untrained), one.safetensors (a name that
- * JSON and CSV must quote), lambert_rgb.bsdf, lambert.binary, a.brdf and b.brdf. */
+ * JSON and CSV must quote), lambert_rgb.bsdf, lambert.binary, a.brdf, b.brdf and sky.hdr. */
 #include "hnbrdf/hnbrdf.h"
 #include "hnbrdf/measured.h"
 
@@ -242,12 +242,26 @@ static void write_merl(const char *directory)
     finish(file);
 }
 
+/* ---- Environments -------------------------------------------------------------------------------- */
+
+/* A grey Radiance map of 4 x 2 pixels; lines shorter than 8 pixels are never packed. */
+static void write_hdr(const char *directory)
+{
+    static const unsigned char grey[4] = {128, 128, 128, 129};
+    FILE *file = create(directory, "sky.hdr");
+    fputs("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 4\n", file);
+    for (int k = 0; k < 8; k++)
+        fwrite(grey, 1, sizeof grey, file);
+    finish(file);
+}
+
 int main(int argc, char **argv)
 {
     check(argc == 2, "expected one argument, the directory to write to");
     write_models(argv[1]);
     write_brdf(argv[1], "a.brdf", 0.1f);
     write_brdf(argv[1], "b.brdf", 0.2f);
+    write_hdr(argv[1]);
     write_rgl(argv[1]);
     write_merl(argv[1]);
     return 0;
