@@ -1,2 +1,6 @@
 # Model files: numbers as text, the JSON reader, creation, loading and saving, hostile files, import.
 hnbrdf_test(test_text test_text.c core_support.c)
+hnbrdf_test(test_model_json test_model_json.c core_support.c)
+hnbrdf_test(test_model_create test_model_create.c model_support.c core_support.c)
+hnbrdf_test(test_model_file test_model_file.c model_support.c core_support.c)
+hnbrdf_test(test_model_hostile test_model_hostile.c model_support.c core_support.c)

@@ -1,5 +1,6 @@
 /* export_glsl.c: writes a model and the materials of a scene as one GLSL include, weights as constants.
- * What the scene does not need is not written: anisotropy, rotation, parameters the kind does not use. */
+ * What the scene does not need is not written: anisotropy, rotation, parameters the kind does not use.
+ */
 #include "core/error.h"
 #include "core/frame.h"
 #include "core/model.h"
@@ -11,7 +12,7 @@
 /* The text of shaders/hybrid_brdf.glsl; the build makes it from that file. */
 extern const char hnbrdf_hybrid_brdf_glsl[];
 
-/* ---- Printing: buffered, the first failure sticks ------------------------------------------------ */
+/* ---- Printing: buffered, the first failure sticks -------------------------------------------- */
 
 typedef struct printer {
     hnbrdf_write_fn write;
@@ -46,7 +47,8 @@ static void put_bytes(printer *out, const char *text, size_t size)
 #if defined(__GNUC__)
 __attribute__((format(printf, 2, 3)))
 #endif
-static void put(printer *out, const char *format, ...)
+static void
+put(printer *out, const char *format, ...)
 {
     char text[512];
     va_list arguments;
@@ -78,7 +80,8 @@ static void put_vector(printer *out, int size, const float *values, int given)
     put(out, ")");
 }
 
-/* ---- The scene ------------------------------------------------------------------------------------- */
+/* ---- The scene -------------------------------------------------------------------------------------
+ */
 
 enum { NAME_SIZE = HNBRDF_MAX_NAME + 32 };
 typedef char macro_name[NAME_SIZE]; /* what follows HNBRDF_MATERIAL_ */
@@ -167,7 +170,8 @@ static void name_materials(const scene *s, int *table, size_t slots)
         sanitise(s->desc->names[material_index(s, k)], s->names[k]);
         size_t length = strlen(s->names[k]);
         for (int attempt = 0; !claim(s, table, slots, k); attempt++)
-            snprintf(s->names[k] + length, NAME_SIZE - length, attempt > 0 ? "_%d_%d" : "_%d", k, attempt);
+            snprintf(s->names[k] + length, NAME_SIZE - length, attempt > 0 ? "_%d_%d" : "_%d", k,
+                     attempt);
     }
 }
 
@@ -179,8 +183,8 @@ static hnbrdf_result scene_make(const hnbrdf_model *model, const hnbrdf_glsl_opt
     s->indices = options ? options->materials : NULL;
     s->count = s->indices ? options->material_count : s->desc->material_count;
     if (s->count < 1 || s->count > HNBRDF_MAX_MATERIALS)
-        return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT, "export: %d materials, expected 1 to %d", s->count,
-                           HNBRDF_MAX_MATERIALS);
+        return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT, "export: %d materials, expected 1 to %d",
+                           s->count, HNBRDF_MAX_MATERIALS);
     for (int k = 0; k < s->count; k++) {
         int index = material_index(s, k);
         if (index < 0 || index >= s->desc->material_count)
@@ -211,7 +215,7 @@ static hnbrdf_result scene_make(const hnbrdf_model *model, const hnbrdf_glsl_opt
     return result;
 }
 
-/* ---- Sections ---------------------------------------------------------------------------------------- */
+/* ---- Sections -------------------------------------------------------------------------------- */
 
 static void put_heading(printer *out, const scene *s)
 {
@@ -222,16 +226,21 @@ static void put_heading(printer *out, const scene *s)
         put(out, "//   network    %d", HNBRDF_ENCODING_SIZE + desc->latent);
         for (int k = 0; k < desc->layers; k++)
             put(out, " -> %d", desc->hidden);
-        put(out, " -> %d (%dx%d)\n", desc->kind == HNBRDF_KIND_HYBRID ? 6 : 3, desc->hidden, desc->layers);
-        put(out, "//   encoding   %s, then %d latent\n", hnbrdf_encoding_name(desc->encoding), desc->latent);
+        put(out, " -> %d (%dx%d)\n", desc->kind == HNBRDF_KIND_HYBRID ? 6 : 3, desc->hidden,
+            desc->layers);
+        put(out, "//   encoding   %s, then %d latent\n", hnbrdf_encoding_name(desc->encoding),
+            desc->latent);
         put(out, "//   weights    %zu, %zu bytes\n", s->weights, s->weights * sizeof(float));
         put(out, "//   cost       %zu multiplications per evaluation\n", s->multiplications);
     }
     put(out, "//   materials  %d%s%s\n", s->count, s->anisotropic ? ", anisotropic" : ", isotropic",
         s->rotated ? ", rotated" : "");
-    put(out, "//\n// f = hnbrdf_eval(hnbrdf_scene_material(HNBRDF_MATERIAL_%s), wi, wo), without the cosine.\n",
+    put(out,
+        "//\n// f = hnbrdf_eval(hnbrdf_scene_material(HNBRDF_MATERIAL_%s), wi, wo), without the "
+        "cosine.\n",
         s->names[0]);
-    put(out, "#ifndef HNBRDF_HYBRID_BRDF_GLSL\n#error \"include hybrid_brdf.glsl before this file\"\n#endif\n\n");
+    put(out, "#ifndef HNBRDF_HYBRID_BRDF_GLSL\n#error \"include hybrid_brdf.glsl before this "
+             "file\"\n#endif\n\n");
 }
 
 /* For code that serves scenes of every kind. */
@@ -335,7 +344,8 @@ static int begin_term(sum *s, float weight)
 /* Sum of one row in the canonical order: bias, latent inputs, encoded directions or units. */
 static void put_sum(printer *out, const scene *s, int layer, int row)
 {
-    static const char *const input[HNBRDF_ENCODING_SIZE] = {"x0.x", "x0.y", "x0.z", "x1.x", "x1.y", "x1.z"};
+    static const char *const input[HNBRDF_ENCODING_SIZE] = {"x0.x", "x0.y", "x0.z",
+                                                            "x1.x", "x1.y", "x1.z"};
     const hnbrdf_model_desc *desc = s->desc;
     int columns = hnbrdf_layer_inputs(desc, layer);
     const float *w = desc->weights[layer] + (size_t)row * (size_t)columns;
