@@ -3,6 +3,8 @@
 #ifndef HNBRDF_MEASURED_BUILTIN_H
 #define HNBRDF_MEASURED_BUILTIN_H
 
+#define COAT_ETA 1.5 /* index of every coat */
+
 /* A film of index n and thickness in nm, seen from a medium of index outside_n, on a base of index
  * base_n - i base_k; all constant over the visible spectrum. Several such plates may lie in a pile,
  * farther apart than light interferes. */

@@ -7,9 +7,8 @@
 #include <stddef.h>
 
 static const double PI = 3.14159265358979323846;
-static const double COAT_ETA = 1.5;
 
-/* n and k of metals near 630, 532 and 465 nm (Johnson and Christy 1972, 1974; Rakic 1998). */
+/* n and k of metals in the red, green and blue, rounded: right enough for their colours. */
 static const double GOLD_N[3] = {0.18, 0.54, 1.35}, GOLD_K[3] = {3.44, 2.23, 1.89};
 static const double ALUMINIUM_N[3] = {1.43, 0.94, 0.69}, ALUMINIUM_K[3] = {7.52, 6.42, 5.64};
 static const double IRON_N[3] = {2.89, 2.95, 2.59}, IRON_K[3] = {3.35, 2.93, 2.77};
@@ -176,7 +175,8 @@ static void satin_weave(const pair *p, double f[3])
 }
 
 /* Retroreflecting tape: glass beads send light back to where it came from, below a plastic film
- * (the back vector of Belcour, Pacanowski et al. 2014, A Composite Retroreflective BRDF). */
+ * (the back vector of Belcour et al.
+ * 2014, BRDF Measurements and Analysis of Retroreflective Materials). */
 static void retro_tape(const pair *p, double f[3])
 {
     static const double beads[3] = {0.62, 0.58, 0.44}, body[3] = {0.17, 0.16, 0.13};

@@ -6,9 +6,8 @@
 #include <stddef.h>
 
 static const double PI = 3.14159265358979323846;
-static const double COAT_ETA = 1.5;
-/* 1 - F averaged over a diffuse field outside a surface of index 1.5, and inside it: the inside one
- * is the outside one over eta^2 (Walter et al. 2007 integrated; Egan and Hilgeman 1973). */
+/* Fresnel reflectance of a surface of index 1.5 in a diffuse field outside: the integral of 2 c F(c)
+ * over c. Inside, transmission is that of outside over eta^2. */
 static const double DIFFUSE_FRESNEL_OUTSIDE = 0.0918;
 
 static double square(double x)
@@ -146,7 +145,7 @@ double lafortune(const pair *p, double z_weight, double exponent)
     return lobe > 0.0 ? pow(lobe, exponent) : 0.0;
 }
 
-/* Dust: Hapke 1981, Bidirectional Reflectance Spectroscopy, 1, Eq. 16: single scattering with the
+/* Dust: Hapke 1981 and 1986, Bidirectional Reflectance Spectroscopy 1 and 4: single scattering with the
  * opposition surge B and a Henyey-Greenstein phase function, multiple scattering through H. */
 double hapke(const pair *p, double albedo, double surge, double width, double asymmetry)
 {
