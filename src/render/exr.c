@@ -66,14 +66,16 @@ static void keep_message(exr_const_context_t context, exr_result_t code, const c
             *c = ' ';
 }
 
+/* Like pread: fewer bytes near the end, 0 beyond it; the library asks for headers block by block. */
 static int64_t read_memory(exr_const_context_t context, void *user, void *buffer, uint64_t size,
                            uint64_t offset, exr_stream_error_func_ptr_t fail)
 {
     const exr_memory *memory = user;
-    if (offset > memory->size || size > memory->size - offset) {
-        fail(context, EXR_ERR_READ_IO, "the file ends too early");
-        return -1;
-    }
+    (void)context, (void)fail;
+    if (offset >= memory->size)
+        return 0;
+    if (size > memory->size - offset)
+        size = memory->size - offset;
     memcpy(buffer, memory->data + offset, size);
     return (int64_t)size;
 }

@@ -19,20 +19,21 @@ static hnbrdf_result bad(const reader *in, const char *what)
     return hnbrdf_fail(in->error, HNBRDF_ERROR_FORMAT, "%s: at byte %zu: %s", in->name, in->at, what);
 }
 
-/* Copies one header line without its end into text (truncated to size); 0 at the end of the file. */
+/* Copies one header line without its end into text, truncated to size, control characters made '?'; 0 at the
+ * end of the file. */
 static int header_line(reader *in, char *text, size_t size)
 {
     size_t length = 0;
     while (in->at < in->size) {
         char c = (char)in->data[in->at++];
         if (c == '\n') {
-            if (length > 0 && text[length - 1] == '\r')
+            if (length > 0 && in->data[in->at - 2] == '\r')
                 length--;
             text[length] = 0;
             return 1;
         }
         if (length + 1 < size)
-            text[length++] = c;
+            text[length++] = (unsigned char)c < ' ' ? '?' : c;
     }
     return 0;
 }
