@@ -9,6 +9,7 @@
 #include "hnbrdf/metrics.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -261,6 +262,95 @@ static void progress_can_stop_and_the_model_so_far_is_returned(void **state)
     hnbrdf_model_free(model);
 }
 
+static int stop_at_step(void *user, const hnbrdf_fit_progress *p)
+{
+    return p->step >= *(const long *)user;
+}
+
+static void resumed_fit_gives_the_same_model(void **state)
+{
+    (void)state;
+    static bytes whole, resumed;
+    const char *path = "test_fit.checkpoint";
+    long stop = 150;
+    hnbrdf_fit_options o = small(HNBRDF_KIND_HYBRID);
+    o.steps = 300;
+    hnbrdf_model *a = fit(&o, NULL);
+    o.checkpoint = path;
+    o.progress = stop_at_step;
+    o.progress_user = &stop;
+    hnbrdf_fit_report report;
+    hnbrdf_model_free(fit(&o, &report));
+    assert_int_equal(report.stopped, 1);
+    assert_true(report.steps >= 150 && report.steps < 300);
+    o.progress = NULL;
+    o.resume = 1;
+    hnbrdf_model *b = fit(&o, &report);
+    assert_int_equal(report.steps, 300);
+    whole.size = resumed.size = 0;
+    assert_int_equal(hnbrdf_model_write(a, append, &whole, NULL), HNBRDF_OK);
+    assert_int_equal(hnbrdf_model_write(b, append, &resumed, NULL), HNBRDF_OK);
+    assert_int_equal(whole.size, resumed.size);
+    assert_memory_equal(whole.data, resumed.data, whole.size);
+    hnbrdf_model_free(a);
+    hnbrdf_model_free(b);
+
+    /* Another seed, a cut file, no file: refused with a message. */
+    hnbrdf_model *none = NULL;
+    hnbrdf_error error;
+    o.seed++;
+    assert_int_equal(hnbrdf_fit((const hnbrdf_measured *const *)data, COUNT, &o, &none, NULL, &error),
+                     HNBRDF_ERROR_ARGUMENT);
+    assert_non_null(strstr(error.text, path));
+    o.seed--;
+    FILE *file = fopen(path, "rb");
+    static char cut[200];
+    assert_int_equal(fread(cut, 1, sizeof cut, file), sizeof cut);
+    fclose(file);
+    file = fopen(path, "wb");
+    fwrite(cut, 1, sizeof cut, file);
+    fclose(file);
+    assert_int_equal(hnbrdf_fit((const hnbrdf_measured *const *)data, COUNT, &o, &none, NULL, &error),
+                     HNBRDF_ERROR_FORMAT);
+    remove(path);
+    assert_int_equal(hnbrdf_fit((const hnbrdf_measured *const *)data, COUNT, &o, &none, NULL, &error),
+                     HNBRDF_ERROR_IO);
+    assert_null(none);
+}
+
+/* A network trained on two materials, a third fitted on it: the network's bits stay, the third gains on GGX,
+ * and the two that were there stay as they are. */
+static void frozen_network_takes_a_new_material(void **state)
+{
+    (void)state;
+    hnbrdf_fit_options o = small(HNBRDF_KIND_HYBRID);
+    hnbrdf_model *two = NULL, *three = NULL;
+    assert_int_equal(hnbrdf_fit((const hnbrdf_measured *const *)data, 2, &o, &two, NULL, NULL), HNBRDF_OK);
+    o.freeze = two;
+    o.hidden = 64; /* the frozen model's sizes count */
+    assert_int_equal(hnbrdf_fit((const hnbrdf_measured *const *)&data[2], 1, &o, &three, NULL, NULL), HNBRDF_OK);
+    hnbrdf_model_desc a, b;
+    hnbrdf_model_describe(two, &a);
+    hnbrdf_model_describe(three, &b);
+    assert_int_equal(b.material_count, 3);
+    assert_int_equal(b.hidden, 16);
+    assert_memory_equal(a.weights[1], b.weights[1], 16 * 16 * sizeof(float));
+    assert_memory_equal(a.weights[0], b.weights[0], 16 * 10 * sizeof(float));
+    assert_string_equal(b.names[0], hnbrdf_measured_name(data[2]));
+    assert_string_equal(b.names[1], a.names[0]);
+    assert_memory_equal(&b.materials[1], &a.materials[0], sizeof(hnbrdf_material));
+    hnbrdf_comparison c;
+    assert_int_equal(hnbrdf_compare(three, &b.materials[0], data[2], HNBRDF_SAMPLER_GRID, 20000, 3, &c, NULL),
+                     HNBRDF_OK);
+    assert_true(c.smape < c.smape_analytic);
+    hnbrdf_model_free(three);
+    three = NULL; /* fitted again, a material of the same name is replaced */
+    assert_int_equal(hnbrdf_fit((const hnbrdf_measured *const *)&data[1], 1, &o, &three, NULL, NULL), HNBRDF_OK);
+    assert_int_equal(hnbrdf_model_material_count(three), 2);
+    hnbrdf_model_free(two);
+    hnbrdf_model_free(three);
+}
+
 static void bad_options_are_refused_with_a_message(void **state)
 {
     (void)state;
@@ -296,6 +386,8 @@ int main(void)
         cmocka_unit_test(ggx_fit_recovers_known_parameters),
         cmocka_unit_test(learning_rate_100_times_too_large_stays_finite),
         cmocka_unit_test(progress_can_stop_and_the_model_so_far_is_returned),
+        cmocka_unit_test(resumed_fit_gives_the_same_model),
+        cmocka_unit_test(frozen_network_takes_a_new_material),
         cmocka_unit_test(bad_options_are_refused_with_a_message),
     };
     return cmocka_run_group_tests(tests, open_data, close_data);

@@ -19,7 +19,7 @@ typedef enum hnbrdf_fit_analytic {
     HNBRDF_FIT_JOINT         /* GGX first, then trained together with the network */
 } hnbrdf_fit_analytic;
 
-/* What the progress callback sees, a few times a second. */
+/* What the progress callback sees, ten times a second and every 100 steps. */
 typedef struct hnbrdf_fit_progress {
     const char *stage;     /* "sampling", "ggx" or "network" */
     double done;           /* share of this stage, 0 to 1 */
@@ -50,6 +50,15 @@ typedef struct hnbrdf_fit_options {
     int threads;                    /* 0: all cores */
     hnbrdf_fit_progress_fn progress;
     void *progress_user;
+    /* Keep this model's network: only kd, eta, alpha and the latent codes of the new materials are fitted
+     * (steps default to 3000). The result holds them first, then the model's own materials; one of the
+     * same name is replaced. Kind, sizes, encoding and floor are the model's. */
+    const hnbrdf_model *freeze;
+    /* Where the state of training is kept, written twice a minute and when the callback stops the fit;
+     * NULL for none. With resume = 1 training goes on from there, and ends with the very model that an
+     * uninterrupted fit of the same steps gives. The caller removes the file when it is done with it. */
+    const char *checkpoint;
+    int resume;
 } hnbrdf_fit_options;
 
 typedef struct hnbrdf_fit_report {

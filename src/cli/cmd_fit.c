@@ -3,6 +3,8 @@
 #include "hnbrdf/fit.h"
 
 #include <math.h>
+#include <signal.h>
+#include <stdlib.h>
 #include <string.h>
 
 static const cli_command command = {
@@ -10,16 +12,28 @@ static const cli_command command = {
     "Fit one model to measured materials: GGX for each of them, then a small network and latent codes\n"
     "that learn what GGX misses. DATA is `builtin`, builtin:NAME, files (.bsdf, .binary) or directories.\n"
     "The result depends on the data, the options and the seed, not on the number of threads; a fit\n"
-    "limited by --seconds prints the steps it made, to be repeated with --steps.",
+    "limited by --seconds prints the steps it made, to be repeated with --steps. Ctrl-C ends a fit after the\n"
+    "step, saves the model so far, and leaves OUTPUT.checkpoint, from which --resume goes on.",
     "  hnbrdf fit builtin -o builtin.safetensors\n"
     "  hnbrdf fit rgl/ --net 32x2 --latent 4 --seconds 120 -o rgl.safetensors\n"
     "  hnbrdf fit rgl/ --kind ggx -o ggx.safetensors\n"
+    "  hnbrdf fit new.bsdf --freeze rgl.safetensors -o more.safetensors\n"
     "  hnbrdf fit merl/ --encoding directions --floor 0 -o paper.safetensors\n"};
 
 typedef struct display {
     cli_progress line;
     const char *stage;
+    FILE *log;
 } display;
+
+/* Set by Ctrl-C; the fit looks at it after every step. */
+static volatile sig_atomic_t interrupted;
+
+static void on_interrupt(int number)
+{
+    (void)number;
+    interrupted = 1;
+}
 
 static int show(void *user, const hnbrdf_fit_progress *p)
 {
@@ -39,7 +53,9 @@ static int show(void *user, const hnbrdf_fit_progress *p)
     else
         detail[0] = '\0';
     cli_progress_update(&d->line, p->done, detail);
-    return 0;
+    if (d->log && p->step > 0 && p->step % 100 == 0)
+        fprintf(d->log, "%ld,%.6f,%.6f,%.0f\n", p->step, p->done, p->loss, p->pairs_per_s);
+    return interrupted != 0;
 }
 
 /* Index of text in names, or -1. */
@@ -51,11 +67,97 @@ static int choose(const char *text, const char *const *names)
     return -1;
 }
 
+typedef struct job {
+    hnbrdf_fit_options fit;
+    const char *output;
+    cli_data data;
+} job;
+
+static void summarise(const job *j, const hnbrdf_model *model, const hnbrdf_fit_report *report)
+{
+    hnbrdf_model_desc desc;
+    hnbrdf_model_describe(model, &desc);
+    printf("%s: %s", j->output, hnbrdf_kind_name(desc.kind));
+    if (desc.kind != HNBRDF_KIND_GGX)
+        printf(" %dx%d, %s, l = %d", desc.hidden, desc.layers, hnbrdf_encoding_name(desc.encoding), desc.latent);
+    printf(", %d material%s", desc.material_count, desc.material_count == 1 ? "" : "s");
+    if (j->fit.freeze)
+        printf(" (%d new on a frozen network, %.2f s each)", j->data.count, report->seconds / j->data.count);
+    if (desc.kind != HNBRDF_KIND_GGX)
+        printf(", %ld steps, loss %.4f, %.2f M pairs/s", report->steps, report->final_loss,
+               report->pairs_per_s * 1e-6);
+    printf(", %.1f s\n", report->seconds);
+    if (report->stopped)
+        printf("interrupted; the model so far is saved. Repeat the command with --resume to go on.\n");
+}
+
+/* Fit and save. The checkpoint stays only after an interruption. */
+static int run(job *j, FILE *log)
+{
+    display d = {{0}, NULL, log};
+    hnbrdf_model *model = NULL;
+    hnbrdf_fit_report report;
+    hnbrdf_error error;
+    int code = CLI_OK;
+    j->fit.progress = show;
+    j->fit.progress_user = &d;
+    signal(SIGINT, on_interrupt);
+    signal(SIGTERM, on_interrupt);
+    hnbrdf_result result = hnbrdf_fit((const hnbrdf_measured *const *)j->data.items, j->data.count, &j->fit,
+                                      &model, &report, &error);
+    signal(SIGINT, SIG_DFL);
+    signal(SIGTERM, SIG_DFL);
+    if (d.stage)
+        cli_progress_end(&d.line);
+    if (!result)
+        result = hnbrdf_model_save(model, j->output, &error);
+    if (result) {
+        code = cli_fail("%s", error.text);
+    } else {
+        summarise(j, model, &report);
+        if (!report.stopped)
+            remove(j->fit.checkpoint);
+    }
+    hnbrdf_model_free(model);
+    return code;
+}
+
+static int open_and_run(job *j, const char *freeze, const char *log, char *const *data, int count)
+{
+    cli_source source = {NULL, NULL};
+    cli_output output = {NULL, NULL, NULL};
+    int code = CLI_OK;
+    size_t length = strlen(j->output);
+    char *checkpoint = malloc(length + sizeof ".checkpoint");
+    if (!checkpoint)
+        return cli_fail("out of memory");
+    memcpy(checkpoint, j->output, length);
+    memcpy(checkpoint + length, ".checkpoint", sizeof ".checkpoint");
+    j->fit.checkpoint = checkpoint;
+    if (freeze && !(code = cli_open_source(freeze, &source)) && !source.model)
+        code = cli_fail("%s: a measured file, expected a model to freeze", freeze);
+    j->fit.freeze = source.model;
+    if (!code && !(code = cli_open_data(data, count, &j->data))) {
+        if (log && !(code = cli_output_open(log, &output)))
+            fprintf(output.file, "step,share,loss,pairs_per_s\n");
+        if (!code)
+            code = run(j, log ? output.file : NULL);
+        if (log && output.file && cli_output_close(&output))
+            code = CLI_FAILURE;
+        cli_close_data(&j->data);
+    }
+    cli_close_source(&source);
+    free(checkpoint);
+    return code;
+}
+
 int cmd_fit(int argc, char **argv)
 {
     static const char *const kinds[] = {"hybrid", "neural", "ggx", NULL};
     static const char *const encodings[] = {"directions", "half-difference", NULL};
     static const char *const analytics[] = {"faithful", "joint", NULL};
+    const char *freeze = NULL, *log = NULL;
+    int resume = 0;
     const char *kind = "hybrid", *encoding = "half-difference", *analytic = "faithful", *output = NULL;
     int net[2] = {32, 2};
     long latent = 0, steps = 0, seed = 1, threads = 0, batch = 0, pool = 0;
@@ -76,6 +178,10 @@ int cmd_fit(int argc, char **argv)
         {"pool", 0, CLI_INT, &pool, 64, 1 << 26, "N", "direction pairs drawn a material (default 131072)"},
         {"rate", 0, CLI_REAL, &rate, 1e-7, 10, "R", "peak learning rate of Adam (default 0.01)"},
         {"seed", 0, CLI_INT, &seed, 0, 9e15, "N", "seed of everything random (default 1)"},
+        {"freeze", 0, CLI_TEXT, &freeze, 0, 0, "MODEL",
+         "keep this model's network, fit only the new materials (default steps 3000)"},
+        {"resume", 0, CLI_FLAG, &resume, 0, 0, NULL, "go on from OUTPUT.checkpoint of an interrupted fit"},
+        {"log", 0, CLI_TEXT, &log, 0, 0, "FILE", "write step,share,loss,pairs_per_s as CSV, a row every 100 steps"},
         {"threads", 0, CLI_INT, &threads, 1, 256, "N", "threads (default one a core)"},
         {NULL, 0, CLI_FLAG, NULL, 0, 0, NULL, NULL}};
     int given;
@@ -97,50 +203,23 @@ int cmd_fit(int argc, char **argv)
     if (steps && seconds > 0.0)
         return cli_usage(&command, "--steps and --seconds exclude each other");
 
-    cli_data data;
-    if ((code = cli_open_data(argv + 1, given, &data)))
-        return code;
-    display d = {{0}, NULL};
-    hnbrdf_fit_options fit = {0};
-    fit.kind = (hnbrdf_kind)kind_index;
-    fit.hidden = net[0];
-    fit.layers = net[1];
-    fit.latent = (int)latent;
-    fit.encoding = (hnbrdf_encoding)encoding_index;
-    fit.encoding_set = 1;
-    fit.floor = floor > 0.0 ? (float)floor : -1.0f;
-    fit.analytic = (hnbrdf_fit_analytic)analytic_index;
-    fit.steps = steps;
-    fit.seconds = seconds;
-    fit.batch = (int)batch;
-    fit.pool = (int)pool;
-    fit.learning_rate = (float)rate;
-    fit.seed = (uint64_t)seed;
-    fit.threads = (int)threads;
-    fit.progress = show;
-    fit.progress_user = &d;
-    hnbrdf_model *model = NULL;
-    hnbrdf_fit_report report;
-    hnbrdf_error error;
-    hnbrdf_result result = hnbrdf_fit((const hnbrdf_measured *const *)data.items, data.count, &fit, &model,
-                                      &report, &error);
-    if (d.stage)
-        cli_progress_end(&d.line);
-    if (!result)
-        result = hnbrdf_model_save(model, output, &error);
-    if (result) {
-        code = cli_fail("%s", error.text);
-    } else {
-        code = CLI_OK;
-        printf("%s: %s", output, kind);
-        if (fit.kind != HNBRDF_KIND_GGX)
-            printf(" %dx%d, %s, %d materials, %ld steps, loss %.4f, %.2f M pairs/s", net[0], net[1], encoding,
-                   data.count, report.steps, report.final_loss, report.pairs_per_s * 1e-6);
-        else
-            printf(", %d materials", data.count);
-        printf(", %.1f s\n", report.seconds);
-    }
-    hnbrdf_model_free(model);
-    cli_close_data(&data);
-    return code;
+    job j = {0};
+    j.output = output;
+    j.fit.kind = (hnbrdf_kind)kind_index;
+    j.fit.hidden = net[0];
+    j.fit.layers = net[1];
+    j.fit.latent = (int)latent;
+    j.fit.encoding = (hnbrdf_encoding)encoding_index;
+    j.fit.encoding_set = 1;
+    j.fit.floor = floor > 0.0 ? (float)floor : -1.0f;
+    j.fit.analytic = (hnbrdf_fit_analytic)analytic_index;
+    j.fit.steps = steps;
+    j.fit.seconds = seconds;
+    j.fit.batch = (int)batch;
+    j.fit.pool = (int)pool;
+    j.fit.learning_rate = (float)rate;
+    j.fit.seed = (uint64_t)seed;
+    j.fit.threads = (int)threads;
+    j.fit.resume = resume;
+    return open_and_run(&j, freeze, log, argv + 1, given);
 }

@@ -1,0 +1,135 @@
+/* checkpoint.c: the state of a training under way, to go on later with the very same result.
+ *
+ * A checkpoint is for the machine that wrote it: numbers in its own byte order, and a fingerprint of
+ * data names, options and layout that must match. */
+#include "fit/trainer.h"
+
+#include "core/error.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct header {
+    char magic[16];
+    uint64_t fingerprint;
+    hnbrdf_rng rng;
+    double share, peak, running;
+    int64_t step, order_at;
+} header;
+
+static const char magic[16] = "hnbrdf-fit/1";
+
+/* FNV-1a. */
+static uint64_t hash(uint64_t h, const void *data, size_t size)
+{
+    const unsigned char *bytes = data;
+    for (size_t i = 0; i < size; i++)
+        h = (h ^ bytes[i]) * UINT64_C(1099511628211);
+    return h;
+}
+
+static uint64_t hash_number(uint64_t h, double value)
+{
+    return hash(h, &value, sizeof value);
+}
+
+/* Everything that the result depends on, but for the values of the measurements. */
+static uint64_t fingerprint(const trainer *t)
+{
+    const hnbrdf_fit_options *o = &t->options;
+    const double numbers[] = {o->kind,  o->hidden, o->layers, o->latent, o->encoding, (double)o->floor,
+                              o->analytic, (double)o->steps, o->seconds, t->tiles_per_step, t->pool.tiles,
+                              (double)o->learning_rate, (double)o->seed, t->count, o->freeze != NULL};
+    uint64_t h = UINT64_C(14695981039346656037);
+    for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++)
+        h = hash_number(h, numbers[i]);
+    for (int m = 0; m < t->count; m++) {
+        const char *name = hnbrdf_measured_name(t->data[m]);
+        h = hash(h, name, strlen(name) + 1);
+    }
+    return h;
+}
+
+/* One pass over all blocks of the file, reading or writing. */
+static int transfer(trainer *t, FILE *file, int writing)
+{
+    struct {
+        void *data;
+        size_t size;
+    } blocks[] = {{t->parameters, 3 * t->layout.count * sizeof(float)},
+                  {t->order, (size_t)t->count * sizeof(int)},
+                  {t->cursor, (size_t)t->count * sizeof(int)}};
+    for (size_t i = 0; i < sizeof blocks / sizeof blocks[0]; i++) {
+        size_t done = writing ? fwrite(blocks[i].data, 1, blocks[i].size, file)
+                              : fread(blocks[i].data, 1, blocks[i].size, file);
+        if (done != blocks[i].size)
+            return 0;
+    }
+    return 1;
+}
+
+hnbrdf_result fit_checkpoint_save(const trainer *t, hnbrdf_error *error)
+{
+    const char *path = t->options.checkpoint;
+    size_t length = strlen(path);
+    char *aside = malloc(length + 5);
+    if (!aside)
+        return hnbrdf_fail(error, HNBRDF_ERROR_MEMORY, "%s: out of memory", path);
+    memcpy(aside, path, length);
+    memcpy(aside + length, ".tmp", 5);
+    header h;
+    memset(&h, 0, sizeof h);
+    memcpy(h.magic, magic, sizeof magic);
+    h.fingerprint = fingerprint(t);
+    h.rng = t->rng;
+    h.share = t->share;
+    h.peak = t->peak;
+    h.running = t->running;
+    h.step = t->step;
+    h.order_at = t->order_at;
+    trainer view = *t; /* transfer() takes what it may write to; it only reads here */
+    FILE *file = fopen(aside, "wb");
+    int good = file && fwrite(&h, sizeof h, 1, file) == 1 && transfer(&view, file, 1);
+    if (file && fclose(file))
+        good = 0;
+    if (!good || rename(aside, path)) {
+        remove(aside);
+        free(aside);
+        return hnbrdf_fail(error, HNBRDF_ERROR_IO, "%s: the checkpoint cannot be written", path);
+    }
+    free(aside);
+    return HNBRDF_OK;
+}
+
+hnbrdf_result fit_checkpoint_load(trainer *t, hnbrdf_error *error)
+{
+    const char *path = t->options.checkpoint;
+    FILE *file = fopen(path, "rb");
+    if (!file)
+        return hnbrdf_fail(error, HNBRDF_ERROR_IO, "%s: no checkpoint to resume from can be read there", path);
+    header h;
+    hnbrdf_result result = HNBRDF_OK;
+    if (fread(&h, sizeof h, 1, file) != 1 || memcmp(h.magic, magic, sizeof magic))
+        result = hnbrdf_fail(error, HNBRDF_ERROR_FORMAT, "%s: not a checkpoint of this version of hnbrdf", path);
+    else if (h.fingerprint != fingerprint(t))
+        result = hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT,
+                             "%s: the checkpoint is of a fit with other data, options or seed; repeat that "
+                             "command with --resume, or start anew without it",
+                             path);
+    else if (!transfer(t, file, 0) || fgetc(file) != EOF)
+        result = hnbrdf_fail(error, HNBRDF_ERROR_FORMAT, "%s: the checkpoint is damaged: its size is wrong", path);
+    for (int m = 0; m < t->count && !result; m++)
+        if (t->order[m] < 0 || t->order[m] >= t->count || t->cursor[m] < 0 || t->cursor[m] >= t->pool.tiles)
+            result = hnbrdf_fail(error, HNBRDF_ERROR_FORMAT, "%s: the checkpoint is damaged: material %d", path, m);
+    fclose(file);
+    if (result)
+        return result;
+    t->rng = h.rng;
+    t->share = h.share;
+    t->peak = h.peak;
+    t->running = h.running;
+    t->step = (long)h.step;
+    t->order_at = h.order_at >= 0 && h.order_at < t->count ? (int)h.order_at : 0;
+    return HNBRDF_OK;
+}

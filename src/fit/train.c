@@ -1,0 +1,254 @@
+/* train.c: the network stage: Adam on the shared network and the latent codes, in fixed chunks. */
+#include "fit/trainer.h"
+
+#include "core/error.h"
+#include "fit/adam.h"
+#include "fit/ggx.h"
+
+#include <math.h>
+#include <string.h>
+
+enum {
+    WARM_UP = 100,       /* steps */
+    SNAPSHOT_EVERY = 100 /* steps between copies of a state to fall back to, and between entries of a log */
+};
+#define LAST_RATE 0.01 /* the cosine schedule ends at this share of the peak rate */
+#define CHECKPOINT_SECONDS 30.0
+
+static float uniform(hnbrdf_rng *rng, double deviation)
+{
+    return (float)((2.0 * (double)hnbrdf_rng_float(rng) - 1.0) * deviation * 1.7320508);
+}
+
+/* He initialisation (2015); the correction starts near exp(-3), the gate near open. */
+static void initialise(trainer *t)
+{
+    const fit_layout *l = &t->layout;
+    hnbrdf_rng rng;
+    hnbrdf_rng_seed(&rng, t->options.seed, UINT64_C(1) << 40);
+    float *p = t->parameters;
+    size_t n = (size_t)l->padded, h = (size_t)l->hidden_size;
+    double deviation = sqrt(2.0 / (FIT_INPUTS + l->latent_size));
+    for (size_t i = 0; i < FIT_INPUTS; i++)
+        for (size_t u = 0; u < h; u++)
+            p[l->first + i * n + u] = uniform(&rng, deviation);
+    for (size_t i = 0; i < (size_t)l->latent_size; i++)
+        for (size_t u = 0; u < h; u++)
+            p[l->latent + i * n + u] = uniform(&rng, deviation);
+    for (int k = 1; k < l->layers; k++)
+        for (size_t i = 0; i < h; i++)
+            for (size_t u = 0; u < h; u++)
+                p[l->hidden[k] + i * n + u] = uniform(&rng, sqrt(2.0 / (double)h));
+    for (size_t o = 0; o < (size_t)l->outputs; o++) {
+        for (size_t u = 0; u < h; u++)
+            p[l->last + o * n + u] = uniform(&rng, sqrt(0.5 / (double)h));
+        p[l->bias[l->layers] + o] = o < 3 ? -3.0f : 1.5f;
+    }
+    for (size_t i = 0; i < (size_t)(l->materials * l->latent_size); i++)
+        p[l->codes + i] = uniform(&rng, 0.5);
+}
+
+/* ---- A frozen network ------------------------------------------------------------------------------ */
+
+/* The weights of options.freeze into the flat array. */
+static void take_network(trainer *t)
+{
+    const fit_layout *l = &t->layout;
+    hnbrdf_model_desc desc;
+    hnbrdf_model_describe(t->options.freeze, &desc);
+    float *p = t->parameters;
+    size_t n = (size_t)l->padded, h = (size_t)l->hidden_size, in = FIT_INPUTS + (size_t)l->latent_size;
+    for (int k = 0; k <= l->layers; k++) {
+        size_t rows = k < l->layers ? h : (size_t)l->outputs, columns = k == 0 ? in : h;
+        const float *w = desc.weights[k];
+        for (size_t o = 0; o < rows; o++) {
+            for (size_t i = 0; i < columns; i++)
+                p[k == l->layers ? l->last + o * n + i : (k ? l->hidden[k] : l->first) + i * n + o] = *w++;
+            p[l->bias[k] + o] = desc.biases[k][o];
+        }
+    }
+}
+
+static double loss_of_code(trainer *t, int material, int tiles)
+{
+    double loss = 0.0;
+    for (int k = 0; k < tiles; k++) {
+        fit_tile tile = fit_pool_view(&t->pool, material, k);
+        loss += t->kernel->network(&t->layout, t->parameters, t->derived, &tile, material, 1.0f, t->scratch,
+                                   t->gradient);
+    }
+    return loss;
+}
+
+/* Every new material starts from the latent code of the known one that describes it best. */
+static void take_codes(trainer *t)
+{
+    const fit_layout *l = &t->layout;
+    size_t size = (size_t)l->latent_size;
+    int tiles = t->pool.tiles < 8 ? t->pool.tiles : 8;
+    t->kernel->derive(l, t->parameters, t->derived);
+    for (int m = 0; m < t->count; m++) {
+        float *code = t->parameters + l->codes + (size_t)m * size;
+        int best = 0;
+        double least = INFINITY;
+        for (int k = 0; k < hnbrdf_model_material_count(t->options.freeze); k++) {
+            memcpy(code, hnbrdf_model_material(t->options.freeze, k)->latent, sizeof(float) * size);
+            double loss = loss_of_code(t, m, tiles);
+            if (loss < least) {
+                least = loss;
+                best = k;
+            }
+        }
+        memcpy(code, hnbrdf_model_material(t->options.freeze, best)->latent, sizeof(float) * size);
+    }
+}
+
+/* ---- Steps ----------------------------------------------------------------------------------------- */
+
+/* Choose the tiles of a step: materials in shuffled rounds, each material's tiles in turn. */
+static void schedule(trainer *t)
+{
+    for (int k = 0; k < t->tiles_per_step; k++) {
+        if (t->order_at == 0)
+            for (int i = t->count - 1; i > 0; i--) {
+                int j = (int)(((uint64_t)hnbrdf_rng_u32(&t->rng) * (uint64_t)(i + 1)) >> 32);
+                int swap = t->order[i];
+                t->order[i] = t->order[j];
+                t->order[j] = swap;
+            }
+        int material = t->order[t->order_at];
+        t->order_at = (t->order_at + 1) % t->count;
+        t->tile_material[k] = material;
+        t->tile_index[k] = t->cursor[material];
+        t->cursor[material] = (t->cursor[material] + 1) % t->pool.tiles;
+    }
+}
+
+static void chunk(void *context, int index, int worker)
+{
+    trainer *t = context;
+    int each = t->tiles_per_step / FIT_CHUNKS;
+    float *gradient = t->chunk_gradients + (size_t)index * t->layout.count;
+    memset(gradient, 0, sizeof(float) * t->layout.count);
+    double loss = 0.0;
+    for (int k = index * each; k < (index + 1) * each; k++) {
+        fit_tile tile = fit_pool_view(&t->pool, t->tile_material[k], t->tile_index[k]);
+        loss += t->kernel->network(&t->layout, t->parameters, t->derived, &tile, t->tile_material[k], t->mix,
+                                   t->scratch + (size_t)worker * t->layout.scratch_count, gradient);
+    }
+    t->chunk_losses[index] = loss;
+}
+
+/* Loss and gradient of the mean over one step's pairs. */
+static double step_gradient(trainer *t)
+{
+    t->kernel->derive(&t->layout, t->parameters, t->derived);
+    fit_workers_run(t->workers, FIT_CHUNKS, chunk, t);
+    double scale = 1.0 / (3.0 * FIT_TILE * t->tiles_per_step), loss = 0.0;
+    memcpy(t->gradient, t->chunk_gradients, sizeof(float) * t->layout.count);
+    for (int c = 1; c < FIT_CHUNKS; c++) {
+        const float *g = t->chunk_gradients + (size_t)c * t->layout.count;
+        for (size_t i = 0; i < t->layout.count; i++)
+            t->gradient[i] += g[i];
+    }
+    for (size_t i = 0; i < t->layout.count; i++)
+        t->gradient[i] *= (float)scale;
+    if (t->options.freeze) /* a gradient of zero moves nothing */
+        memset(t->gradient, 0, sizeof(float) * t->layout.network_count);
+    for (int c = 0; c < FIT_CHUNKS; c++)
+        loss += t->chunk_losses[c];
+    return loss * scale;
+}
+
+/* The analytic parameters after a step: ranges, ties, rotation. */
+static void settle_analytic(trainer *t)
+{
+    for (int m = 0; m < t->count; m++) {
+        float *p = t->parameters + t->layout.analytic + (size_t)m * FIT_ANALYTIC;
+        p[FIT_ROTATION] = t->materials[m].rotation; /* the encoded directions were turned by it */
+        fit_ggx_project(p, t->isotropic[m]);
+    }
+}
+
+static int all_finite(const float *values, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        if (!isfinite(values[i]))
+            return 0;
+    return 1;
+}
+
+/* One step of Adam; a state that is not finite goes back to the last good one and on at a lower rate. */
+static void advance(trainer *t, double loss)
+{
+    size_t bytes = 3 * t->layout.count * sizeof(float); /* parameters and moments */
+    int due = t->step % SNAPSHOT_EVERY == 0;
+    if (!isfinite(loss) || (due && !all_finite(t->parameters, 3 * t->layout.count))) {
+        memcpy(t->parameters, t->snapshot, bytes);
+        t->peak *= 0.3;
+        return;
+    }
+    if (due)
+        memcpy(t->snapshot, t->parameters, bytes);
+    double cosine = 0.5 + 0.5 * cos(3.14159265358979 * t->share);
+    double rate = t->peak * (LAST_RATE + (1.0 - LAST_RATE) * cosine) * fmin(1.0, (double)t->step / WARM_UP);
+    fit_adam(t->parameters, t->gradient, t->moments, t->layout.count, t->step, rate);
+    if (t->layout.train_analytic)
+        settle_analytic(t);
+    t->running = isfinite(t->running) ? 0.98 * t->running + 0.02 * loss : loss;
+}
+
+static hnbrdf_result start(trainer *t, hnbrdf_error *error)
+{
+    hnbrdf_rng_seed(&t->rng, t->options.seed, UINT64_C(2) << 40);
+    t->peak = (double)t->options.learning_rate;
+    t->running = NAN;
+    if (t->options.freeze) {
+        take_network(t);
+        take_codes(t);
+    } else {
+        initialise(t);
+    }
+    if (t->options.resume) {
+        hnbrdf_result result = fit_checkpoint_load(t, error);
+        if (result)
+            return result;
+    }
+    memcpy(t->snapshot, t->parameters, 3 * t->layout.count * sizeof(float));
+    return HNBRDF_OK;
+}
+
+hnbrdf_result fit_train(trainer *t, hnbrdf_fit_report *report, hnbrdf_error *error)
+{
+    hnbrdf_result result = start(t, error);
+    if (result)
+        return result;
+    fit_stage_begin(t);
+    const double share_before = t->share, each = (double)t->tiles_per_step * FIT_TILE;
+    double saved = fit_seconds(), pairs = 0.0;
+    while (t->share < 1.0 && !t->stopped) {
+        t->mix = (float)fmin(1.0, fmax(0.0, (t->share - 0.3) / 0.4));
+        schedule(t);
+        double loss = step_gradient(t);
+        t->step++;
+        pairs += each;
+        advance(t, loss);
+        double now = fit_seconds();
+        t->share = t->options.seconds > 0.0
+                       ? share_before + (now - t->stage_started) / t->options.seconds
+                       : (double)t->step / (double)t->options.steps;
+        fit_report(t, "network", fmin(t->share, 1.0), t->running, pairs, t->step % SNAPSHOT_EVERY == 0);
+        if (t->options.checkpoint && t->share < 1.0 && (t->stopped || now - saved > CHECKPOINT_SECONDS)) {
+            if ((result = fit_checkpoint_save(t, error)))
+                return result;
+            saved = now;
+        }
+    }
+    if (!all_finite(t->parameters, t->layout.count))
+        memcpy(t->parameters, t->snapshot, sizeof(float) * t->layout.count);
+    double elapsed = fit_seconds() - t->stage_started;
+    report->final_loss = t->running;
+    report->pairs_per_s = elapsed > 0.0 ? pairs / elapsed : 0.0;
+    report->steps = t->step;
+    return HNBRDF_OK;
+}
