@@ -1,0 +1,59 @@
+#!/bin/sh
+# packages.sh demo|tests: installs what building and the demo, or the tests, need and is not there yet. Debian
+# and Ubuntu, through apt-get, as root or with sudo; elsewhere it says what to install.
+set -eu
+
+wanted="gcc libc6-dev make cmake pkg-config libopenexr-dev libvulkan-dev mesa-vulkan-drivers glslang-tools libstb-dev"
+case ${1:-} in
+demo) ;;
+tests) wanted="$wanted g++ clang libcmocka-dev vulkan-validationlayers spirv-cross" ;;
+*)
+    echo "usage: sh $0 demo|tests" >&2
+    exit 2
+    ;;
+esac
+
+missing=""
+if command -v dpkg-query > /dev/null; then
+    for package in $wanted; do
+        # An installed package may be given by another one (pkg-config by pkgconf).
+        dpkg-query -W -f '${Status}\n' "$package" 2> /dev/null | grep -q '^install ok installed' ||
+            missing="$missing $package"
+    done
+else
+    for tool in gcc make cmake pkg-config glslangValidator; do
+        command -v $tool > /dev/null || {
+            echo "no dpkg here and no $tool: install what Debian calls $wanted" >&2
+            exit 1
+        }
+    done
+    echo "no dpkg here: taking it that the equivalents of these are installed: $wanted"
+fi
+
+if [ -n "$missing" ]; then
+    install="apt-get install -y --no-install-recommends$missing"
+    if [ "$(id -u)" = 0 ]; then
+        as_root="env DEBIAN_FRONTEND=noninteractive"
+    elif command -v sudo > /dev/null; then
+        as_root="sudo env DEBIAN_FRONTEND=noninteractive"
+    else
+        printf 'These packages are missing, and only root can install them:\n\n  %s\n' "$install" >&2
+        exit 1
+    fi
+    echo "installing:$missing"
+    log=$(mktemp)
+    { $as_root apt-get update && $as_root $install; } > "$log" 2>&1 || {
+        tail -n 20 "$log" >&2
+        rm -f "$log"
+        printf 'Could not install what is missing. By hand:\n\n  %s\n' "$install" >&2
+        exit 1
+    }
+    rm -f "$log"
+fi
+
+version=$(cmake --version | sed -n 's/^cmake version \([0-9]*\.[0-9]*\).*/\1/p')
+major=${version%.*} minor=${version#*.}
+if [ "$major" -lt 3 ] || { [ "$major" -eq 3 ] && [ "$minor" -lt 25 ]; }; then
+    echo "CMake $version is here, 3.25 or later is needed: see https://cmake.org/download/" >&2
+    exit 1
+fi

@@ -1,0 +1,58 @@
+#!/bin/sh
+# run.sh: everything that must hold before a change is accepted. Installs what is missing, builds with gcc and
+# clang without a warning, with parts left out, and with sanitizers, and runs the tests, those of the release
+# build last. Stops at the first failure.
+set -eu
+cd "$(dirname "$0")/.."
+jobs=$(getconf _NPROCESSORS_ONLN 2> /dev/null || echo 2)
+start=$(date +%s)
+everything="-DHNBRDF_BUILD_FIT=ON -DHNBRDF_BUILD_CLI=ON -DHNBRDF_BUILD_TESTS=ON -DHNBRDF_BUILD_EXAMPLES=ON
+    -DHNBRDF_WITH_OPENEXR=ON -DHNBRDF_WITH_VULKAN=ON -DHNBRDF_WERROR=ON"
+steps=5 step=0
+
+announce() {
+    step=$((step + 1))
+    echo "[$step/$steps] $1 ($(($(date +%s) - start)) s)"
+}
+fail() {
+    echo "run.sh: FAILED in step $step/$steps: $1" >&2
+    exit 1
+}
+# build COMPILER DIRECTORY cmake-arguments...: configures and builds; what was printed is shown on failure.
+build() {
+    compiler=$1 directory=$2
+    shift 2
+    mkdir -p "$directory"
+    log=$directory/build.log
+    # shellcheck disable=SC2086 # $everything is words; what comes later wins
+    { CC=$compiler cmake -S . -B "$directory" $everything "$@" && cmake --build "$directory" -j "$jobs"; } \
+        > "$log" 2>&1 || {
+        grep -E -A 12 'error:|warning:|Error at|undefined' "$log" | head -n 60 >&2
+        tail -n 10 "$log" >&2
+        fail "building $directory, all of it in $log"
+    }
+}
+
+announce "packages"
+sh tests/packages.sh tests || fail "packages"
+
+announce "clang, warnings are errors"
+build clang build/clang -DCMAKE_BUILD_TYPE=Release
+ctest --test-dir build/clang -R '^test_(math|core_)' -j "$jobs" --output-on-failure > build/clang/test.log 2>&1 || {
+    cat build/clang/test.log
+    fail "the core tests under clang"
+}
+
+announce "without Vulkan and OpenEXR"
+build gcc build/plain -DCMAKE_BUILD_TYPE=Debug -DHNBRDF_WITH_OPENEXR=OFF -DHNBRDF_WITH_VULKAN=OFF \
+    -DHNBRDF_BUILD_TESTS=OFF
+build/plain/hnbrdf --help > /dev/null || fail "hnbrdf --help without Vulkan and OpenEXR"
+
+announce "AddressSanitizer and UndefinedBehaviorSanitizer"
+build gcc build/sanitize -DCMAKE_BUILD_TYPE=RelWithDebInfo -DHNBRDF_SANITIZE=ON
+UBSAN_OPTIONS=print_stacktrace=1 ctest --test-dir build/sanitize -j "$jobs" --output-on-failure ||
+    fail "tests under sanitizers"
+
+announce "release build with gcc, warnings are errors"
+build gcc build -DCMAKE_BUILD_TYPE=Release
+ctest --test-dir build -j "$jobs" --output-on-failure
