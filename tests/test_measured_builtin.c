@@ -1,9 +1,7 @@
 /* test_measured_builtin.c: the built-in materials are what a measurement could be: reciprocal, never
  * negative, never reflecting more than arrives, and beyond Lambert plus one GGX lobe. */
 #include "measured_support.h"
-#include "measured/builtin.h"
-
-static const double PI = 3.14159265358979323846;
+#include "measured/builtin_terms.h"
 
 static hnbrdf_measured *open_builtin(int index)
 {
@@ -66,7 +64,7 @@ static void formulas_are_finite_up_to_the_horizon(void **state)
         const builtin_material *material = &hnbrdf_builtin_materials[m];
         film_table film = {{{0}}};
         if (material->film)
-            film_fill(&film, material->film);
+            hnbrdf_film_fill(&film, material->film);
         for (size_t a = 0; a < 7; a++)
             for (size_t b = 0; b < 7; b++)
                 for (size_t c = 0; c < 5; c++) {

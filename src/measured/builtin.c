@@ -1,6 +1,6 @@
 /* builtin.c: open a built-in procedural material. The materials themselves are in
  * builtin_materials.c. */
-#include "measured/builtin.h"
+#include "measured/builtin_terms.h"
 #include "measured/format.h"
 #include "core/error.h"
 
@@ -32,7 +32,7 @@ static int builtin_eval(const void *data, const double wi[3], const double wo[3]
     return 1;
 }
 
-hnbrdf_result builtin_open(int index, measured_body *body, hnbrdf_error *error)
+hnbrdf_result hnbrdf_builtin_open(int index, measured_body *body, hnbrdf_error *error)
 {
     const builtin_material *material = &hnbrdf_builtin_materials[index];
     builtin *opened = calloc(1, sizeof *opened);
@@ -40,7 +40,7 @@ hnbrdf_result builtin_open(int index, measured_body *body, hnbrdf_error *error)
         return hnbrdf_fail(error, HNBRDF_ERROR_MEMORY, "%s: out of memory", material->name);
     opened->material = material;
     if (material->film)
-        film_fill(&opened->film, material->film);
+        hnbrdf_film_fill(&opened->film, material->film);
     body->data = opened;
     body->eval = builtin_eval;
     body->release = free;

@@ -1,9 +1,6 @@
-/* builtin.h: what the built-in procedural materials are made of. All in double precision; every term is
- * unchanged to the last bit when wi and wo swap. */
+/* builtin.h: what a built-in procedural material is. */
 #ifndef HNBRDF_MEASURED_BUILTIN_H
 #define HNBRDF_MEASURED_BUILTIN_H
-
-#define COAT_ETA 1.5 /* index of every coat */
 
 /* A film of index n and thickness in nm, seen from a medium of index outside_n, on a base of index
  * base_n - i base_k; all constant over the visible spectrum. Several such plates may lie in a pile,
@@ -38,28 +35,7 @@ typedef struct builtin_material {
 extern const builtin_material hnbrdf_builtin_materials[];
 extern const int hnbrdf_builtin_material_count;
 
-/* builtin_terms.c */
-pair make_pair(const double wi[3], const double wo[3]);
-/* The same directions with the tangent turned by angle radians about n. */
-pair turned_pair(const pair *p, double angle);
-/* The same directions after refraction into a medium of this index. */
-pair refracted_pair(const pair *p, double eta);
-/* wi mirrored about n: lobes around the mirror direction become lobes around the light. */
-pair retro_pair(const pair *p);
-
-double ggx(const pair *p, double alpha_x, double alpha_y);
-double fresnel_dielectric(double eta, double c);
-double fresnel_conductor(double n, double k, double c);
-double schlick(double f0, double c);
-double coat_transmission(const pair *p);
-double diffuse_under_coat(const pair *p, double albedo);
-double oren_nayar(const pair *p, double roughness);
-double charlie_sheen(const pair *p, double roughness);
-double lafortune(const pair *p, double z_weight, double exponent);
-double hapke(const pair *p, double albedo, double surge, double width, double asymmetry);
-
-/* builtin_film.c */
-void film_fill(film_table *table, const film_stack *film);
-void film_reflectance(const film_table *table, double c, double rgb[3]);
+void hnbrdf_film_fill(film_table *table, const film_stack *film);
+void hnbrdf_film_reflectance(const film_table *table, double c, double rgb[3]);
 
 #endif

@@ -35,7 +35,7 @@ static void srgb_from_xyz(const double xyz[3], double rgb[3])
         rgb[c] = M[c][0] * xyz[0] + M[c][1] * xyz[1] + M[c][2] * xyz[2];
 }
 
-/* ---- Interference: Born and Wolf, Principles of Optics, 7.6; in graphics Belcour and Barla 2017 -----
+/* ---- Interference: Born and Wolf, Principles of Optics, 7.6; Belcour and Barla 2017 ---------------
  */
 
 /* Amplitude reflected by the boundary from index n0 to n1, polarised s (0) or p (1). */
@@ -82,13 +82,13 @@ static void film_colour(const film_stack *film, double c, double rgb[3])
         rgb[i] /= grey[i];
 }
 
-void film_fill(film_table *table, const film_stack *film)
+void hnbrdf_film_fill(film_table *table, const film_stack *film)
 {
     for (int k = 0; k <= FILM_STEPS; k++)
         film_colour(film, (double)k / FILM_STEPS, table->rgb[k]);
 }
 
-void film_reflectance(const film_table *table, double c, double rgb[3])
+void hnbrdf_film_reflectance(const film_table *table, double c, double rgb[3])
 {
     double x = c * FILM_STEPS;
     int k = (int)x < FILM_STEPS - 1 ? (int)x : FILM_STEPS - 1;

@@ -1,12 +1,7 @@
 /* builtin_materials.c: the built-in procedural materials: what measurements contain and Lambert plus
  * one GGX lobe cannot follow. f may be negative where a colour is outside the sRGB gamut; measured.c
  * clips it to 0, and so do the RGB editions of real measurements. */
-#include "measured/builtin.h"
-
-#include <math.h>
-#include <stddef.h>
-
-static const double PI = 3.14159265358979323846;
+#include "measured/builtin_terms.h"
 
 /* n and k of metals in the red, green and blue, rounded: right enough for their colours. */
 static const double GOLD_N[3] = {0.18, 0.54, 1.35}, GOLD_K[3] = {3.44, 2.23, 1.89};
@@ -94,7 +89,7 @@ static void near_mirror_chrome(const pair *p, double f[3])
 static void anodised_titanium(const pair *p, double f[3])
 {
     double colour[3];
-    film_reflectance(p->film, p->c, colour);
+    hnbrdf_film_reflectance(p->film, p->c, colour);
     add(f, 0.7 * ggx(p, 0.16, 0.16) + 0.3 * ggx(p, 0.4, 0.4), colour);
 }
 
@@ -139,7 +134,7 @@ static void pearl_flake_paint(const pair *p, double f[3])
     static const double base[3] = {0.012, 0.012, 0.022};
     double colour[3];
     pair inside = refracted_pair(p, COAT_ETA);
-    film_reflectance(p->film, inside.c, colour);
+    hnbrdf_film_reflectance(p->film, inside.c, colour);
     add_coat(f, p, 0.012);
     add(f, coat_transmission(p) / (COAT_ETA * COAT_ETA) * 0.9 * ggx(&inside, 0.24, 0.24), colour);
     for (int c = 0; c < 3; c++)
@@ -175,8 +170,8 @@ static void satin_weave(const pair *p, double f[3])
 }
 
 /* Retroreflecting tape: glass beads send light back to where it came from, below a plastic film
- * (the back vector of Belcour et al.
- * 2014, BRDF Measurements and Analysis of Retroreflective Materials). */
+ * (the back vector of Belcour et al. 2014, BRDF Measurements and Analysis of Retroreflective
+ * Materials). */
 static void retro_tape(const pair *p, double f[3])
 {
     static const double beads[3] = {0.62, 0.58, 0.44}, body[3] = {0.17, 0.16, 0.13};

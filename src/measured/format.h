@@ -17,15 +17,15 @@ typedef struct measured_body {
 
 /* Each reader: does the content claim this format (then every further complaint is about it), and
  * read it. `label` names the file in messages. The bytes are not needed afterwards. */
-int merl_recognise(const unsigned char *bytes, size_t size);
-hnbrdf_result merl_open(const unsigned char *bytes, size_t size, const char *label, measured_body *body,
-                        hnbrdf_error *error);
+int hnbrdf_merl_recognise(const unsigned char *bytes, size_t size);
+hnbrdf_result hnbrdf_merl_open(const unsigned char *bytes, size_t size, const char *label,
+                               measured_body *body, hnbrdf_error *error);
 
-int rgl_recognise(const unsigned char *bytes, size_t size);
-hnbrdf_result rgl_open(const unsigned char *bytes, size_t size, const char *label, measured_body *body,
-                       hnbrdf_error *error);
+int hnbrdf_rgl_recognise(const unsigned char *bytes, size_t size);
+hnbrdf_result hnbrdf_rgl_open(const unsigned char *bytes, size_t size, const char *label,
+                              measured_body *body, hnbrdf_error *error);
 
 /* index is in range. */
-hnbrdf_result builtin_open(int index, measured_body *body, hnbrdf_error *error);
+hnbrdf_result hnbrdf_builtin_open(int index, measured_body *body, hnbrdf_error *error);
 
 #endif

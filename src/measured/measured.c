@@ -161,13 +161,13 @@ static hnbrdf_result unrecognised(const unsigned char *bytes, size_t size, const
 static hnbrdf_result open_bytes(const unsigned char *bytes, size_t size, const char *label,
                                 hnbrdf_measured *measured, hnbrdf_error *error)
 {
-    if (rgl_recognise(bytes, size)) {
+    if (hnbrdf_rgl_recognise(bytes, size)) {
         measured->format = HNBRDF_MEASURED_RGL;
-        return rgl_open(bytes, size, label, &measured->body, error);
+        return hnbrdf_rgl_open(bytes, size, label, &measured->body, error);
     }
-    if (merl_recognise(bytes, size)) {
+    if (hnbrdf_merl_recognise(bytes, size)) {
         measured->format = HNBRDF_MEASURED_MERL;
-        return merl_open(bytes, size, label, &measured->body, error);
+        return hnbrdf_merl_open(bytes, size, label, &measured->body, error);
     }
     return unrecognised(bytes, size, label, error);
 }
@@ -235,7 +235,7 @@ hnbrdf_result hnbrdf_measured_open_builtin(int index, hnbrdf_measured **measured
     if (!opened)
         return hnbrdf_fail(error, HNBRDF_ERROR_MEMORY, "%s: out of memory", name);
     opened->format = HNBRDF_MEASURED_BUILTIN;
-    hnbrdf_result result = builtin_open(index, &opened->body, error);
+    hnbrdf_result result = hnbrdf_builtin_open(index, &opened->body, error);
     if (result) {
         free(opened);
         return result;

@@ -70,7 +70,7 @@ static int merl_eval(const void *data, const double wi[3], const double wo[3], d
     return bin[0] >= 0.0f;
 }
 
-int merl_recognise(const unsigned char *bytes, size_t size)
+int hnbrdf_merl_recognise(const unsigned char *bytes, size_t size)
 {
     if (size == FILE_SIZE)
         return 1;
@@ -138,8 +138,8 @@ static void summarise(char summary[256], int valid, size_t size)
                  size - FILE_SIZE);
 }
 
-hnbrdf_result merl_open(const unsigned char *bytes, size_t size, const char *label, measured_body *body,
-                        hnbrdf_error *error)
+hnbrdf_result hnbrdf_merl_open(const unsigned char *bytes, size_t size, const char *label,
+                               measured_body *body, hnbrdf_error *error)
 {
     hnbrdf_result result = check_header(bytes, size, label, error);
     if (result)

@@ -25,9 +25,9 @@ typedef struct reader {
     hnbrdf_error *error;
 } reader;
 
-int rgl_recognise(const unsigned char *bytes, size_t size)
+int hnbrdf_rgl_recognise(const unsigned char *bytes, size_t size)
 {
-    return tensor_file_recognise(bytes, size);
+    return hnbrdf_tensor_file_recognise(bytes, size);
 }
 
 /* ---- Fields and shapes --------------------------------------------------------------------------- */
@@ -38,13 +38,13 @@ static hnbrdf_result check_kind(const reader *r, const tensor *field, tensor_typ
         return HNBRDF_OK;
     return hnbrdf_fail(r->error, HNBRDF_ERROR_FORMAT,
                        "%s: field \"%s\" is %s with %d axes, expected %s with %d", r->label,
-                       field->shown, tensor_type_name(field->type), field->dims, tensor_type_name(type),
-                       dims);
+                       field->shown, hnbrdf_tensor_type_name(field->type), field->dims,
+                       hnbrdf_tensor_type_name(type), dims);
 }
 
 static hnbrdf_result find_fields(const reader *r, rgl_fields *fields)
 {
-    if (!tensor_file_find(r->file, "rgb") && tensor_file_find(r->file, "spectra"))
+    if (!hnbrdf_tensor_file_find(r->file, "rgb") && hnbrdf_tensor_file_find(r->file, "spectra"))
         return hnbrdf_fail(
             r->error, HNBRDF_ERROR_UNSUPPORTED,
             "%s: spectral RGL file (field \"spectra\"), expected the RGB edition (\"rgb\")", r->label);
@@ -64,7 +64,7 @@ static hnbrdf_result find_fields(const reader *r, rgl_fields *fields)
         {"jacobian", &fields->jacobian, TENSOR_U8, 1, 1},
     };
     for (size_t i = 0; i < sizeof wanted / sizeof wanted[0]; i++) {
-        const tensor *field = tensor_file_find(r->file, wanted[i].name);
+        const tensor *field = hnbrdf_tensor_file_find(r->file, wanted[i].name);
         if (!field && !wanted[i].optional)
             return hnbrdf_fail(r->error, HNBRDF_ERROR_FORMAT,
                                "%s: no field \"%s\" among %zu, expected one in an RGL material",
@@ -366,11 +366,11 @@ static void summarise(char summary[256], const rgl *material, size_t negative, u
         snprintf(summary + n, (size_t)(256 - n), ", file version 1.%u read as 1.0", minor);
 }
 
-hnbrdf_result rgl_open(const unsigned char *bytes, size_t size, const char *label, measured_body *body,
-                       hnbrdf_error *error)
+hnbrdf_result hnbrdf_rgl_open(const unsigned char *bytes, size_t size, const char *label,
+                              measured_body *body, hnbrdf_error *error)
 {
     tensor_file file;
-    hnbrdf_result result = tensor_file_parse(bytes, size, label, &file, error);
+    hnbrdf_result result = hnbrdf_tensor_file_parse(bytes, size, label, &file, error);
     if (result)
         return result;
     reader r = {&file, label, error};
@@ -382,11 +382,11 @@ hnbrdf_result rgl_open(const unsigned char *bytes, size_t size, const char *labe
         release(material);
     } else {
         body->data = material;
-        body->eval = rgl_eval;
+        body->eval = hnbrdf_rgl_eval;
         body->release = release;
         body->isotropic = !material->needs_phi_i;
         summarise(body->summary, material, negative, file.minor);
     }
-    tensor_file_free(&file);
+    hnbrdf_tensor_file_free(&file);
     return result;
 }

@@ -40,6 +40,6 @@ typedef struct rgl {
 } rgl;
 
 /* As measured_body.eval: f per channel, signed. 0 where the normal is invisible from wi. */
-int rgl_eval(const void *data, const double wi[3], const double wo[3], double f[3]);
+int hnbrdf_rgl_eval(const void *data, const double wi[3], const double wo[3], double f[3]);
 
 #endif

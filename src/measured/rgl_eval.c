@@ -153,7 +153,7 @@ static double half_azimuth(const rgl *material, const double wi[3], const double
     return atan2(wi[0] * m[1] - wi[1] * m[0], wi[0] * m[0] + wi[1] * m[1]);
 }
 
-int rgl_eval(const void *data, const double wi_given[3], const double wo_given[3], double f[3])
+int hnbrdf_rgl_eval(const void *data, const double wi_given[3], const double wo_given[3], double f[3])
 {
     const rgl *material = data;
     double wi[3] = {wi_given[0], wi_given[1], wi_given[2]};

@@ -39,12 +39,12 @@ static const unsigned char *take(cursor *c, size_t count)
     return p;
 }
 
-const char *tensor_type_name(tensor_type type)
+const char *hnbrdf_tensor_type_name(tensor_type type)
 {
     return TYPES[type].name;
 }
 
-int tensor_file_recognise(const unsigned char *bytes, size_t size)
+int hnbrdf_tensor_file_recognise(const unsigned char *bytes, size_t size)
 {
     return size > 0 && memcmp(bytes, MAGIC, size < MAGIC_SIZE ? size : MAGIC_SIZE) == 0;
 }
@@ -175,8 +175,8 @@ static hnbrdf_result parse_records(cursor *c, tensor *fields, size_t count)
     return HNBRDF_OK;
 }
 
-hnbrdf_result tensor_file_parse(const unsigned char *bytes, size_t size, const char *label,
-                                tensor_file *file, hnbrdf_error *error)
+hnbrdf_result hnbrdf_tensor_file_parse(const unsigned char *bytes, size_t size, const char *label,
+                                       tensor_file *file, hnbrdf_error *error)
 {
     cursor c = {bytes, size, 0, label, error};
     size_t count = 0;
@@ -196,13 +196,13 @@ hnbrdf_result tensor_file_parse(const unsigned char *bytes, size_t size, const c
     return HNBRDF_OK;
 }
 
-void tensor_file_free(tensor_file *file)
+void hnbrdf_tensor_file_free(tensor_file *file)
 {
     free(file->fields);
     *file = (tensor_file){NULL, 0, 0};
 }
 
-const tensor *tensor_file_find(const tensor_file *file, const char *name)
+const tensor *hnbrdf_tensor_file_find(const tensor_file *file, const char *name)
 {
     size_t length = strlen(name);
     for (size_t i = 0; i < file->count; i++)

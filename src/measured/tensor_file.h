@@ -28,7 +28,7 @@ typedef enum tensor_type {
 } tensor_type;
 
 /* "u8" ... "f64". */
-const char *tensor_type_name(tensor_type type);
+const char *hnbrdf_tensor_type_name(tensor_type type);
 
 /* A C-order array whose bytes lie inside the file. */
 typedef struct tensor {
@@ -49,14 +49,14 @@ typedef struct tensor_file {
 } tensor_file;
 
 /* The magic, or as much of it as there is. */
-int tensor_file_recognise(const unsigned char *bytes, size_t size);
+int hnbrdf_tensor_file_recognise(const unsigned char *bytes, size_t size);
 
 /* Points into bytes. `label` names the file in messages. */
-hnbrdf_result tensor_file_parse(const unsigned char *bytes, size_t size, const char *label,
-                                tensor_file *file, hnbrdf_error *error);
-void tensor_file_free(tensor_file *file);
+hnbrdf_result hnbrdf_tensor_file_parse(const unsigned char *bytes, size_t size, const char *label,
+                                       tensor_file *file, hnbrdf_error *error);
+void hnbrdf_tensor_file_free(tensor_file *file);
 
 /* NULL if there is none of this name. */
-const tensor *tensor_file_find(const tensor_file *file, const char *name);
+const tensor *hnbrdf_tensor_file_find(const tensor_file *file, const char *name);
 
 #endif
