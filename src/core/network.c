@@ -58,19 +58,27 @@ void hnbrdf_network(const hnbrdf_model_desc *desc, const float *latent, const fl
     }
 }
 
+/* Two rows at a time: every input is loaded once for both. */
 static void layer_block(const float *weights, const float *biases, int rows, int stride, int columns,
                         float (*x)[HNBRDF_LANES], float (*sums)[HNBRDF_LANES])
 {
-    for (int r = 0; r < rows; r++) {
-        const float *w = weights + (size_t)r * (size_t)stride;
-        float s[HNBRDF_LANES];
-        for (int l = 0; l < HNBRDF_LANES; l++)
+    for (int r = 0; r < rows; r += 2) {
+        int next = r + 1 < rows ? r + 1 : r; /* an odd last row is computed twice */
+        const float *w = weights + (size_t)r * (size_t)stride, *v = weights + (size_t)next * (size_t)stride;
+        float s[HNBRDF_LANES], t[HNBRDF_LANES];
+        for (int l = 0; l < HNBRDF_LANES; l++) {
             s[l] = biases[r];
+            t[l] = biases[next];
+        }
         for (int i = 0; i < columns; i++)
-            for (int l = 0; l < HNBRDF_LANES; l++)
+            for (int l = 0; l < HNBRDF_LANES; l++) {
                 s[l] += w[i] * x[i][l];
-        for (int l = 0; l < HNBRDF_LANES; l++)
+                t[l] += v[i] * x[i][l];
+            }
+        for (int l = 0; l < HNBRDF_LANES; l++) {
             sums[r][l] = s[l];
+            sums[next][l] = t[l];
+        }
     }
 }
 
