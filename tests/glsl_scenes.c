@@ -10,12 +10,27 @@ static const struct {
     const char *name;
     scene_shape shape;
 } scenes[] = {
-    {"hybrid_32x2", {.encoding = HNBRDF_ENCODING_HALF_DIFFERENCE, .hidden = 32, .layers = 2, .latent = 4, .floor = 0.003f}},
+    {"hybrid_32x2",
+     {.encoding = HNBRDF_ENCODING_HALF_DIFFERENCE,
+      .hidden = 32,
+      .layers = 2,
+      .latent = 4,
+      .floor = 0.003f}},
     {"hybrid_8x4_rotated",
-     {.encoding = HNBRDF_ENCODING_HALF_DIFFERENCE, .hidden = 8, .layers = 4, .latent = 6, .anisotropic = 1,
-      .rotated = 1, .scale = 2.0f, .shift = 1.0f}},
+     {.encoding = HNBRDF_ENCODING_HALF_DIFFERENCE,
+      .hidden = 8,
+      .layers = 4,
+      .latent = 6,
+      .anisotropic = 1,
+      .rotated = 1,
+      .scale = 2.0f,
+      .shift = 1.0f}},
     {"neural_16x3_directions",
-     {.kind = HNBRDF_KIND_NEURAL, .encoding = HNBRDF_ENCODING_DIRECTIONS, .hidden = 16, .layers = 3, .latent = 12}},
+     {.kind = HNBRDF_KIND_NEURAL,
+      .encoding = HNBRDF_ENCODING_DIRECTIONS,
+      .hidden = 16,
+      .layers = 3,
+      .latent = 12}},
     {"ggx", {.kind = HNBRDF_KIND_GGX}},
     {"ggx_rotated", {.kind = HNBRDF_KIND_GGX, .anisotropic = 1, .rotated = 1}},
 };
@@ -35,7 +50,8 @@ static int write_scene(const char *directory, const char *name, const scene_shap
     hnbrdf_model *model = scene_model(shape);
     char *include = scene_text(model, 0), *alone = scene_text(model, 1);
     snprintf(path, sizeof path, "%s/%s.safetensors", directory, name);
-    int written = write_text(directory, name, ".glsl", include) && write_text(directory, name, ".alone.glsl", alone) &&
+    int written = write_text(directory, name, ".glsl", include) &&
+                  write_text(directory, name, ".alone.glsl", alone) &&
                   hnbrdf_model_save(model, path, NULL) == HNBRDF_OK;
     free(include);
     free(alone);

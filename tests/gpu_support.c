@@ -20,7 +20,8 @@ static float spread(hnbrdf_rng *rng, float deviation)
 }
 
 /* He initialisation; correction bias -2, gate bias 1.5, as training starts. */
-static void fill_network(hnbrdf_rng *rng, const scene_shape *shape, hnbrdf_model_desc *desc, float *numbers)
+static void fill_network(hnbrdf_rng *rng, const scene_shape *shape, hnbrdf_model_desc *desc,
+                         float *numbers)
 {
     int outputs = shape->kind == HNBRDF_KIND_HYBRID ? 6 : 3;
     for (int layer = 0; layer <= shape->layers; layer++) {

@@ -1,4 +1,4 @@
-/* gpu_support.h: models with pseudo-random weights of the size trained ones have, and exported texts. */
+/* gpu_support.h: models with pseudo-random weights as large as trained ones, and exported texts. */
 #ifndef HNBRDF_TESTS_GPU_SUPPORT_H
 #define HNBRDF_TESTS_GPU_SUPPORT_H
 

@@ -13,8 +13,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const scene_shape PLAIN = {
-    .encoding = HNBRDF_ENCODING_HALF_DIFFERENCE, .hidden = 8, .layers = 2, .latent = 4, .floor = 0.003f};
+static const scene_shape PLAIN = {.encoding = HNBRDF_ENCODING_HALF_DIFFERENCE,
+                                  .hidden = 8,
+                                  .layers = 2,
+                                  .latent = 4,
+                                  .floor = 0.003f};
 
 static char *export_shape(const scene_shape *shape)
 {
@@ -49,7 +52,7 @@ static char *body_of(const char *text, const char *function)
     return body;
 }
 
-/* ---- Numbers ------------------------------------------------------------------------------------------ */
+/* ---- Numbers --------------------------------------------------------------------------------- */
 
 /* GLSL ES has no conversion from int to float. */
 static void every_literal_of_the_network_is_a_float(void **state)
@@ -111,7 +114,7 @@ static void identical_models_give_identical_texts(void **state)
     free(second);
 }
 
-/* ---- What is there and what is not ---------------------------------------------------------------------- */
+/* ---- What is there and what is not ----------------------------------------------------------- */
 
 static void what_the_scene_does_not_need_is_left_out(void **state)
 {
@@ -136,7 +139,8 @@ static void what_the_scene_does_not_need_is_left_out(void **state)
     assert_false(contains(ggx, "latent"));
     assert_false(contains(ggx, "hnbrdf_network"));
     free(ggx);
-    char *neural = export_shape(&(scene_shape){.kind = HNBRDF_KIND_NEURAL, .hidden = 4, .layers = 1, .latent = 5});
+    char *neural =
+        export_shape(&(scene_shape){.kind = HNBRDF_KIND_NEURAL, .hidden = 4, .layers = 1, .latent = 5});
     assert_false(contains(neural, " kd;"));
     assert_true(contains(neural, "vec4 latent1;"));
     assert_false(contains(neural, "vec4 latent2;"));
@@ -168,7 +172,7 @@ static void standalone_carries_the_library_first(void **state)
     hnbrdf_model_free(model);
 }
 
-/* ---- Materials ------------------------------------------------------------------------------------------ */
+/* ---- Materials ------------------------------------------------------------------------------- */
 
 static size_t times_in(const char *name, char *const *seen, size_t count)
 {
@@ -196,8 +200,8 @@ static char *export_named(const char *const *names, int count)
 static void macro_names_are_valid_and_unique(void **state)
 {
     (void)state;
-    static const char *const names[8] = {"gold paint", "gold-paint", "gold__paint", "count", "\xe9\x87\x91",
-                                         "-", "gold paint 1", "7up\\"};
+    static const char *const names[8] = {"gold paint",   "gold-paint", "gold__paint",  "count",
+                                         "\xe9\x87\x91", "-",          "gold paint 1", "7up\\"};
     char *text = export_named(names, 8), *seen[9];
     size_t count = 0;
     for (const char *at = text; (at = strstr(at, "#define HNBRDF_MATERIAL_")) != NULL;) {
@@ -220,7 +224,7 @@ static void macro_names_are_valid_and_unique(void **state)
     free(text);
 }
 
-/* ---- Failures ------------------------------------------------------------------------------------------- */
+/* ---- Failures -------------------------------------------------------------------------------- */
 
 typedef struct limited {
     size_t left;
@@ -245,11 +249,13 @@ static void bad_indices_are_refused_before_anything_is_written(void **state)
         hnbrdf_error error = {""};
         limited nothing = {0};
         const hnbrdf_glsl_options options = {.materials = wrong[i], .material_count = 2};
-        assert_int_equal(hnbrdf_export_glsl(model, &options, write_limited, &nothing, &error), HNBRDF_ERROR_ARGUMENT);
+        assert_int_equal(hnbrdf_export_glsl(model, &options, write_limited, &nothing, &error),
+                         HNBRDF_ERROR_ARGUMENT);
         assert_true(contains(error.text, "expected 0 to 2"));
     }
     const hnbrdf_glsl_options none = {.materials = wrong[0], .material_count = 0};
-    assert_int_equal(hnbrdf_export_glsl(model, &none, write_limited, NULL, NULL), HNBRDF_ERROR_ARGUMENT);
+    assert_int_equal(hnbrdf_export_glsl(model, &none, write_limited, NULL, NULL),
+                     HNBRDF_ERROR_ARGUMENT);
     hnbrdf_model_free(model);
 }
 
@@ -262,7 +268,8 @@ static void a_failing_write_is_reported_wherever_it_happens(void **state)
     const hnbrdf_glsl_options options = {.standalone = 1};
     for (size_t room = 0; room < size; room += 997) {
         limited to = {room};
-        assert_int_equal(hnbrdf_export_glsl(model, &options, write_limited, &to, NULL), HNBRDF_ERROR_IO);
+        assert_int_equal(hnbrdf_export_glsl(model, &options, write_limited, &to, NULL),
+                         HNBRDF_ERROR_IO);
     }
     limited enough = {size};
     assert_int_equal(hnbrdf_export_glsl(model, &options, write_limited, &enough, NULL), HNBRDF_OK);

@@ -21,7 +21,7 @@ static const gpu_arithmetic NOTHING_EXACT = {0};
 static const gpu_arithmetic ALL_EXACT = {
     .exact_basic = 1, .exact_divide = 1, .exact_sqrt = 1, .keeps_denormals = 1};
 
-/* ---- The same formulas in double, from the same float inputs ------------------------------------------- */
+/* ---- The same formulas in double, from the same float inputs --------------------------------- */
 
 typedef struct exact_result {
     double encoding[6], analytic[3], value[3];
@@ -53,14 +53,18 @@ static void network(const hnbrdf_model_desc *desc, const float *latent, const do
         for (int r = 0; r < rows; r++) {
             double sum = (double)desc->biases[layer][r];
             for (int i = 0; i < in; i++)
-                sum += (double)desc->weights[layer][r * in + i] * (layer ? a[i] : i < 6 ? x[i] : (double)latent[i - 6]);
-            b[r] = layer < desc->layers ? sum * clamp_to(sum * (double)0.333333333f + 0.5, 0.0, 1.0) : sum;
+                sum += (double)desc->weights[layer][r * in + i] * (layer   ? a[i]
+                                                                   : i < 6 ? x[i]
+                                                                           : (double)latent[i - 6]);
+            b[r] =
+                layer < desc->layers ? sum * clamp_to(sum * (double)0.333333333f + 0.5, 0.0, 1.0) : sum;
         }
         memcpy(layer < desc->layers ? a : out, b, (size_t)rows * sizeof *b);
     }
 }
 
-static exact_result evaluate(const hnbrdf_model_desc *desc, const hnbrdf_material *m, const float pair[6])
+static exact_result evaluate(const hnbrdf_model_desc *desc, const hnbrdf_material *m,
+                             const float pair[6])
 {
     exact_result r = {{0}, {0}, {0}};
     hnbrdf_frame frame = hnbrdf_frame_of(m);
@@ -79,12 +83,17 @@ static exact_result evaluate(const hnbrdf_model_desc *desc, const hnbrdf_materia
     double ax = (double)m->alpha[0], ay = (double)m->alpha[1];
     double t = (s[0] * s[0] / (ax * ax) + s[1] * s[1] / (ay * ay) + s[2] * s[2]) / length2;
     double specular = smith(w[0], ax, ay) * smith(w[1], ax, ay) / (pi * ax * ay * t * t);
-    const double x[6] = {1.0 + 0.25 * log((double)1e-5f + r2 / (s[2] * s[2])), sqrt(sqrt(r2 / length2)), c,
-                         sqrt(0.25 * d2 / (1.0 + c)), w[0][2] * w[1][2], s[2]};
+    const double x[6] = {1.0 + 0.25 * log((double)1e-5f + r2 / (s[2] * s[2])),
+                         sqrt(sqrt(r2 / length2)),
+                         c,
+                         sqrt(0.25 * d2 / (1.0 + c)),
+                         w[0][2] * w[1][2],
+                         s[2]};
     memcpy(r.encoding, x, sizeof x);
     network(desc, m->latent, x, out);
     for (int k = 0; k < 3; k++) {
-        r.analytic[k] = (double)m->kd[k] * (double)0.318309886f + fresnel((double)m->eta[k], c) * specular;
+        r.analytic[k] =
+            (double)m->kd[k] * (double)0.318309886f + fresnel((double)m->eta[k], c) * specular;
         double e = exp(clamp_to((double)desc->scale * out[k] + (double)desc->shift, -80.0, 80.0));
         double gate = 1.0 / (1.0 + exp(clamp_to(-out[3 + k], -80.0, 80.0)));
         r.value[k] = clamp_to(e + gate * r.analytic[k] - (double)desc->floor, 0.0, (double)3.0e38f);
@@ -93,10 +102,17 @@ static exact_result evaluate(const hnbrdf_model_desc *desc, const hnbrdf_materia
     return r;
 }
 
-/* ---- Properties ------------------------------------------------------------------------------------------ */
+/* ---- Properties ------------------------------------------------------------------------------ */
 
-static const scene_shape SHAPE = {.encoding = HNBRDF_ENCODING_HALF_DIFFERENCE, .hidden = 16, .layers = 2,
-                                  .latent = 4, .anisotropic = 1, .rotated = 1, .scale = 1.5f, .shift = 0.5f, .floor = 0.003f};
+static const scene_shape SHAPE = {.encoding = HNBRDF_ENCODING_HALF_DIFFERENCE,
+                                  .hidden = 16,
+                                  .layers = 2,
+                                  .latent = 4,
+                                  .anisotropic = 1,
+                                  .rotated = 1,
+                                  .scale = 1.5f,
+                                  .shift = 0.5f,
+                                  .floor = 0.003f};
 
 static int is_usual(gpu_pair_class class_of_pair)
 {
@@ -107,11 +123,12 @@ static void covered(const char *what, const gpu_tracked *bound, const double *ex
 {
     for (int i = 0; i < count; i++)
         if (!(fabs(exact[i] - (double)bound[i].v) <= bound[i].e))
-            fail_msg("%s[%d]: %.17g, C %.9g, bound %g", what, i, exact[i], (double)bound[i].v, bound[i].e);
+            fail_msg("%s[%d]: %.17g, C %.9g, bound %g", what, i, exact[i], (double)bound[i].v,
+                     bound[i].e);
 }
 
-/* Real arithmetic is a device whose every error is below its limit, so it must lie within the bounds, of
- * Vulkan's rules and of those of a device that rounds correctly but not where C does. */
+/* Real arithmetic is a device whose every error is below its limit, so it must lie within the bounds,
+ * of Vulkan's rules and of those of a device that rounds correctly but not where C does. */
 static void bounds_cover_a_device_without_rounding(void **state)
 {
     (void)state;
@@ -182,7 +199,7 @@ static void bounds_are_zero_where_every_operation_is_exact(void **state)
     hnbrdf_model_free(model);
 }
 
-/* Where only division and root are inexact, as on most GPUs, the network fed by C still has no excuse. */
+/* Where only division and root are inexact, as on most GPUs, the network still has no excuse. */
 static void the_network_alone_is_exact_without_division(void **state)
 {
     (void)state;
@@ -199,8 +216,8 @@ static void the_network_alone_is_exact_without_division(void **state)
     hnbrdf_model_free(model);
 }
 
-/* A bound that allowed everything would prove nothing: at ordinary pairs, for Vulkan's rules, the median
- * stays below 2 % of the value (10 layers of worst cases), of f_a below 1e-4. */
+/* A bound that allowed everything would prove nothing: at ordinary pairs, for Vulkan's rules, the
+ * median stays below 2 % of the value (10 layers of worst cases), of f_a below 1e-4. */
 static void bounds_say_something(void **state)
 {
     (void)state;

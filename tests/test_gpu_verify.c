@@ -20,7 +20,8 @@ static gpu_instance instance;
 static gpu_device device;
 static int validated;
 
-static const hnbrdf_encoding DIRECTIONS = HNBRDF_ENCODING_DIRECTIONS, HALF = HNBRDF_ENCODING_HALF_DIFFERENCE;
+static const hnbrdf_encoding DIRECTIONS = HNBRDF_ENCODING_DIRECTIONS,
+                             HALF = HNBRDF_ENCODING_HALF_DIFFERENCE;
 
 enum { PAIRS = 2048 };
 
@@ -54,7 +55,7 @@ static int exact_device(const gpu_arithmetic *a)
     return a->exact_basic && a->exact_divide && a->exact_sqrt && a->keeps_denormals;
 }
 
-/* ---- What must hold ---------------------------------------------------------------------------------- */
+/* ---- What must hold -------------------------------------------------------------------------- */
 
 static void check_stage(const gpu_report *report, int build, int stage)
 {
@@ -63,23 +64,24 @@ static void check_stage(const gpu_report *report, int build, int stage)
     if (!sum.applies)
         return;
     if (sum.outside)
-        fail_msg("%s %s: %zu of %zu outside: %.9g, C %.9g, bound %g, %s pair (%.9g %.9g %.9g) (%.9g %.9g %.9g)",
-                 gpu_build_name((gpu_build)build), gpu_stage_name((gpu_stage)stage), sum.outside, sum.values,
-                 (double)at->device, (double)at->reference, at->bound, gpu_pair_class_name(at->class_of_pair),
-                 (double)at->pair[0], (double)at->pair[1], (double)at->pair[2], (double)at->pair[3],
-                 (double)at->pair[4], (double)at->pair[5]);
+        fail_msg("%s %s: %zu of %zu outside: %.9g, C %.9g, bound %g, %s pair (%.9g %.9g %.9g) (%.9g "
+                 "%.9g %.9g)",
+                 gpu_build_name((gpu_build)build), gpu_stage_name((gpu_stage)stage), sum.outside,
+                 sum.values, (double)at->device, (double)at->reference, at->bound,
+                 gpu_pair_class_name(at->class_of_pair), (double)at->pair[0], (double)at->pair[1],
+                 (double)at->pair[2], (double)at->pair[3], (double)at->pair[4], (double)at->pair[5]);
     if (build == GPU_BUILD_EXACT && stage == GPU_STAGE_NETWORK && report->arithmetic.exact_basic &&
         report->arithmetic.keeps_denormals)
         assert_int_equal(sum.identical, sum.values);
     if (build == GPU_BUILD_EXACT && exact_device(&report->arithmetic))
         assert_int_equal(sum.identical, sum.values);
-    /* One pair in 64 is not finite and half of one in 32 below the horizon: the bounds must say something
-     * about nearly all others. */
+    /* One pair in 64 is not finite and half of one in 32 below the horizon: the bounds must say
+     * something about nearly all others. */
     assert_true(sum.unbounded * 16 < sum.values);
 }
 
-/* The shader of this scene is within the derived bounds at every stage; where the device's operations are
- * exact, the exact build has the bits of C from end to end. */
+/* The shader of this scene is within the derived bounds at every stage; where the device's operations
+ * are exact, the exact build has the bits of C from end to end. */
 static void holds(const scene_shape *shape)
 {
     hnbrdf_model *model = scene_model(shape);
@@ -110,8 +112,14 @@ static void published_form_equals_c(void **state)
 static void anisotropic_rotated_hybrid_equals_c(void **state)
 {
     (void)state;
-    holds(&(scene_shape){.encoding = HALF, .hidden = 16, .layers = 3, .latent = 8, .anisotropic = 1,
-                         .rotated = 1, .scale = 1.5f, .floor = 0.002f});
+    holds(&(scene_shape){.encoding = HALF,
+                         .hidden = 16,
+                         .layers = 3,
+                         .latent = 8,
+                         .anisotropic = 1,
+                         .rotated = 1,
+                         .scale = 1.5f,
+                         .floor = 0.002f});
     holds(&(scene_shape){
         .encoding = DIRECTIONS, .hidden = 8, .layers = 2, .latent = 5, .rotated = 1, .shift = 0.25f});
 }
@@ -119,10 +127,18 @@ static void anisotropic_rotated_hybrid_equals_c(void **state)
 static void neural_equals_c(void **state)
 {
     (void)state;
-    holds(&(scene_shape){
-        .kind = HNBRDF_KIND_NEURAL, .encoding = HALF, .hidden = 16, .layers = 2, .latent = 12, .floor = 0.001f});
-    holds(&(scene_shape){
-        .kind = HNBRDF_KIND_NEURAL, .encoding = DIRECTIONS, .hidden = 64, .layers = 1, .latent = 16, .rotated = 1});
+    holds(&(scene_shape){.kind = HNBRDF_KIND_NEURAL,
+                         .encoding = HALF,
+                         .hidden = 16,
+                         .layers = 2,
+                         .latent = 12,
+                         .floor = 0.001f});
+    holds(&(scene_shape){.kind = HNBRDF_KIND_NEURAL,
+                         .encoding = DIRECTIONS,
+                         .hidden = 64,
+                         .layers = 1,
+                         .latent = 16,
+                         .rotated = 1});
 }
 
 static void ggx_equals_c(void **state)
@@ -139,7 +155,7 @@ static void smallest_and_deepest_networks_equal_c(void **state)
     holds(&(scene_shape){.encoding = HALF, .hidden = 8, .layers = 4, .latent = 4});
 }
 
-/* ---- What must not pass ------------------------------------------------------------------------------- */
+/* ---- What must not pass ---------------------------------------------------------------------- */
 
 /* The text with the first number behind `marker` moved: up by one float, or by 1 %. */
 static char *plant(const char *scene, const char *marker, int one_ulp)
@@ -150,7 +166,8 @@ static char *plant(const char *scene, const char *marker, int one_ulp)
     char *after, number[32];
     float value = strtof(at, &after);
     assert_true(after > at && value != 0.0f);
-    snprintf(number, sizeof number, "%.9e", (double)(one_ulp ? nextafterf(value, INFINITY) : value * 1.01f));
+    snprintf(number, sizeof number, "%.9e",
+             (double)(one_ulp ? nextafterf(value, INFINITY) : value * 1.01f));
     size_t size = strlen(scene) + sizeof number;
     char *changed = malloc(size);
     assert_non_null(changed);
@@ -160,8 +177,8 @@ static char *plant(const char *scene, const char *marker, int one_ulp)
 
 static void is_found(const char *marker, int one_ulp, int stage)
 {
-    hnbrdf_model *model =
-        scene_model(&(scene_shape){.encoding = HALF, .hidden = 16, .layers = 2, .latent = 4, .floor = 0.003f});
+    hnbrdf_model *model = scene_model(
+        &(scene_shape){.encoding = HALF, .hidden = 16, .layers = 2, .latent = 4, .floor = 0.003f});
     char *scene = scene_text(model, 0), *changed = plant(scene, marker, one_ulp);
     gpu_report report = verify(model, changed);
     gpu_comparison found = all_of(&report, GPU_BUILD_EXACT, stage);
@@ -213,7 +230,7 @@ static void validation_layer_says_nothing(void **state)
     assert_int_equal(instance.messages, 0);
 }
 
-/* ---- Running ------------------------------------------------------------------------------------------- */
+/* ---- Running --------------------------------------------------------------------------------- */
 
 static int run_on(int index)
 {

@@ -8,7 +8,8 @@ static const cli_command command = {
     "MODEL [--materials A,B] [--standalone] -o FILE.glsl",
     "Writes one GLSL include: the network as constants, the chosen materials, and\n"
     "  vec3 hnbrdf_eval(hnbrdf_material m, vec3 wi, vec3 wo)      1/sr, without the cosine.\n"
-    "Include shaders/hybrid_brdf.glsl before it, or take --standalone. The text compiles as Vulkan GLSL\n"
+    "Include shaders/hybrid_brdf.glsl before it, or take --standalone. The text compiles as Vulkan "
+    "GLSL\n"
     "450, desktop GLSL 330 and GLSL ES 300; put it after #version. What the chosen materials do not\n"
     "need (anisotropy, rotation) is left out.",
     "hnbrdf export model.safetensors -o scene.glsl\n"
@@ -27,14 +28,15 @@ static int write_counted(void *user, const void *data, size_t size)
     return fwrite(data, 1, size, to->file) != size;
 }
 
-static void print_summary(FILE *file, const hnbrdf_model *model, const char *path, int materials, size_t bytes)
+static void print_summary(FILE *file, const hnbrdf_model *model, const char *path, int materials,
+                          size_t bytes)
 {
     hnbrdf_model_desc desc;
     hnbrdf_model_describe(model, &desc);
     fprintf(file, "%s: %s", path, hnbrdf_kind_name(desc.kind));
     if (desc.kind != HNBRDF_KIND_GGX)
-        fprintf(file, " %dx%d, %s, %zu weights, %zu multiplications per evaluation", desc.hidden, desc.layers,
-                hnbrdf_encoding_name(desc.encoding), hnbrdf_model_weight_count(model),
+        fprintf(file, " %dx%d, %s, %zu weights, %zu multiplications per evaluation", desc.hidden,
+                desc.layers, hnbrdf_encoding_name(desc.encoding), hnbrdf_model_weight_count(model),
                 hnbrdf_model_multiplications(model));
     fprintf(file, ", %d material%s, %zu bytes\n", materials, materials == 1 ? "" : "s", bytes);
 }

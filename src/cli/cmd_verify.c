@@ -10,11 +10,16 @@
 static const cli_command command = {
     "verify",
     "MODEL [--materials A,B] [--device N|all] [--pairs N] [--csv FILE] [--json FILE]",
-    "Proves on every Vulkan device that the exported shader gives what the C library gives. Compared are\n"
-    "the encoding, the network alone, the analytic part and the whole BRDF, on random, mirror, grazing,\n"
-    "retroreflecting and extreme pairs of directions, in two builds: exact (HNBRDF_EXACT 1: the bits of C\n"
-    "where the device rounds + - * / sqrt correctly, which is probed) and fast (built-in exp and log). How\n"
-    "far a device may differ is derived for every pair from the error of each operation (Vulkan's limits).\n"
+    "Proves on every Vulkan device that the exported shader gives what the C library gives. Compared "
+    "are\n"
+    "the encoding, the network alone, the analytic part and the whole BRDF, on random, mirror, "
+    "grazing,\n"
+    "retroreflecting and extreme pairs of directions, in two builds: exact (HNBRDF_EXACT 1: the bits "
+    "of C\n"
+    "where the device rounds + - * / sqrt correctly, which is probed) and fast (built-in exp and log). "
+    "How\n"
+    "far a device may differ is derived for every pair from the error of each operation (Vulkan's "
+    "limits).\n"
     "\n"
     "Exit status 0 only if every device tried is within the bounds. Needs glslangValidator.",
     "hnbrdf verify model.safetensors\n"
@@ -28,7 +33,7 @@ typedef struct settings {
     int validate, list, without_timing;
 } settings;
 
-/* ---- The scene -------------------------------------------------------------------------------------- */
+/* ---- The scene ------------------------------------------------------------------------------- */
 
 typedef struct growing_text {
     char *bytes;
@@ -65,7 +70,7 @@ static char *export_scene(const hnbrdf_model *model, const int *materials, int c
     return NULL;
 }
 
-/* ---- Devices ---------------------------------------------------------------------------------------- */
+/* ---- Devices --------------------------------------------------------------------------------- */
 
 static void list_devices(const gpu_instance *instance)
 {
@@ -80,7 +85,8 @@ static int choose_devices(const gpu_instance *instance, const char *text, int *f
     *first = 0;
     *count = instance->count;
     if (instance->count == 0)
-        return cli_fail("no Vulkan device found (Debian: apt-get install mesa-vulkan-drivers brings one in software)");
+        return cli_fail("no Vulkan device found (Debian: apt-get install mesa-vulkan-drivers brings "
+                        "one in software)");
     if (strcmp(text, "all") == 0)
         return -1;
     char *end;
@@ -125,9 +131,10 @@ static void verify_device(const gpu_instance *instance, const verification *v, c
     gpu_device_close(&device);
 }
 
-/* ---- All of it -------------------------------------------------------------------------------------- */
+/* ---- All of it ------------------------------------------------------------------------------- */
 
-static int write_file(const verification *v, const char *path, void (*write)(const verification *v, FILE *file))
+static int write_file(const verification *v, const char *path,
+                      void (*write)(const verification *v, FILE *file))
 {
     cli_output output;
     if (!path)
@@ -152,10 +159,12 @@ static int write_results(const verification *v, const settings *set)
         result = write_file(v, set->json, verification_write_json);
     if (result != CLI_OK || verification_passed(v))
         return result;
-    return cli_fail("%s: the shader is not proven equal to the C library on every device tried", v->path);
+    return cli_fail("%s: the shader is not proven equal to the C library on every device tried",
+                    v->path);
 }
 
-static int verify_scene(gpu_instance *instance, verification *v, const settings *set, int first, const char *scene)
+static int verify_scene(gpu_instance *instance, verification *v, const settings *set, int first,
+                        const char *scene)
 {
     v->devices = calloc((size_t)v->device_count, sizeof *v->devices);
     if (!v->devices)
@@ -199,13 +208,18 @@ int cmd_verify(int argc, char **argv)
 {
     settings set = {.device = "all", .pairs = 16384, .seed = 1};
     const cli_option options[] = {
-        {"materials", 'm', CLI_TEXT, &set.materials, 0, 0, "A,B", "names of the materials (default: all)"},
-        {"device", 'd', CLI_TEXT, &set.device, 0, 0, "N|all", "number of a device, see --list (default: all)"},
-        {"pairs", 'n', CLI_INT, &set.pairs, 64, 1 << 22, "N", "direction pairs a material (default 16384)"},
+        {"materials", 'm', CLI_TEXT, &set.materials, 0, 0, "A,B",
+         "names of the materials (default: all)"},
+        {"device", 'd', CLI_TEXT, &set.device, 0, 0, "N|all",
+         "number of a device, see --list (default: all)"},
+        {"pairs", 'n', CLI_INT, &set.pairs, 64, 1 << 22, "N",
+         "direction pairs a material (default 16384)"},
         {"seed", 0, CLI_INT, &set.seed, 0, 9007199254740992.0, "N", "of the random pairs (default 1)"},
-        {"csv", 0, CLI_TEXT, &set.csv, 0, 0, "FILE", "a row a device, material, build and stage; - is standard output"},
+        {"csv", 0, CLI_TEXT, &set.csv, 0, 0, "FILE",
+         "a row a device, material, build and stage; - is standard output"},
         {"json", 0, CLI_TEXT, &set.json, 0, 0, "FILE", "everything found as JSON; - likewise"},
-        {"validate", 0, CLI_FLAG, &set.validate, 0, 0, NULL, "with the Vulkan validation layer; any message fails"},
+        {"validate", 0, CLI_FLAG, &set.validate, 0, 0, NULL,
+         "with the Vulkan validation layer; any message fails"},
         {"without-timing", 0, CLI_FLAG, &set.without_timing, 0, 0, NULL, "do not measure the run time"},
         {"list", 0, CLI_FLAG, &set.list, 0, 0, NULL, "list the devices and stop"},
         {0},
@@ -214,8 +228,10 @@ int cmd_verify(int argc, char **argv)
     if (result >= 0)
         return result;
     if (count != (set.list ? 0 : 1))
-        return cli_usage(&command, set.list ? "found %d arguments, expected none with --list"
-                                            : "found %d arguments, expected one MODEL", count);
+        return cli_usage(&command,
+                         set.list ? "found %d arguments, expected none with --list"
+                                  : "found %d arguments, expected one MODEL",
+                         count);
     gpu_instance instance;
     hnbrdf_error error;
     if (gpu_open(set.validate, &instance, &error))

@@ -25,46 +25,53 @@ static double mean(double sum, size_t count)
     return count > 0 ? sum / (double)count : 0.0;
 }
 
-/* ---- For people -------------------------------------------------------------------------------------- */
+/* ---- For people ------------------------------------------------------------------------------ */
 
 static void print_arithmetic(const gpu_arithmetic *a, FILE *file)
 {
     fprintf(file, "  arithmetic  + - * %s, / ", a->exact_basic ? "exact" : "NOT EXACT");
     fprintf(file, a->exact_divide ? "exact" : "within %.2g ulp", a->divide_ulp);
     fprintf(file, a->exact_sqrt ? ", sqrt exact" : ", sqrt within %.2g ulp", a->sqrt_ulp);
-    fprintf(file, ", subnormals %s; built-in exp within %.3g ulp, log within %.2g near 1 (seen on %d values)\n",
-            a->keeps_denormals ? "kept" : "flushed", a->exp_ulp, a->log_error, a->values);
+    fprintf(
+        file,
+        ", subnormals %s; built-in exp within %.3g ulp, log within %.2g near 1 (seen on %d values)\n",
+        a->keeps_denormals ? "kept" : "flushed", a->exp_ulp, a->log_error, a->values);
     if (a->exp_share > 1.0 || a->log_share > 1.0)
-        fprintf(file, "  NOT WITHIN what the bounds assume of exp (%.3g times) or log (%.3g times)\n", a->exp_share,
-                a->log_share);
+        fprintf(file, "  NOT WITHIN what the bounds assume of exp (%.3g times) or log (%.3g times)\n",
+                a->exp_share, a->log_share);
 }
 
 static void print_place(const gpu_place *place, const char *material, FILE *file)
 {
-    fprintf(file, "      worst at %s[%d], %s pair wi (%.9g %.9g %.9g) wo (%.9g %.9g %.9g): %.9g, C %.9g, bound %.3g\n",
-            material, place->component, gpu_pair_class_name(place->class_of_pair), (double)place->pair[0],
-            (double)place->pair[1], (double)place->pair[2], (double)place->pair[3], (double)place->pair[4],
-            (double)place->pair[5], (double)place->device, (double)place->reference, place->bound);
+    fprintf(file,
+            "      worst at %s[%d], %s pair wi (%.9g %.9g %.9g) wo (%.9g %.9g %.9g): %.9g, C %.9g, "
+            "bound %.3g\n",
+            material, place->component, gpu_pair_class_name(place->class_of_pair),
+            (double)place->pair[0], (double)place->pair[1], (double)place->pair[2],
+            (double)place->pair[3], (double)place->pair[4], (double)place->pair[5],
+            (double)place->device, (double)place->reference, place->bound);
 }
 
 /* A stage over all materials; the material of the worst place is told. */
-static void print_stage(const verification *v, const gpu_report *report, gpu_build build, gpu_stage stage,
-                        FILE *file)
+static void print_stage(const verification *v, const gpu_report *report, gpu_build build,
+                        gpu_stage stage, FILE *file)
 {
     gpu_comparison all = {0};
     int worst = 0;
     for (int k = 0; k < report->material_count; k++) {
         const gpu_comparison *here = &report->comparisons[k][build][stage];
-        if ((here->outside > 0 && all.outside == 0) || (all.outside == 0 && here->worst_ulp > all.worst_ulp))
+        if ((here->outside > 0 && all.outside == 0) ||
+            (all.outside == 0 && here->worst_ulp > all.worst_ulp))
             worst = k;
         gpu_comparison_add(&all, here);
     }
     if (!all.applies)
         return;
-    fprintf(file, "    %-6s %-9s %10zu %9.4f%% %10.3g %10.3g %10.2g %10.2g %9.3g  %s\n", gpu_build_name(build),
-            gpu_stage_name(stage), all.values, 100.0 * mean((double)all.identical, all.values),
-            mean(all.sum_ulp, all.values), all.worst_ulp, mean(all.sum_relative, all.values), all.worst_relative,
-            all.worst_share, all.outside ? "OUTSIDE" : "ok");
+    fprintf(file, "    %-6s %-9s %10zu %9.4f%% %10.3g %10.3g %10.2g %10.2g %9.3g  %s\n",
+            gpu_build_name(build), gpu_stage_name(stage), all.values,
+            100.0 * mean((double)all.identical, all.values), mean(all.sum_ulp, all.values),
+            all.worst_ulp, mean(all.sum_relative, all.values), all.worst_relative, all.worst_share,
+            all.outside ? "OUTSIDE" : "ok");
     if (all.outside)
         fprintf(file, "      %zu values outside of their bounds\n", all.outside);
     if (all.worst_ulp > 0.0)
@@ -73,14 +80,19 @@ static void print_stage(const verification *v, const gpu_report *report, gpu_bui
 
 static void print_timing(const gpu_timing *timing, FILE *file)
 {
-    if (isnan(timing->value_ns))
+    double alone = timing->value_ns - timing->copy_ns;
+    if (isnan(alone))
         fputs("  time        not measured\n", file);
+    else if (alone > 0.0)
+        fprintf(file, "  time        %.4g ns per evaluation: %.4g in all less %.4g for its buffers",
+                alone, timing->value_ns, timing->copy_ns);
     else
-        fprintf(file,
-                "  time        %.4g ns per evaluation: %.4g in all less %.4g for its buffers (fast build, %d at "
-                "once)\n",
-                timing->value_ns - timing->copy_ns, timing->value_ns, timing->copy_ns, timing->evaluations);
-    fprintf(file, "  compiling   %.0f ms to %zu bytes of SPIR-V, %.0f ms to the end of the first dispatch\n",
+        fprintf(file, "  time        %.4g ns per evaluation, not told apart from %.4g for its buffers",
+                timing->value_ns, timing->copy_ns);
+    if (!isnan(alone))
+        fprintf(file, " (fast build, %d at once)\n", timing->evaluations);
+    fprintf(file,
+            "  compiling   %.0f ms to %zu bytes of SPIR-V, %.0f ms to the end of the first dispatch\n",
             timing->compile_ms, timing->spirv_bytes, timing->first_ms);
 }
 
@@ -93,8 +105,8 @@ static void print_device(const verification *v, const verified_device *device, F
     }
     const gpu_report *report = &device->report;
     print_arithmetic(&report->arithmetic, file);
-    fprintf(file, "    %-6s %-9s %10s %10s %10s %10s %10s %10s %9s\n", "build", "stage", "values", "same bits",
-            "mean ulp", "worst ulp", "mean rel.", "worst rel.", "of bound");
+    fprintf(file, "    %-6s %-9s %10s %10s %10s %10s %10s %10s %9s\n", "build", "stage", "values",
+            "same bits", "mean ulp", "worst ulp", "mean rel.", "worst rel.", "of bound");
     for (int build = 0; build < GPU_BUILDS; build++)
         for (int stage = 0; stage < GPU_STAGES; stage++)
             print_stage(v, report, (gpu_build)build, (gpu_stage)stage, file);
@@ -104,18 +116,20 @@ static void print_device(const verification *v, const verified_device *device, F
 
 void verification_print(const verification *v, FILE *file)
 {
-    fprintf(file, "%s: %d material%s, %zu direction pairs each, shader against C\n\n", v->path, v->material_count,
-            v->material_count == 1 ? "" : "s", v->pairs);
+    fprintf(file, "%s: %d material%s, %zu direction pairs each, shader against C\n\n", v->path,
+            v->material_count, v->material_count == 1 ? "" : "s", v->pairs);
     for (int d = 0; d < v->device_count; d++)
         print_device(v, &v->devices[d], file);
-    fputs("ulp and relative errors: of the C value, where it is small of 2^-10 (analytic, value) or 1 (encoding,\n"
-          "network). of bound: the largest error in terms of the bound derived for its pair. exact: HNBRDF_EXACT 1.\n",
+    fputs("ulp and relative errors: of the C value, where it is small of 2^-10 (analytic, value) or 1 "
+          "(encoding,\n"
+          "network). of bound: the largest error in terms of the bound derived for its pair. exact: "
+          "HNBRDF_EXACT 1.\n",
           file);
     if (v->validated)
         fprintf(file, "validation layer: %d message%s\n", v->messages, v->messages == 1 ? "" : "s");
 }
 
-/* ---- For programs ------------------------------------------------------------------------------------ */
+/* ---- For programs ---------------------------------------------------------------------------- */
 
 static void write_number(FILE *file, double value)
 {
@@ -129,7 +143,8 @@ static void write_row(const verification *v, const verified_device *device, int 
 {
     const gpu_comparison *here = &device->report.comparisons[k][build][stage];
     const double numbers[] = {mean(here->sum_ulp, here->values), here->worst_ulp,
-                              mean(here->sum_relative, here->values), here->worst_relative, here->worst_share};
+                              mean(here->sum_relative, here->values), here->worst_relative,
+                              here->worst_share};
     if (!here->applies)
         return;
     csv_write_text(file, device->name);
@@ -153,7 +168,8 @@ static void write_row(const verification *v, const verified_device *device, int 
 
 void verification_write_csv(const verification *v, FILE *file)
 {
-    fputs("device,material,build,stage,values,identical,unbounded,outside,mean_ulp,worst_ulp,mean_relative,"
+    fputs("device,material,build,stage,values,identical,unbounded,outside,mean_ulp,worst_ulp,mean_"
+          "relative,"
           "worst_relative,worst_of_bound,worst_pair,wi_x,wi_y,wi_z,wo_x,wo_y,wo_z\n",
           file);
     for (int d = 0; d < v->device_count; d++)
@@ -173,8 +189,8 @@ static void write_member(FILE *file, const char *before, double value)
         fputs("null", file);
 }
 
-static void write_json_comparison(const verification *v, const verified_device *device, int k, gpu_build build,
-                                  gpu_stage stage, int *first, FILE *file)
+static void write_json_comparison(const verification *v, const verified_device *device, int k,
+                                  gpu_build build, gpu_stage stage, int *first, FILE *file)
 {
     const gpu_comparison *here = &device->report.comparisons[k][build][stage];
     if (!here->applies)
@@ -182,10 +198,12 @@ static void write_json_comparison(const verification *v, const verified_device *
     fprintf(file, "%s\n        {\"material\": ", *first ? "" : ",");
     *first = 0;
     cli_write_json_text(file, material_name(v, k));
-    fprintf(file, ", \"build\": \"%s\", \"stage\": \"%s\", \"values\": %zu, \"identical\": %zu, \"unbounded\": %zu,"
-                  " \"outside\": %zu",
-            gpu_build_name(build), gpu_stage_name(stage), here->values, here->identical, here->unbounded,
-            here->outside);
+    fprintf(file,
+            ", \"build\": \"%s\", \"stage\": \"%s\", \"values\": %zu, \"identical\": %zu, "
+            "\"unbounded\": %zu,"
+            " \"outside\": %zu",
+            gpu_build_name(build), gpu_stage_name(stage), here->values, here->identical,
+            here->unbounded, here->outside);
     write_member(file, ", \"mean_ulp\": ", mean(here->sum_ulp, here->values));
     write_member(file, ", \"worst_ulp\": ", here->worst_ulp);
     write_member(file, ", \"mean_relative\": ", mean(here->sum_relative, here->values));
@@ -198,10 +216,11 @@ static void write_json_report(const verification *v, const verified_device *devi
 {
     const gpu_report *report = &device->report;
     const gpu_arithmetic *a = &report->arithmetic;
-    fprintf(file, ",\n      \"arithmetic\": {\"exact_basic\": %s, \"exact_divide\": %s, \"exact_sqrt\": %s, "
-                  "\"keeps_subnormals\": %s",
-            a->exact_basic ? "true" : "false", a->exact_divide ? "true" : "false", a->exact_sqrt ? "true" : "false",
-            a->keeps_denormals ? "true" : "false");
+    fprintf(file,
+            ",\n      \"arithmetic\": {\"exact_basic\": %s, \"exact_divide\": %s, \"exact_sqrt\": %s, "
+            "\"keeps_subnormals\": %s",
+            a->exact_basic ? "true" : "false", a->exact_divide ? "true" : "false",
+            a->exact_sqrt ? "true" : "false", a->keeps_denormals ? "true" : "false");
     write_member(file, ", \"divide_ulp\": ", a->divide_ulp);
     write_member(file, ", \"sqrt_ulp\": ", a->sqrt_ulp);
     write_member(file, ", \"exp_ulp\": ", a->exp_ulp);
@@ -212,7 +231,8 @@ static void write_json_report(const verification *v, const verified_device *devi
         for (int build = 0; build < GPU_BUILDS; build++)
             for (int stage = 0; stage < GPU_STAGES; stage++)
                 write_json_comparison(v, device, k, (gpu_build)build, (gpu_stage)stage, &first, file);
-    write_member(file, "],\n      \"ns_per_evaluation\": ", report->timing.value_ns - report->timing.copy_ns);
+    write_member(file,
+                 "],\n      \"ns_per_evaluation\": ", report->timing.value_ns - report->timing.copy_ns);
     write_member(file, ", \"ns_with_buffers\": ", report->timing.value_ns);
     write_member(file, ", \"ns_buffers\": ", report->timing.copy_ns);
     write_member(file, ",\n      \"compile_ms\": ", report->timing.compile_ms);
@@ -224,8 +244,11 @@ void verification_write_json(const verification *v, FILE *file)
 {
     fputs("{\"model\": ", file);
     cli_write_json_text(file, v->path);
-    fprintf(file, ",\n  \"passed\": %s, \"pairs\": %zu, \"validated\": %s, \"validation_messages\": %d,\n  \"devices\": [",
-            verification_passed(v) ? "true" : "false", v->pairs, v->validated ? "true" : "false", v->messages);
+    fprintf(file,
+            ",\n  \"passed\": %s, \"pairs\": %zu, \"validated\": %s, \"validation_messages\": %d,\n  "
+            "\"devices\": [",
+            verification_passed(v) ? "true" : "false", v->pairs, v->validated ? "true" : "false",
+            v->messages);
     for (int d = 0; d < v->device_count; d++) {
         const verified_device *device = &v->devices[d];
         fprintf(file, "%s\n    {\"index\": %d, \"name\": ", d ? "," : "", device->index);

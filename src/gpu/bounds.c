@@ -1,4 +1,5 @@
-/* bounds.c: the BRDF evaluated once more, every number with a bound on the distance between device and C.
+/* bounds.c: the BRDF evaluated once more, every number with a bound on the distance between device and
+ * C.
  *
  * Both round: a device result is (a' o b')(1 + d) + t with |d| and |t| from the rules and a', b' the
  * device's operands; C's is (a o b)(1 + d) with |d| <= 2^-24. What the operands differ by is carried
@@ -10,6 +11,8 @@
 #include "core/encoding.h"
 #include "core/frame.h"
 
+#include <float.h>
+
 typedef gpu_tracked num;
 
 static const double HALF_ULP = 0x1p-24;
@@ -20,12 +23,23 @@ static num same(float v)
     return (num){v, 0.0};
 }
 
+static int subnormal(float v)
+{
+    return v != 0.0f && fabsf(v) < FLT_MIN;
+}
+
+/* A number given to the device: 0 there if it is subnormal and those are flushed. */
+static num given(const gpu_rules *rules, float v)
+{
+    return (num){v, rules->tiny > 0.0 && subnormal(v) ? fabs((double)v) : 0.0};
+}
+
 /* v: C's result; spread: |a' o b' - a o b|; relative: the device's rounding; repeats: see above. */
 static num result_of(float v, double spread, double relative, int repeats, double tiny)
 {
     num r = {v, spread};
     double size = fabs((double)v);
-    if (!(spread == 0.0 && repeats))
+    if (!(spread == 0.0 && repeats && !(tiny > 0.0 && subnormal(v))))
         r.e = (spread + relative * (size + spread) + HALF_ULP * size) * SLACK + tiny;
     if (!(r.e >= 0.0) || !isfinite(v))
         r.e = (double)INFINITY;
@@ -56,7 +70,7 @@ static num divide(const gpu_rules *rules, num a, num b)
 {
     double size_a = fabs((double)a.v), size_b = fabs((double)b.v), least_b = size_b - b.e;
     double spread = a.e == 0.0 && b.e == 0.0 ? 0.0 : (size_a * b.e + size_b * a.e) / (size_b * least_b);
-    /* Vulkan promises nothing for divisors outside of this range, nor does the formula if b' can be 0. */
+    /* Vulkan promises nothing for divisors outside of this range, nor the formula if b' can be 0. */
     if ((!rules->repeats_divide || b.e > 0.0) && !(least_b >= 0x1p-126 && size_b + b.e <= 0x1p126))
         spread = (double)INFINITY;
     return result_of(a.v / b.v, spread, rules->divide, rules->repeats_divide, rules->tiny);
@@ -65,7 +79,8 @@ static num divide(const gpu_rules *rules, num a, num b)
 static num root(const gpu_rules *rules, num a)
 {
     double size = (double)a.v, least = size > a.e ? size - a.e : 0.0;
-    return result_of(sqrtf(a.v), sqrt(size) - sqrt(least), rules->sqrt, rules->repeats_sqrt, rules->tiny);
+    return result_of(sqrtf(a.v), sqrt(size) - sqrt(least), rules->sqrt, rules->repeats_sqrt,
+                     rules->tiny);
 }
 
 static num clamp(num a, float low, float high)
@@ -101,13 +116,14 @@ static num logarithm(const gpu_rules *rules, num a)
         return r;
     }
     double spread = log(x / least), c_error = 0x1p-23 * size + 6e-8; /* hnbrdf_log */
-    double near_1 = gpu_log_error(rules, 1.0, size + spread), far = gpu_log_error(rules, 4.0, size + spread);
+    double near_1 = gpu_log_error(rules, 1.0, size + spread),
+           far = gpu_log_error(rules, 4.0, size + spread);
     double device = least <= 2.0 && x + a.e >= 0.5 ? fmax(near_1, far) : far;
     r.e = (spread + c_error + device) * SLACK + rules->tiny;
     return r;
 }
 
-/* ---- The BRDF, in the words of microfacet.h, encoding.h, network.h and compose.h ----------------------- */
+/* ---- The BRDF, in the words of microfacet.h, encoding.h, network.h and compose.h ------------- */
 
 typedef struct pair {
     num wi[3], wo[3], s[3];
@@ -121,9 +137,10 @@ static num dot3(const gpu_rules *k, num x, num y, num z)
 
 static void to_tangent(const gpu_rules *k, hnbrdf_frame frame, const float w[3], num t[3])
 {
-    num x = same(w[0]), y = same(w[1]), cosine = same(frame.cosine), sine = same(frame.sine);
+    num x = given(k, w[0]), y = given(k, w[1]);
+    num cosine = given(k, frame.cosine), sine = given(k, frame.sine);
     for (int i = 0; i < 3; i++)
-        t[i] = same(w[i]);
+        t[i] = given(k, w[i]);
     if (frame.cosine == 1.0f && frame.sine == 0.0f)
         return;
     t[0] = add(k, multiply(k, cosine, x), multiply(k, sine, y));
@@ -135,6 +152,8 @@ static pair make_pair(const gpu_rules *k, hnbrdf_frame frame, const float wi[3],
     pair p;
     to_tangent(k, frame, wi, p.wi);
     to_tangent(k, frame, wo, p.wo);
+    if (p.wi[2].e > 0.0 || p.wo[2].e > 0.0) /* flushed, it is not above the horizon */
+        p.wi[2].e = p.wo[2].e = (double)INFINITY;
     for (int i = 0; i < 3; i++)
         p.s[i] = add(k, p.wi[i], p.wo[i]);
     p.length2 = dot3(k, p.s[0], p.s[1], p.s[2]);
@@ -172,13 +191,14 @@ static void analytic(const gpu_rules *k, const hnbrdf_material *material, const 
     num masking = multiply(k, smith_v(k, p->wi, ax, ay), smith_v(k, p->wo, ax, ay));
     num specular = multiply(k, ggx_d(k, p, ax, ay), masking);
     for (int c = 0; c < 3; c++) {
-        num diffuse = multiply(k, same(material->kd[c]), same(HNBRDF_INV_PI));
+        num diffuse = multiply(k, given(k, material->kd[c]), same(HNBRDF_INV_PI));
         num fresnel = fresnel_dielectric(k, same(material->eta[c]), p->c);
         f[c] = add(k, diffuse, multiply(k, fresnel, specular));
     }
 }
 
-static void encode(const gpu_rules *k, hnbrdf_encoding encoding, const pair *p, num x[HNBRDF_ENCODING_SIZE])
+static void encode(const gpu_rules *k, hnbrdf_encoding encoding, const pair *p,
+                   num x[HNBRDF_ENCODING_SIZE])
 {
     if (encoding == HNBRDF_ENCODING_DIRECTIONS) {
         for (int i = 0; i < 3; i++) {
@@ -203,13 +223,16 @@ static void encode(const gpu_rules *k, hnbrdf_encoding encoding, const pair *p, 
 typedef struct row_sum {
     float v;
     double size, spread; /* sum of |w||a|, of |w| e(a) */
+    int flushes;         /* 1 if a subnormal number came up */
 } row_sum;
 
 static void add_products(row_sum *sum, const float *w, const num *a, int count)
 {
     for (int i = 0; i < count; i++) {
         double weight = fabs((double)w[i]);
-        sum->v += w[i] * a[i].v;
+        float product = w[i] * a[i].v;
+        sum->v += product;
+        sum->flushes |= subnormal(w[i]) || subnormal(product) || subnormal(sum->v);
         sum->size += weight * fabs((double)a[i].v);
         sum->spread += weight * a[i].e;
     }
@@ -220,7 +243,7 @@ static void add_products(row_sum *sum, const float *w, const num *a, int count)
 static num finish_row(const gpu_rules *rules, const row_sum *sum, int terms)
 {
     num r = {sum->v, sum->spread};
-    if (!(sum->spread == 0.0 && rules->repeats_basic)) {
+    if (!(sum->spread == 0.0 && rules->repeats_basic && !(rules->tiny > 0.0 && sum->flushes))) {
         double roundings = (terms + 1) * SLACK;
         double device = roundings * rules->basic * (sum->size + sum->spread);
         r.e = (sum->spread + device + roundings * HALF_ULP * sum->size) * SLACK + terms * rules->tiny;
@@ -241,7 +264,7 @@ static void network(const gpu_rules *rules, const hnbrdf_model_desc *desc, const
 {
     num layers[2][HNBRDF_MAX_HIDDEN], codes[HNBRDF_MAX_LATENT];
     for (int i = 0; i < desc->latent; i++)
-        codes[i] = same(latent[i]);
+        codes[i] = given(rules, latent[i]);
     for (int layer = 0; layer <= desc->layers; layer++) {
         int columns = hnbrdf_layer_inputs(desc, layer), rows = hnbrdf_layer_outputs(desc, layer);
         const num *from = layers[(layer + 1) % 2];
@@ -249,7 +272,7 @@ static void network(const gpu_rules *rules, const hnbrdf_model_desc *desc, const
         for (int row = 0; row < rows; row++) {
             const float *w = desc->weights[layer] + (size_t)row * (size_t)columns;
             float bias = desc->biases[layer][row];
-            row_sum sum = {bias, fabs((double)bias), 0.0};
+            row_sum sum = {bias, fabs((double)bias), 0.0, subnormal(bias)};
             if (layer == 0) {
                 add_products(&sum, w + HNBRDF_ENCODING_SIZE, codes, desc->latent);
                 add_products(&sum, w, x, HNBRDF_ENCODING_SIZE);
@@ -284,8 +307,9 @@ static num finish(num f)
     return clamp(f, 0.0f, HNBRDF_MAX_VALUE);
 }
 
-void gpu_bounds_make(const gpu_rules *rules, const hnbrdf_model_desc *desc, const hnbrdf_material *material,
-                     const float wi[3], const float wo[3], gpu_bounds *bounds)
+void gpu_bounds_make(const gpu_rules *rules, const hnbrdf_model_desc *desc,
+                     const hnbrdf_material *material, const float wi[3], const float wo[3],
+                     gpu_bounds *bounds)
 {
     static const gpu_bounds zero;
     *bounds = zero;
@@ -301,7 +325,7 @@ void gpu_bounds_make(const gpu_rules *rules, const hnbrdf_model_desc *desc, cons
     }
     encode(rules, desc->encoding, &p, bounds->encoding);
     for (int i = 0; i < HNBRDF_ENCODING_SIZE; i++)
-        exact[i] = same(bounds->encoding[i].v);
+        exact[i] = given(rules, bounds->encoding[i].v);
     network(rules, desc, material->latent, exact, bounds->fed);
     network(rules, desc, material->latent, bounds->encoding, out);
     for (int c = 0; c < 3; c++) {

@@ -21,7 +21,8 @@ typedef struct gpu_bounds {
 
 /* Directions above the horizon; the values v are, bit by bit, those of the C library. Entries that the
  * kind of model does not have are 0. */
-void gpu_bounds_make(const gpu_rules *rules, const hnbrdf_model_desc *desc, const hnbrdf_material *material,
-                     const float wi[3], const float wo[3], gpu_bounds *bounds);
+void gpu_bounds_make(const gpu_rules *rules, const hnbrdf_model_desc *desc,
+                     const hnbrdf_material *material, const float wi[3], const float wo[3],
+                     gpu_bounds *bounds);
 
 #endif

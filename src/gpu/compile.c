@@ -30,7 +30,7 @@ int gpu_compiler_found(void)
     return 0;
 }
 
-/* ---- Files in the private directory ------------------------------------------------------------------ */
+/* ---- Files in the private directory ---------------------------------------------------------- */
 
 typedef struct workplace {
     char directory[PATH_SIZE - 64];
@@ -97,7 +97,7 @@ static char *read_in(const workplace *place, const char *name, size_t *size)
     return bytes;
 }
 
-/* ---- The compiler ------------------------------------------------------------------------------------ */
+/* ---- The compiler ---------------------------------------------------------------------------- */
 
 static const char SOURCE[] = "shader.comp", OUTPUT[] = "shader.spv", MESSAGES[] = "messages";
 
@@ -113,11 +113,13 @@ static int run_compiler(const workplace *place, const char *define)
     if (define)
         snprintf(definition, sizeof definition, "-D%s", define);
     char compiler[] = "glslangValidator", target[] = "-V", to[] = "-o";
-    char *arguments[] = {compiler, target, include, source, to, output, define ? definition : NULL, NULL};
+    char *arguments[] = {compiler, target, include, source, to, output, define ? definition : NULL,
+                         NULL};
     posix_spawn_file_actions_t actions;
     if (posix_spawn_file_actions_init(&actions) != 0)
         return EXIT_NOT_FOUND;
-    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, messages, O_WRONLY | O_CREAT | O_TRUNC, 0600);
+    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, messages, O_WRONLY | O_CREAT | O_TRUNC,
+                                     0600);
     posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
     pid_t child;
     int status = 0, failed = posix_spawnp(&child, COMPILER, &actions, NULL, arguments, environ);

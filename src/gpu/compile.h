@@ -14,8 +14,9 @@ typedef struct gpu_include {
 /* 1 if glslangValidator is in PATH. */
 int gpu_compiler_found(void);
 
-/* Compiles a Vulkan compute shader. define is "NAME=VALUE" or NULL. *spirv is malloc'ed, *size in bytes.
- * On a compile error what the compiler says goes to stderr, and the first error line into `error`. */
+/* Compiles a Vulkan compute shader. define is "NAME=VALUE" or NULL. *spirv is malloc'ed, *size in
+ * bytes. On a compile error what the compiler says goes to stderr, and the first error line into
+ * `error`. */
 hnbrdf_result gpu_compile(const char *text, const gpu_include *includes, int include_count,
                           const char *define, uint32_t **spirv, size_t *size, hnbrdf_error *error);
 

@@ -6,7 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-/* ---- Command buffers: recorded once, submitted, waited for ------------------------------------------ */
+/* ---- Command buffers: recorded once, submitted, waited for ----------------------------------- */
 
 static hnbrdf_result begin(const gpu_device *device, VkCommandBuffer *commands, hnbrdf_error *error)
 {
@@ -31,7 +31,8 @@ static hnbrdf_result end(const gpu_device *device, VkCommandBuffer commands, hnb
     VkFence fence = VK_NULL_HANDLE;
     hnbrdf_result result = gpu_check(vkEndCommandBuffer(commands), "recording", error);
     if (!result)
-        result = gpu_check(vkCreateFence(device->handle, &info, NULL, &fence), "creating a fence", error);
+        result =
+            gpu_check(vkCreateFence(device->handle, &info, NULL, &fence), "creating a fence", error);
     if (!result)
         result = gpu_check(vkQueueSubmit(device->queue, 1, &submit, fence), "submitting work", error);
     if (!result)
@@ -50,7 +51,7 @@ static void barrier(VkCommandBuffer commands, VkPipelineStageFlags from, VkAcces
     vkCmdPipelineBarrier(commands, from, to, 0, 1, &memory, 0, NULL, 0, NULL);
 }
 
-/* ---- Buffers ---------------------------------------------------------------------------------------- */
+/* ---- Buffers --------------------------------------------------------------------------------- */
 
 /* A memory type among `types` with all of `needed`, with `wished` too if there is one; -1 if none. */
 static int memory_type(const gpu_device *device, uint32_t types, VkMemoryPropertyFlags needed,
@@ -59,7 +60,8 @@ static int memory_type(const gpu_device *device, uint32_t types, VkMemoryPropert
     const VkMemoryPropertyFlags masks[] = {needed | wished, needed};
     for (int k = 0; k < 2; k++)
         for (uint32_t i = 0; i < device->memory.memoryTypeCount; i++)
-            if ((types >> i & 1) && (device->memory.memoryTypes[i].propertyFlags & masks[k]) == masks[k])
+            if ((types >> i & 1) &&
+                (device->memory.memoryTypes[i].propertyFlags & masks[k]) == masks[k])
                 return (int)i;
     return -1;
 }
@@ -86,8 +88,8 @@ static hnbrdf_result make_buffer(const gpu_device *device, size_t size, VkBuffer
     VkMemoryAllocateInfo allocate = {.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO,
                                      .allocationSize = required.size,
                                      .memoryTypeIndex = (uint32_t)type};
-    result =
-        gpu_check(vkAllocateMemory(device->handle, &allocate, NULL, memory), "allocating memory", error);
+    result = gpu_check(vkAllocateMemory(device->handle, &allocate, NULL, memory), "allocating memory",
+                       error);
     if (result)
         return result;
     return gpu_check(vkBindBufferMemory(device->handle, *buffer, *memory, 0), "binding memory", error);
@@ -101,14 +103,14 @@ hnbrdf_result gpu_buffer_open(const gpu_device *device, size_t size, gpu_buffer 
     const VkMemoryPropertyFlags visible =
         VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
     const VkMemoryPropertyFlags direct = visible | VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
-    const VkBufferUsageFlags copies = VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+    const VkBufferUsageFlags copies =
+        VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
     VkMemoryPropertyFlags flags = 0;
     memset(buffer, 0, sizeof *buffer);
     buffer->size = size;
-    hnbrdf_result result =
-        make_buffer(device, size, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | copies,
-                    VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, direct, &buffer->handle, &buffer->memory, &flags,
-                    error);
+    hnbrdf_result result = make_buffer(device, size, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | copies,
+                                       VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, direct, &buffer->handle,
+                                       &buffer->memory, &flags, error);
     VkDeviceMemory mapped = buffer->memory;
     if (!result && (flags & direct) != direct) {
         result = make_buffer(device, size, copies, visible, VK_MEMORY_PROPERTY_HOST_CACHED_BIT,
@@ -163,7 +165,7 @@ hnbrdf_result gpu_download(const gpu_device *device, gpu_buffer *buffer, void *d
     return result;
 }
 
-/* ---- Programs --------------------------------------------------------------------------------------- */
+/* ---- Programs -------------------------------------------------------------------------------- */
 
 static hnbrdf_result make_layouts(const gpu_device *device, uint32_t buffer_count, gpu_program *program,
                                   hnbrdf_error *error)
@@ -193,16 +195,17 @@ static hnbrdf_result make_layouts(const gpu_device *device, uint32_t buffer_coun
                      "creating a pipeline layout", error);
 }
 
-static hnbrdf_result make_set(const gpu_device *device, const gpu_buffer *const *buffers, uint32_t count,
-                              gpu_program *program, hnbrdf_error *error)
+static hnbrdf_result make_set(const gpu_device *device, const gpu_buffer *const *buffers,
+                              uint32_t count, gpu_program *program, hnbrdf_error *error)
 {
     VkDescriptorPoolSize size = {.type = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, .descriptorCount = count};
     VkDescriptorPoolCreateInfo pool = {.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
                                        .maxSets = 1,
                                        .poolSizeCount = 1,
                                        .pPoolSizes = &size};
-    hnbrdf_result result = gpu_check(vkCreateDescriptorPool(device->handle, &pool, NULL, &program->pool),
-                                     "creating a descriptor pool", error);
+    hnbrdf_result result =
+        gpu_check(vkCreateDescriptorPool(device->handle, &pool, NULL, &program->pool),
+                  "creating a descriptor pool", error);
     if (result)
         return result;
     VkDescriptorSetAllocateInfo allocate = {.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO,
@@ -232,11 +235,11 @@ hnbrdf_result gpu_program_open(const gpu_device *device, const uint32_t *spirv, 
 {
     memset(program, 0, sizeof *program);
     program->push_size = push_size;
-    VkShaderModuleCreateInfo module = {.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
-                                       .codeSize = spirv_size,
-                                       .pCode = spirv};
-    hnbrdf_result result = gpu_check(vkCreateShaderModule(device->handle, &module, NULL, &program->module),
-                                     "creating a shader module", error);
+    VkShaderModuleCreateInfo module = {
+        .sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO, .codeSize = spirv_size, .pCode = spirv};
+    hnbrdf_result result =
+        gpu_check(vkCreateShaderModule(device->handle, &module, NULL, &program->module),
+                  "creating a shader module", error);
     if (!result)
         result = make_layouts(device, buffer_count, program, error);
     if (!result)
@@ -279,11 +282,11 @@ static void record(const gpu_device *device, VkCommandBuffer commands, const gpu
     const VkPipelineStageFlags compute = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT;
     uint32_t groups = (uint32_t)((invocations + GPU_GROUP_SIZE - 1) / GPU_GROUP_SIZE);
     vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline);
-    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, program->layout, 0, 1, &program->set,
-                            0, NULL);
+    vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, program->layout, 0, 1,
+                            &program->set, 0, NULL);
     if (program->push_size > 0)
-        vkCmdPushConstants(commands, program->layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, program->push_size,
-                           push);
+        vkCmdPushConstants(commands, program->layout, VK_SHADER_STAGE_COMPUTE_BIT, 0,
+                           program->push_size, push);
     if (timed) {
         vkCmdResetQueryPool(commands, device->timestamps, 0, 2);
         vkCmdWriteTimestamp(commands, VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT, device->timestamps, 0);
@@ -315,8 +318,8 @@ hnbrdf_result gpu_dispatch(const gpu_device *device, const gpu_program *program,
     if (result || !timed)
         return result;
     uint64_t ticks[2] = {0, 0};
-    result = gpu_check(vkGetQueryPoolResults(device->handle, device->timestamps, 0, 2, sizeof ticks, ticks,
-                                             sizeof ticks[0],
+    result = gpu_check(vkGetQueryPoolResults(device->handle, device->timestamps, 0, 2, sizeof ticks,
+                                             ticks, sizeof ticks[0],
                                              VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
                        "reading timestamps", error);
     if (!result)

@@ -8,7 +8,7 @@
 
 enum { GPU_MAX_BUFFERS = 4, GPU_GROUP_SIZE = 64 };
 
-/* A storage buffer in device memory, with a second one that the host sees where it does not see that. */
+/* A storage buffer in device memory, and where the host does not see that a second one it does see. */
 typedef struct gpu_buffer {
     VkBuffer handle, staging;
     VkDeviceMemory memory, staging_memory;
@@ -44,8 +44,8 @@ void gpu_program_close(const gpu_device *device, gpu_program *program);
 hnbrdf_result gpu_pipeline_open(const gpu_device *device, const gpu_program *program, int32_t constant,
                                 VkPipeline *pipeline, hnbrdf_error *error);
 
-/* Runs at least `invocations` in groups of GPU_GROUP_SIZE, `repeats` times one after the other. ns, if not
- * NULL, receives the device's time for all of it, or NaN on a device without timestamps. */
+/* Runs at least `invocations` in groups of GPU_GROUP_SIZE, `repeats` times one after the other. ns, if
+ * not NULL, receives the device's time for all of it, or NaN on a device without timestamps. */
 hnbrdf_result gpu_dispatch(const gpu_device *device, const gpu_program *program, VkPipeline pipeline,
                            const void *push, size_t invocations, int repeats, double *ns,
                            hnbrdf_error *error);

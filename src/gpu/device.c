@@ -44,17 +44,19 @@ hnbrdf_result gpu_check(VkResult code, const char *what, hnbrdf_error *error)
                        code_name(code), (int)code);
 }
 
-/* ---- Instance ------------------------------------------------------------------------------------- */
+/* ---- Instance -------------------------------------------------------------------------------- */
 
 static VKAPI_ATTR VkBool32 VKAPI_CALL on_message(VkDebugUtilsMessageSeverityFlagBitsEXT severity,
                                                  VkDebugUtilsMessageTypeFlagsEXT types,
-                                                 const VkDebugUtilsMessengerCallbackDataEXT *data, void *user)
+                                                 const VkDebugUtilsMessengerCallbackDataEXT *data,
+                                                 void *user)
 {
     gpu_instance *instance = user;
     (void)types;
     instance->messages++;
     fprintf(stderr, "validation %s: %s\n",
-            severity >= VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT ? "error" : "warning", data->pMessage);
+            severity >= VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT ? "error" : "warning",
+            data->pMessage);
     return VK_FALSE;
 }
 
@@ -81,8 +83,8 @@ static void list_devices(gpu_instance *instance)
     for (int i = 0; i < instance->count; i++) {
         VkPhysicalDeviceDriverProperties driver = {
             .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES};
-        VkPhysicalDeviceProperties2 properties = {
-            .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2};
+        VkPhysicalDeviceProperties2 properties = {.sType =
+                                                      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2};
         vkGetPhysicalDeviceProperties(instance->devices[i], &instance->properties[i]);
         if (instance->properties[i].apiVersion >= VK_API_VERSION_1_2)
             properties.pNext = &driver;
@@ -109,9 +111,10 @@ hnbrdf_result gpu_open(int validate, gpu_instance *instance, hnbrdf_error *error
         VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT};
     memset(instance, 0, sizeof *instance);
     if (validate && !has_layer(VALIDATION_LAYER))
-        return hnbrdf_fail(error, HNBRDF_ERROR_UNSUPPORTED,
-                           "Vulkan: %s is not installed (Debian: apt-get install vulkan-validationlayers)",
-                           VALIDATION_LAYER);
+        return hnbrdf_fail(
+            error, HNBRDF_ERROR_UNSUPPORTED,
+            "Vulkan: %s is not installed (Debian: apt-get install vulkan-validationlayers)",
+            VALIDATION_LAYER);
     VkApplicationInfo application = {.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO,
                                      .pApplicationName = "hnbrdf",
                                      .apiVersion = VK_API_VERSION_1_2};
@@ -152,8 +155,8 @@ void gpu_close(gpu_instance *instance)
 {
     if (instance->messenger) {
         PFN_vkDestroyDebugUtilsMessengerEXT destroy =
-            (PFN_vkDestroyDebugUtilsMessengerEXT)vkGetInstanceProcAddr(instance->handle,
-                                                                       "vkDestroyDebugUtilsMessengerEXT");
+            (PFN_vkDestroyDebugUtilsMessengerEXT)vkGetInstanceProcAddr(
+                instance->handle, "vkDestroyDebugUtilsMessengerEXT");
         destroy(instance->handle, instance->messenger, NULL);
     }
     if (instance->handle)
@@ -177,7 +180,7 @@ const char *gpu_kind_name(const gpu_instance *instance, int index)
     }
 }
 
-/* ---- Device ---------------------------------------------------------------------------------------- */
+/* ---- Device ---------------------------------------------------------------------------------- */
 
 /* The first family that computes: such a queue can always copy. -1 if there is none. */
 static int compute_family(VkPhysicalDevice physical, uint32_t *timestamp_bits)

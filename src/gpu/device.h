@@ -19,9 +19,9 @@ typedef struct gpu_instance {
     char drivers[GPU_MAX_DEVICES][VK_MAX_DRIVER_NAME_SIZE + VK_MAX_DRIVER_INFO_SIZE + 2];
 } gpu_instance;
 
-/* validate: with the Khronos validation layer (synchronization checks too), whose messages are printed to
- * stderr and counted; HNBRDF_ERROR_UNSUPPORTED if it is not installed. The instance must stay where it
- * is. No Vulkan loader or no device is no error: count is then 0. */
+/* validate: with the Khronos validation layer (synchronization checks too), whose messages are printed
+ * to stderr and counted; HNBRDF_ERROR_UNSUPPORTED if it is not installed. The instance must stay where
+ * it is. No Vulkan loader or no device is no error: count is then 0. */
 hnbrdf_result gpu_open(int validate, gpu_instance *instance, hnbrdf_error *error);
 void gpu_close(gpu_instance *instance);
 
@@ -36,7 +36,7 @@ typedef struct gpu_device {
     VkPhysicalDeviceProperties properties;
     VkDriverId driver_id;
     VkPhysicalDeviceMemoryProperties memory;
-    double tick_ns; /* of a timestamp; 0 if the queue has none */
+    double tick_ns;         /* of a timestamp; 0 if the queue has none */
     VkQueryPool timestamps; /* two */
 } gpu_device;
 

@@ -87,8 +87,9 @@ static void make_not_finite(hnbrdf_rng *rng, float pair[6])
 static gpu_pair_class class_of(size_t k)
 {
     static const gpu_pair_class sixteen[16] = {
-        GPU_PAIR_UNIFORM, GPU_PAIR_SWAPPED, GPU_PAIR_GRID,    GPU_PAIR_MIRROR,  GPU_PAIR_UNIFORM, GPU_PAIR_GRAZING,
-        GPU_PAIR_SWAPPED, GPU_PAIR_UNIFORM, GPU_PAIR_GRID,    GPU_PAIR_SWAPPED, GPU_PAIR_RETRO,   GPU_PAIR_UNIFORM,
+        GPU_PAIR_UNIFORM, GPU_PAIR_SWAPPED, GPU_PAIR_GRID,    GPU_PAIR_MIRROR,
+        GPU_PAIR_UNIFORM, GPU_PAIR_GRAZING, GPU_PAIR_SWAPPED, GPU_PAIR_UNIFORM,
+        GPU_PAIR_GRID,    GPU_PAIR_SWAPPED, GPU_PAIR_RETRO,   GPU_PAIR_UNIFORM,
         GPU_PAIR_MIRROR,  GPU_PAIR_GRID,    GPU_PAIR_GRAZING, GPU_PAIR_EXTREME};
     if (k % 64 == 63)
         return GPU_PAIR_NOT_FINITE;
@@ -100,8 +101,8 @@ gpu_pair_class gpu_pair_draw(hnbrdf_rng *rng, size_t k, float pair[6])
     float *wi = pair, *wo = pair + 3, before[6];
     gpu_pair_class class_of_pair = class_of(k);
     memcpy(before, pair, sizeof before);
-    hnbrdf_sampler_draw(class_of_pair == GPU_PAIR_GRID ? HNBRDF_SAMPLER_GRID : HNBRDF_SAMPLER_UNIFORM, rng, wi,
-                        wo);
+    hnbrdf_sampler_draw(class_of_pair == GPU_PAIR_GRID ? HNBRDF_SAMPLER_GRID : HNBRDF_SAMPLER_UNIFORM,
+                        rng, wi, wo);
     switch (class_of_pair) {
     case GPU_PAIR_MIRROR:
         wo[0] = -wi[0];

@@ -17,7 +17,7 @@ enum { PROBE_VALUES = 1 << 17, OPERANDS = 4, RESULTS = 8 };
 
 static const double ULP = 0x1p-23; /* of 1: the largest that one ulp is in relative terms */
 
-/* ---- Rules -------------------------------------------------------------------------------------------
+/* ---- Rules -----------------------------------------------------------------------------------
  * Vulkan 1.3, "Precision of core SPIR-V instructions", 32 bits: + - * correctly rounded; division
  * 2.5 ulp for |b| in [2^-126, 2^126]; inversesqrt 2 ulp, sqrt as 1/inversesqrt; exp 3 + 2|x| ulp;
  * log 3 ulp, 2^-21 absolute for x in [0.5, 2]; subnormal numbers may be flushed. */
@@ -53,7 +53,7 @@ gpu_rules gpu_rules_exact(const gpu_arithmetic *arithmetic)
     gpu_rules rules = vulkan_rules();
     apply_probe(arithmetic, &rules);
     rules.repeats_functions = 1;
-    /* hnbrdf_exp: 1.1 ulp. hnbrdf_log: 1 ulp + 6e-8, and s = f/(2 + f), |s| <= 0.172, enters as 2.06 s. */
+    /* hnbrdf_exp: 1.1 ulp. hnbrdf_log: 1 ulp + 6e-8; s = f/(2 + f), |s| <= 0.172, enters as 2.06 s. */
     rules.exp = 1.1 * ULP;
     rules.exp_slope = 0;
     rules.log = 1.0 * ULP;
@@ -66,8 +66,8 @@ gpu_rules gpu_rules_fast(const gpu_arithmetic *arithmetic, VkDriverId driver)
 {
     gpu_rules rules = vulkan_rules();
     if (driver == VK_DRIVER_ID_MESA_LLVMPIPE) {
-        /* It contracts nothing, `precise` or not; but it keeps to neither limit of exp and log: measured
-         * with Mesa 22.3, exp errs by 16 ulp where Vulkan allows 3, log by 5.7e-7 near 1. */
+        /* It contracts nothing, `precise` or not; but it keeps to neither limit of exp and log:
+         * measured with Mesa 22.3, exp errs by 16 ulp where Vulkan allows 3, log by 5.7e-7 near 1. */
         apply_probe(arithmetic, &rules);
         rules.exp = 16 * ULP;
         rules.log_near_1 = 6e-7;
@@ -83,11 +83,12 @@ double gpu_exp_error(const gpu_rules *rules, double x, double exponential)
 double gpu_log_error(const gpu_rules *rules, double x, double logarithm)
 {
     double relative = rules->log * fabs(logarithm);
-    return rules->log_is_sum ? relative + rules->log_near_1
-                             : x >= 0.5 && x <= 2.0 ? rules->log_near_1 : relative;
+    return rules->log_is_sum      ? relative + rules->log_near_1
+           : x >= 0.5 && x <= 2.0 ? rules->log_near_1
+                                  : relative;
 }
 
-/* ---- Operands ------------------------------------------------------------------------------------------ */
+/* ---- Operands -------------------------------------------------------------------------------- */
 
 static float random_float(hnbrdf_rng *rng, int low_exponent, int high_exponent)
 {
@@ -105,10 +106,12 @@ static void draw_operands(hnbrdf_rng *rng, int k, float operands[OPERANDS])
     operands[0] = random_float(rng, range[0], range[1]);
     operands[1] = random_float(rng, range[0], range[1]);
     operands[2] = 160.0f * hnbrdf_rng_float(rng) - 80.0f;
-    operands[3] = fabsf(k % 2 ? random_float(rng, -2, 1) : random_float(rng, -16, 125));
+    operands[3] = k % 4 == 1   ? 1.0f + random_float(rng, -23, -2)
+                  : k % 4 == 3 ? fabsf(random_float(rng, -1, 0))
+                               : fabsf(random_float(rng, -16, 125));
 }
 
-/* ---- Comparison ----------------------------------------------------------------------------------------- */
+/* ---- Comparison ------------------------------------------------------------------------------ */
 
 static int subnormal(float x)
 {
@@ -121,7 +124,8 @@ static double larger(double a, double b)
 }
 
 /* Sets *exact or *keeps to 0 if the device's bits are not C's. */
-static void compare_bits(const float operands[OPERANDS], float reference, float device, int *exact, int *keeps)
+static void compare_bits(const float operands[OPERANDS], float reference, float device, int *exact,
+                         int *keeps)
 {
     if (!isfinite(reference) || hnbrdf_float_to_bits(reference) == hnbrdf_float_to_bits(device))
         return;
@@ -138,11 +142,12 @@ static double error_in_ulp(double truth, float device)
     return fabs((double)device - truth) / spacing;
 }
 
-static void compare_functions(const gpu_rules *rules, const float operands[OPERANDS], const float *device,
-                              gpu_arithmetic *seen)
+static void compare_functions(const gpu_rules *rules, const float operands[OPERANDS],
+                              const float *device, gpu_arithmetic *seen)
 {
     double x = (double)operands[2], y = (double)operands[3], exponential = exp(x), logarithm = log(y);
-    double exp_error = fabs((double)device[6] - exponential), log_error = fabs((double)device[7] - logarithm);
+    double exp_error = fabs((double)device[6] - exponential),
+           log_error = fabs((double)device[7] - logarithm);
     seen->exp_ulp = larger(seen->exp_ulp, error_in_ulp(exponential, device[6]));
     seen->exp_share = larger(seen->exp_share, exp_error / gpu_exp_error(rules, x, exponential));
     if (y >= 0.5 && y <= 2.0)
@@ -175,7 +180,7 @@ static void compare_all(const gpu_rules *rules, const float (*operands)[OPERANDS
     }
 }
 
-/* ---- Running it ------------------------------------------------------------------------------------------ */
+/* ---- Running it ------------------------------------------------------------------------------ */
 
 static hnbrdf_result run(const gpu_device *device, const gpu_program *program, gpu_buffer *input,
                          gpu_buffer *output, const void *operands, size_t operand_bytes, void *results,
@@ -195,9 +200,11 @@ static hnbrdf_result run(const gpu_device *device, const gpu_program *program, g
 }
 
 static hnbrdf_result probe_with(const gpu_device *device, const uint32_t *spirv, size_t spirv_size,
-                                float (*operands)[OPERANDS], float (*results)[RESULTS], hnbrdf_error *error)
+                                float (*operands)[OPERANDS], float (*results)[RESULTS],
+                                hnbrdf_error *error)
 {
-    const size_t operand_bytes = sizeof *operands * PROBE_VALUES, result_bytes = sizeof *results * PROBE_VALUES;
+    const size_t operand_bytes = sizeof *operands * PROBE_VALUES,
+                 result_bytes = sizeof *results * PROBE_VALUES;
     gpu_buffer input = {0}, output = {0};
     gpu_program program = {0};
     hnbrdf_rng rng;
@@ -209,9 +216,11 @@ static hnbrdf_result probe_with(const gpu_device *device, const uint32_t *spirv,
         result = gpu_buffer_open(device, result_bytes, &output, error);
     const gpu_buffer *const buffers[] = {&input, &output};
     if (!result)
-        result = gpu_program_open(device, spirv, spirv_size, buffers, 2, sizeof(uint32_t), &program, error);
+        result =
+            gpu_program_open(device, spirv, spirv_size, buffers, 2, sizeof(uint32_t), &program, error);
     if (!result)
-        result = run(device, &program, &input, &output, operands, operand_bytes, results, result_bytes, error);
+        result = run(device, &program, &input, &output, operands, operand_bytes, results, result_bytes,
+                     error);
     gpu_program_close(device, &program);
     gpu_buffer_close(device, &input);
     gpu_buffer_close(device, &output);
@@ -234,7 +243,8 @@ hnbrdf_result gpu_probe(const gpu_device *device, gpu_arithmetic *arithmetic, hn
     if (!result) {
         gpu_arithmetic seen = {.values = PROBE_VALUES};
         gpu_rules rules = gpu_rules_fast(&seen, device->driver_id);
-        compare_all(&rules, (const float(*)[OPERANDS])operands, (const float(*)[RESULTS])results, &seen);
+        compare_all(&rules, (const float(*)[OPERANDS])operands, (const float(*)[RESULTS])results,
+                    &seen);
         *arithmetic = seen;
     }
     free(operands);

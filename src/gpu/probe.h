@@ -10,21 +10,21 @@ typedef struct gpu_arithmetic {
     int exact_basic; /* + - *, and a * b + c kept as two operations where the shader says `precise` */
     int exact_divide, exact_sqrt;
     int keeps_denormals;
-    double divide_ulp, sqrt_ulp;  /* worst error seen, in ulp of the true result */
-    double exp_ulp, exp_share;    /* likewise, x in [-80, 80]; worst share of what the rules allow */
-    double log_error, log_share;  /* worst |log - true| near 1 (0.5 to 2); worst share, all x >= 1e-5 */
+    double divide_ulp, sqrt_ulp; /* worst error seen, in ulp of the true result */
+    double exp_ulp, exp_share;   /* likewise, x in [-80, 80]; worst share of what the rules allow */
+    double log_error, log_share; /* worst |log - true| near 1 (0.5 to 2); worst share, all x >= 1e-5 */
 } gpu_arithmetic;
 
 /* What the bounds assume of an operation with operands a, b and true result r: an error of at most
  * `...` relative to |r|, plus tiny. `repeats`: equal operands give the bits that C gives. */
 typedef struct gpu_rules {
     int repeats_basic, repeats_divide, repeats_sqrt;
-    int repeats_functions;  /* exp and log are those of exact operations, hnbrdf_exp and hnbrdf_log */
+    int repeats_functions; /* exp and log are those of exact operations, hnbrdf_exp and hnbrdf_log */
     double basic, divide, sqrt;
     double exp, exp_slope;  /* exp(x): exp + exp_slope |x| */
     double log, log_near_1; /* log; absolute, for x in [0.5, 2], or everywhere if log_is_sum */
     int log_is_sum;
-    double tiny;            /* absolute: a subnormal number may become 0 */
+    double tiny; /* absolute: a subnormal number may become 0 */
 } gpu_rules;
 
 /* The largest error of exp(x) and log(x) by the rules; the second number is the true result. */

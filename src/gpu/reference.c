@@ -1,4 +1,4 @@
-/* reference.c: what the C library says of a set of direction pairs, and how a device differs from it. */
+/* reference.c: what the C library says of a set of direction pairs, and how a device differs. */
 #include "gpu/reference.h"
 
 #include "core/encoding.h"
@@ -36,7 +36,8 @@ hnbrdf_result gpu_reference_open(size_t count, gpu_reference *reference, hnbrdf_
     reference->classes = calloc(count, sizeof *reference->classes);
     int complete = reference->pairs && reference->classes;
     for (int stage = 0; stage < GPU_STAGES; stage++) {
-        reference->stages[stage] = calloc(count, (size_t)gpu_stage_stride((gpu_stage)stage) * sizeof(float));
+        reference->stages[stage] =
+            calloc(count, (size_t)gpu_stage_stride((gpu_stage)stage) * sizeof(float));
         complete = complete && reference->stages[stage];
     }
     if (complete)
@@ -77,14 +78,16 @@ void gpu_reference_fill(const hnbrdf_model *model, const hnbrdf_material *materi
         if (model->desc.kind != HNBRDF_KIND_GGX) {
             float *encoded = reference->stages[GPU_STAGE_ENCODING] + 6 * k;
             encode(&model->desc, frame, pair, encoded);
-            hnbrdf_network(&model->desc, material->latent, encoded, reference->stages[GPU_STAGE_NETWORK] + 6 * k);
+            hnbrdf_network(&model->desc, material->latent, encoded,
+                           reference->stages[GPU_STAGE_NETWORK] + 6 * k);
         }
-        hnbrdf_eval_analytic(model, material, pair, pair + 3, reference->stages[GPU_STAGE_ANALYTIC] + 3 * k);
+        hnbrdf_eval_analytic(model, material, pair, pair + 3,
+                             reference->stages[GPU_STAGE_ANALYTIC] + 3 * k);
         hnbrdf_eval(model, material, pair, pair + 3, reference->stages[GPU_STAGE_VALUE] + 3 * k);
     }
 }
 
-/* ---- Comparison -------------------------------------------------------------------------------------- */
+/* ---- Comparison ------------------------------------------------------------------------------ */
 
 /* What errors are related to: see gpu_comparison. */
 static double size_of(double reference, int must_be_value)
@@ -151,15 +154,16 @@ void gpu_comparison_add(gpu_comparison *sum, const gpu_comparison *more)
 
 static const gpu_tracked *stage_bounds(const gpu_bounds *bounds, int stage)
 {
-    const gpu_tracked *const stages[GPU_STAGES] = {bounds->encoding, bounds->fed, bounds->analytic, bounds->value};
+    const gpu_tracked *const stages[GPU_STAGES] = {bounds->encoding, bounds->fed, bounds->analytic,
+                                                   bounds->value};
     return stages[stage];
 }
 
-/* Every operation of this build gives C's bits: then so does every stage, and no bound need be derived. */
+/* Every operation of this build gives C's bits: so does every stage then, and no bound is derived. */
 static int repeats_all(const gpu_rules *rules)
 {
-    return rules->repeats_basic && rules->repeats_divide && rules->repeats_sqrt && rules->repeats_functions &&
-           rules->tiny == 0.0;
+    return rules->repeats_basic && rules->repeats_divide && rules->repeats_sqrt &&
+           rules->repeats_functions && rules->tiny == 0.0;
 }
 
 static int same_bits(float a, float b)
@@ -167,9 +171,10 @@ static int same_bits(float a, float b)
     return memcmp(&a, &b, sizeof a) == 0 || a == b || (a != a && b != b);
 }
 
-hnbrdf_result gpu_compare(const gpu_rules *rules, const hnbrdf_model *model, const hnbrdf_material *material,
-                          const gpu_reference *reference, const float *const device[GPU_STAGES],
-                          gpu_comparison comparisons[GPU_STAGES], hnbrdf_error *error)
+hnbrdf_result gpu_compare(const gpu_rules *rules, const hnbrdf_model *model,
+                          const hnbrdf_material *material, const gpu_reference *reference,
+                          const float *const device[GPU_STAGES], gpu_comparison comparisons[GPU_STAGES],
+                          hnbrdf_error *error)
 {
     const hnbrdf_model_desc *desc = &model->desc;
     memset(comparisons, 0, GPU_STAGES * sizeof *comparisons);
@@ -198,10 +203,11 @@ hnbrdf_result gpu_compare(const gpu_rules *rules, const hnbrdf_model *model, con
                     gpu_tracked tracked = stage_bounds(&bounds, stage)[c];
                     place.bound = tracked.e;
                     if (!same_bits(tracked.v, place.reference))
-                        return hnbrdf_fail(error, HNBRDF_ERROR_FORMAT,
-                                           "verify: %s[%d] is %.9g in C but %.9g where its bound is derived",
-                                           gpu_stage_name((gpu_stage)stage), c, (double)place.reference,
-                                           (double)tracked.v);
+                        return hnbrdf_fail(
+                            error, HNBRDF_ERROR_FORMAT,
+                            "verify: %s[%d] is %.9g in C but %.9g where its bound is derived",
+                            gpu_stage_name((gpu_stage)stage), c, (double)place.reference,
+                            (double)tracked.v);
                 }
                 compare_value(&place, must_be_value, &comparisons[stage]);
             }

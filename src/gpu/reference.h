@@ -23,8 +23,9 @@ void gpu_reference_fill(const hnbrdf_model *model, const hnbrdf_material *materi
 
 /* Compares what the device returned for each stage. HNBRDF_ERROR_FORMAT if bounds.c does not reproduce
  * the bits of the C library, in which case its bounds mean nothing. */
-hnbrdf_result gpu_compare(const gpu_rules *rules, const hnbrdf_model *model, const hnbrdf_material *material,
-                          const gpu_reference *reference, const float *const device[GPU_STAGES],
-                          gpu_comparison comparisons[GPU_STAGES], hnbrdf_error *error);
+hnbrdf_result gpu_compare(const gpu_rules *rules, const hnbrdf_model *model,
+                          const hnbrdf_material *material, const gpu_reference *reference,
+                          const float *const device[GPU_STAGES], gpu_comparison comparisons[GPU_STAGES],
+                          hnbrdf_error *error);
 
 #endif

@@ -72,30 +72,33 @@ static hnbrdf_result open_buffers(session *s)
         size_t stride = (size_t)gpu_stage_stride((gpu_stage)stage) * sizeof(float);
         s->device_values[stage] = calloc(s->options->pairs, stride);
         if (!s->device_values[stage])
-            return hnbrdf_fail(s->error, HNBRDF_ERROR_MEMORY, "verify: no memory for %zu pairs", s->options->pairs);
+            return hnbrdf_fail(s->error, HNBRDF_ERROR_MEMORY, "verify: no memory for %zu pairs",
+                               s->options->pairs);
     }
     return gpu_reference_open(s->options->pairs, &s->reference, s->error);
 }
 
 static hnbrdf_result open_program(session *s, gpu_build build)
 {
-    const gpu_include includes[] = {{"hybrid_brdf.glsl", hnbrdf_hybrid_brdf_glsl}, {"scene.glsl", s->options->scene}};
+    const gpu_include includes[] = {{"hybrid_brdf.glsl", hnbrdf_hybrid_brdf_glsl},
+                                    {"scene.glsl", s->options->scene}};
     const gpu_buffer *const buffers[] = {&s->directions, &s->encoded, &s->values};
     uint32_t *spirv = NULL;
     size_t size = 0;
     double started = milliseconds();
-    hnbrdf_result result =
-        gpu_compile(hnbrdf_verify_comp, includes, 2,
-                    build == GPU_BUILD_EXACT ? "HNBRDF_EXACT=1" : "HNBRDF_EXACT=0", &spirv, &size, s->error);
+    hnbrdf_result result = gpu_compile(hnbrdf_verify_comp, includes, 2,
+                                       build == GPU_BUILD_EXACT ? "HNBRDF_EXACT=1" : "HNBRDF_EXACT=0",
+                                       &spirv, &size, s->error);
     s->report->timing.compile_ms = milliseconds() - started; /* the fast build comes last */
     s->report->timing.spirv_bytes = size;
     if (!result)
-        result = gpu_program_open(s->device, spirv, size, buffers, 3, sizeof(push_constants), &s->programs[build],
-                                  s->error);
+        result = gpu_program_open(s->device, spirv, size, buffers, 3, sizeof(push_constants),
+                                  &s->programs[build], s->error);
     free(spirv);
     for (int stage = 0; stage < PIPELINES && !result; stage++)
         if (stage != GPU_STAGE_VALUE || build != GPU_BUILD_FAST) /* which is timed on its own, below */
-            result = gpu_pipeline_open(s->device, &s->programs[build], stage, &s->pipelines[build][stage], s->error);
+            result = gpu_pipeline_open(s->device, &s->programs[build], stage,
+                                       &s->pipelines[build][stage], s->error);
     return result;
 }
 
@@ -114,12 +117,13 @@ static void close_session(session *s)
         free(s->device_values[stage]);
 }
 
-/* ---- Comparing --------------------------------------------------------------------------------------- */
+/* ---- Comparing ------------------------------------------------------------------------------- */
 
 static int stage_exists(const session *s, int stage)
 {
     hnbrdf_kind kind = s->model->desc.kind;
-    return stage == GPU_STAGE_VALUE || (stage == GPU_STAGE_ANALYTIC ? kind != HNBRDF_KIND_NEURAL : kind != HNBRDF_KIND_GGX);
+    return stage == GPU_STAGE_VALUE ||
+           (stage == GPU_STAGE_ANALYTIC ? kind != HNBRDF_KIND_NEURAL : kind != HNBRDF_KIND_GGX);
 }
 
 static hnbrdf_result run_stages(session *s, gpu_build build, int material)
@@ -147,7 +151,8 @@ static hnbrdf_result verify_material(session *s, const gpu_rules rules[GPU_BUILD
     gpu_reference_fill(s->model, material, &rng, &s->reference);
     hnbrdf_result result = gpu_upload(s->device, &s->directions, s->reference.pairs, bytes, s->error);
     if (!result)
-        result = gpu_upload(s->device, &s->encoded, s->reference.stages[GPU_STAGE_ENCODING], bytes, s->error);
+        result = gpu_upload(s->device, &s->encoded, s->reference.stages[GPU_STAGE_ENCODING], bytes,
+                            s->error);
     for (int build = 0; build < GPU_BUILDS && !result; build++) {
         gpu_comparison *comparisons = s->report->comparisons[k][build];
         result = run_stages(s, (gpu_build)build, k);
@@ -160,7 +165,7 @@ static hnbrdf_result verify_material(session *s, const gpu_rules rules[GPU_BUILD
     return result;
 }
 
-/* ---- Timing ------------------------------------------------------------------------------------------- */
+/* ---- Timing ---------------------------------------------------------------------------------- */
 
 enum { TIMED_RUNS = 3 };
 
@@ -175,7 +180,8 @@ static hnbrdf_result time_stage(session *s, int stage, double *ns)
     int repeats = 1;
     for (int run = 0; run < TIMED_RUNS && !result;) {
         double total;
-        result = gpu_dispatch(s->device, program, pipeline, &push, TIMED_EVALUATIONS, repeats, &total, s->error);
+        result = gpu_dispatch(s->device, program, pipeline, &push, TIMED_EVALUATIONS, repeats, &total,
+                              s->error);
         if (total < 5e6 && repeats < 1024) {
             repeats *= 4;
             continue;
@@ -198,7 +204,8 @@ static hnbrdf_result time_evaluations(session *s)
     hnbrdf_rng_seed(&rng, s->options->seed, 0);
     for (size_t k = 0; k < TIMED_EVALUATIONS; k++)
         hnbrdf_sampler_draw(HNBRDF_SAMPLER_UNIFORM, &rng, pairs + 6 * k, pairs + 6 * k + 3);
-    hnbrdf_result result = gpu_upload(s->device, &s->directions, pairs, TIMED_EVALUATIONS * 6 * sizeof *pairs, s->error);
+    hnbrdf_result result =
+        gpu_upload(s->device, &s->directions, pairs, TIMED_EVALUATIONS * 6 * sizeof *pairs, s->error);
     free(pairs);
     if (!result)
         result = time_stage(s, GPU_STAGE_VALUE, &timing->value_ns);
@@ -221,7 +228,7 @@ static hnbrdf_result open_timed_pipeline(session *s)
     return result;
 }
 
-/* ---- All of it ---------------------------------------------------------------------------------------- */
+/* ---- All of it ------------------------------------------------------------------------------- */
 
 static hnbrdf_result run_session(session *s)
 {
@@ -235,7 +242,8 @@ static hnbrdf_result run_session(session *s)
         result = open_timed_pipeline(s);
     if (result)
         return result;
-    const gpu_rules rules[GPU_BUILDS] = {gpu_rules_exact(&report->arithmetic), gpu_rules_fast(&report->arithmetic, s->device->driver_id)};
+    const gpu_rules rules[GPU_BUILDS] = {gpu_rules_exact(&report->arithmetic),
+                                         gpu_rules_fast(&report->arithmetic, s->device->driver_id)};
     report->within = report->arithmetic.exp_share <= 1.0 && report->arithmetic.log_share <= 1.0;
     for (int k = 0; k < s->options->material_count && !result; k++) {
         result = verify_material(s, rules, k);
@@ -254,7 +262,8 @@ hnbrdf_result gpu_verify(const gpu_device *device, const hnbrdf_model *model,
                        .timing = {.value_ns = (double)NAN, .copy_ns = (double)NAN}};
     made.comparisons = calloc((size_t)options->material_count, sizeof *made.comparisons);
     if (!made.comparisons)
-        return hnbrdf_fail(error, HNBRDF_ERROR_MEMORY, "verify: no memory for %d materials", options->material_count);
+        return hnbrdf_fail(error, HNBRDF_ERROR_MEMORY, "verify: no memory for %d materials",
+                           options->material_count);
     session s = {.device = device, .model = model, .options = options, .report = &made, .error = error};
     hnbrdf_result result = run_session(&s);
     close_session(&s);

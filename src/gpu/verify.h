@@ -35,9 +35,10 @@ typedef struct gpu_place {
     double ulp;
 } gpu_place;
 
-/* Errors are in ulp of, and relative to, the reference, but where it is small of 2^-10 for f and f_a (below
- * that, what is left of f when the floor is subtracted has no digits of its own) and of 1 for what goes in
- * and out of the network (numbers around 1, of which absolute errors count). Bounds know no such limit. */
+/* Errors are in ulp of, and relative to, the reference, but where it is small of 2^-10 for f and f_a
+ * (below that, what is left of f when the floor is subtracted has no digits of its own) and of 1 for
+ * what goes in and out of the network (numbers around 1, of which absolute errors count). Bounds know
+ * no such limit. */
 typedef struct gpu_comparison {
     int applies;      /* 0: this kind of model has no such stage */
     size_t values;    /* compared */
@@ -53,18 +54,19 @@ typedef struct gpu_comparison {
 void gpu_comparison_add(gpu_comparison *sum, const gpu_comparison *more);
 
 typedef struct gpu_timing {
-    int evaluations;          /* per measurement */
-    double value_ns, copy_ns; /* of one evaluation; of its buffer traffic alone. NaN without timestamps */
-    double compile_ms;        /* GLSL to SPIR-V, fast build */
-    double first_ms;          /* pipeline and first dispatch, fast build; less if the driver keeps a cache */
+    int evaluations; /* per measurement */
+    double value_ns,
+        copy_ns;       /* of one evaluation; of its buffer traffic alone. NaN without timestamps */
+    double compile_ms; /* GLSL to SPIR-V, fast build */
+    double first_ms;   /* pipeline and first dispatch, fast build; less if the driver keeps a cache */
     size_t spirv_bytes;
 } gpu_timing;
 
 typedef struct gpu_verify_options {
-    const char *scene;        /* what hnbrdf_export_glsl() wrote, not standalone */
-    const int *materials;     /* indices of the exported materials, in order */
+    const char *scene;    /* what hnbrdf_export_glsl() wrote, not standalone */
+    const int *materials; /* indices of the exported materials, in order */
     int material_count;
-    size_t pairs;             /* per material */
+    size_t pairs; /* per material */
     uint64_t seed;
     int without_timing;
     void (*progress)(void *user, double share); /* may be NULL */
@@ -74,7 +76,8 @@ typedef struct gpu_verify_options {
 typedef struct gpu_report {
     gpu_arithmetic arithmetic;
     gpu_timing timing;
-    int within; /* every comparison within its bounds, and exp and log as accurate as the bounds assume */
+    int within; /* every comparison within its bounds, and exp and log as accurate as the bounds assume
+                 */
     int material_count;
     gpu_comparison (*comparisons)[GPU_BUILDS][GPU_STAGES]; /* [material_count] */
 } gpu_report;

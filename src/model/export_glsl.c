@@ -1,6 +1,5 @@
 /* export_glsl.c: writes a model and the materials of a scene as one GLSL include, weights as constants.
- * What the scene does not need is not written: anisotropy, rotation, parameters the kind does not use.
- */
+ * What the scene does not need is not written: anisotropy, rotation, what the kind does not use. */
 #include "core/error.h"
 #include "core/frame.h"
 #include "core/model.h"
@@ -80,8 +79,7 @@ static void put_vector(printer *out, int size, const float *values, int given)
     put(out, ")");
 }
 
-/* ---- The scene -------------------------------------------------------------------------------------
- */
+/* ---- The scene ------------------------------------------------------------------------------- */
 
 enum { NAME_SIZE = HNBRDF_MAX_NAME + 32 };
 typedef char macro_name[NAME_SIZE]; /* what follows HNBRDF_MATERIAL_ */
