@@ -1,4 +1,4 @@
-/* test_measured_merl.c: MERL tables are looked up bin by bin as docs/FORMATS.md 2.3 says, invalid bins
+/* test_measured_merl.c: MERL tables are looked up bin by bin as FORMATS 2.3 says, invalid bins
  * are no measurements, and every broken file is refused with one line. The tables are made here. */
 #include "measured_support.h"
 

@@ -1,4 +1,4 @@
-/* test_measured_rgl.c: RGL files are evaluated as docs/FORMATS.md 3.5 says. The files are made here. */
+/* test_measured_rgl.c: RGL files are evaluated as FORMATS 3.5 says. The files are made here. */
 #include "measured_support.h"
 
 static const double PI = 3.14159265358979323846;
