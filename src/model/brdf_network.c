@@ -312,25 +312,36 @@ static hnbrdf_result read_sum(reading *r, rows *s)
     return HNBRDF_OK;
 }
 
-/* hardGeLU( in any mixture of cases; nothing if the sum begins here. */
-static hnbrdf_result take_activation(reading *r, int *activated)
+/* hardGeLU in any mixture of cases. */
+static int is_activation(const hnbrdf_words *words)
 {
     static const char NAME[] = "hardgelu";
+    const size_t length = (size_t)(words->stop - words->begin);
+    if (words->kind != HNBRDF_WORD_NAME || length != sizeof NAME - 1) {
+        return 0;
+    }
+    for (size_t i = 0; i < length; ++i) {
+        if ((words->begin[i] | 0x20) != NAME[i]) {
+            return 0;
+        }
+    }
+    return 1;
+}
+
+/* hardGeLU( if it is there; no other function. */
+static hnbrdf_result take_activation(reading *r, int *activated)
+{
     hnbrdf_words ahead = *r->words;
     block unused;
     *activated = 0;
     hnbrdf_words_next(&ahead);
     if (r->words->kind != HNBRDF_WORD_NAME || is_constructor(r->words, &unused) ||
-        !hnbrdf_words_at(&ahead, "(")) {
+        !hnbrdf_words_take(&ahead, "(")) {
         return HNBRDF_OK;
     }
-    const size_t length = (size_t)(r->words->stop - r->words->begin);
-    for (size_t i = 0; i < sizeof NAME - 1; ++i) {
-        if (length != sizeof NAME - 1 || (r->words->begin[i] | 0x20) != NAME[i]) {
-            return fail(r, "hardGeLU as the activation");
-        }
+    if (!is_activation(r->words)) {
+        return fail(r, "hardGeLU as the activation");
     }
-    hnbrdf_words_next(&ahead);
     *r->words = ahead;
     *activated = 1;
     return HNBRDF_OK;
@@ -386,13 +397,15 @@ static int ends_statement(const hnbrdf_words *words)
            hnbrdf_words_at(words, "{") || hnbrdf_words_at(words, "}");
 }
 
-/* Whether a matrix of numbers stands in the statement that begins here; moves to its end. */
+/* Whether hardGeLU or a matrix of numbers stands in the statement that begins here; moves to its end.
+ */
 static int skip_statement(hnbrdf_words *words)
 {
     int found = 0;
     while (!ends_statement(words)) {
         block b;
         const int is_matrix = is_constructor(words, &b) && b.is_matrix;
+        found |= is_activation(words);
         hnbrdf_words_next(words);
         if (is_matrix && hnbrdf_words_take(words, "(")) {
             found |= words->kind == HNBRDF_WORD_NUMBER || hnbrdf_words_at(words, "-") ||
