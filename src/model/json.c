@@ -206,7 +206,7 @@ int hnbrdf_json_equals(hnbrdf_json_text text, const char *plain)
     while (text.begin < text.end) {
         const char *expected;
         char character[4];
-        size_t length;
+        size_t length = 0;
         text.begin = read_character(text.begin, text.end, character, &length, &expected);
         for (size_t i = 0; i < length; ++i) {
             if (*plain == '\0' || *plain++ != character[i]) {
@@ -223,7 +223,7 @@ size_t hnbrdf_json_unescape(hnbrdf_json_text text, char *to)
     while (text.begin < text.end) {
         const char *expected;
         char character[4];
-        size_t length;
+        size_t length = 0;
         text.begin = read_character(text.begin, text.end, character, &length, &expected);
         memcpy(to + total, character, length);
         total += length;
