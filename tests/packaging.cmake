@@ -2,12 +2,15 @@
 add_test(NAME test_headers COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/test_headers.sh ${PROJECT_SOURCE_DIR})
 set_tests_properties(test_headers PROPERTIES SKIP_RETURN_CODE 77)
 
+if(HNBRDF_BUILD_EXAMPLES)
+  add_test(NAME test_examples COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/test_examples.sh ${PROJECT_SOURCE_DIR}
+    $<TARGET_FILE:hnbrdf_cli> $<TARGET_FILE_DIR:hnbrdf_example_eval> ${CMAKE_CURRENT_BINARY_DIR}/examples)
+endif()
+
 # Sanitizers change what a library needs and what its consumers must link.
 if(NOT HNBRDF_SANITIZE)
   add_test(NAME test_exports COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/test_exports.sh ${PROJECT_SOURCE_DIR}
-    $<TARGET_LINKER_FILE:hnbrdf_shared> $<TARGET_FILE:hnbrdf_static>
-    $<TARGET_LINKER_FILE:hnbrdf_measured_shared> $<TARGET_LINKER_FILE:hnbrdf_metrics_shared>
-    $<TARGET_LINKER_FILE:hnbrdf_fit_shared>)
+    ${PROJECT_BINARY_DIR} hnbrdf hnbrdf_measured hnbrdf_metrics hnbrdf_fit)
   add_test(NAME test_install COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/test_install.sh
     ${PROJECT_BINARY_DIR} ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}/install)
   set_tests_properties(test_install PROPERTIES SKIP_RETURN_CODE 77)

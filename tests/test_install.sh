@@ -41,6 +41,11 @@ for static in ON OFF; do
     *) fail "hnbrdf::hnbrdf is static although HNBRDF_USE_STATIC_LIBS is OFF" ;;
     esac
 done
+# The examples, as a project of their own.
+{
+    cmake -S "$source/examples" -B "$scratch/examples" -DCMAKE_PREFIX_PATH="$prefix" -DHNBRDF_USE_STATIC_LIBS=OFF &&
+        cmake --build "$scratch/examples"
+} > "$scratch.log" 2>&1 || { cat "$scratch.log"; fail "the examples against the installed library"; }
 # A version from the future must be refused.
 mkdir -p "$scratch/future"
 printf 'cmake_minimum_required(VERSION 3.18)\nproject(f C)\nfind_package(hnbrdf 1.0 REQUIRED CONFIG)\n' \
