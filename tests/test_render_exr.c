@@ -1,4 +1,5 @@
-/* test_render_exr.c: OpenEXR there and back, every compression and tiles; hostile bytes give one line. */
+/* test_render_exr.c: OpenEXR there and back, every compression and tiles; hostile bytes give one line.
+ */
 #include "render/image.h"
 
 #include "hnbrdf/measured.h"
@@ -95,9 +96,13 @@ static void half_rounds_to_nearest_even_and_clamps(void **state)
     (void)state;
     render_image image = random_image(128, 128, 0, 3);
     /* Ties, the borders of the range, and values that plain conversion would make infinite. */
-    static const float special[] = {1.0f + 0x1p-11f, 1.0f + 3 * 0x1p-11f, 65504.0f,   65519.0f, 65520.0f,
-                                    1e9f,            -1e30f,              0x1p-24f,   0x1p-25f, 3 * 0x1p-26f,
-                                    0x1p-14f,        1023 * 0x1p-24f,     -0x1.8p-24f, 0.0f};
+    static const float special[] = {1.0f + 0x1p-11f, 1.0f + 3 * 0x1p-11f,
+                                    65504.0f,        65519.0f,
+                                    65520.0f,        1e9f,
+                                    -1e30f,          0x1p-24f,
+                                    0x1p-25f,        3 * 0x1p-26f,
+                                    0x1p-14f,        1023 * 0x1p-24f,
+                                    -0x1.8p-24f,     0.0f};
     memcpy(image.rgb, special, sizeof special);
     render_bytes bytes = encode(&image, 1);
     render_image back = decode(&bytes);
@@ -119,7 +124,8 @@ static void channels_are_named_and_sorted(void **state)
     render_bytes bytes = encode(&image, 0);
     static const char *const names[] = {"A", "B", "G", "R", "analytic.B", "analytic.G", "analytic.R"};
     const unsigned char *at = bytes.data, *end = bytes.data + bytes.size;
-    for (size_t i = 0; i < sizeof names / sizeof *names; i++) { /* name, NUL, type 2 (float), in this order */
+    for (size_t i = 0; i < sizeof names / sizeof *names;
+         i++) { /* name, NUL, type 2 (float), in this order */
         size_t length = strlen(names[i]) + 1;
         while (at + length + 1 < end && (memcmp(at, names[i], length) != 0 || at[length] != 2))
             at++;
@@ -145,10 +151,11 @@ static void identical_images_give_identical_bytes(void **state)
     render_image_free(&image);
 }
 
-/* ---- Files of other programs ------------------------------------------------------------------------- */
+/* ---- Files of other programs
+ * ------------------------------------------------------------------------- */
 
-static int64_t put(exr_const_context_t context, void *user, const void *data, uint64_t size, uint64_t offset,
-                   exr_stream_error_func_ptr_t error)
+static int64_t put(exr_const_context_t context, void *user, const void *data, uint64_t size,
+                   uint64_t offset, exr_stream_error_func_ptr_t error)
 {
     (void)context, (void)error;
     return render_bytes_put(user, offset, data, size) ? -1 : (int64_t)size;
@@ -169,8 +176,8 @@ static float foreign_value(int channel, int x, int y)
     return (float)(channel * 400 + (y * 30 + x) % 400); /* exact in half */
 }
 
-static void write_chunk(exr_context_t context, const foreign *file, const exr_chunk_info_t *chunk, int x,
-                        int y)
+static void write_chunk(exr_context_t context, const foreign *file, const exr_chunk_info_t *chunk,
+                        int x, int y)
 {
     exr_encode_pipeline_t pipe = EXR_ENCODE_PIPELINE_INITIALIZER;
     EXR(exr_encoding_initialize(context, 0, chunk, &pipe));
@@ -280,7 +287,8 @@ static void grey_files_become_rgb(void **state)
     free(bytes.data);
 }
 
-/* ---- Hostile bytes ----------------------------------------------------------------------------------- */
+/* ---- Hostile bytes
+ * ----------------------------------------------------------------------------------- */
 
 static hnbrdf_result decode_copy(const unsigned char *data, size_t size, hnbrdf_error *error)
 {
@@ -339,8 +347,10 @@ static void damaged_files_never_crash(void **state)
 static void absurd_windows_are_refused_before_allocation(void **state)
 {
     (void)state;
-    static const int32_t windows[][4] = {{0, 0, 0x7ffffffe, 0x7ffffffe}, {0, 0, 65535, 65535},
-                                         {0, 0, 1 << 20, 0},             {5, 5, 4, 4},
+    static const int32_t windows[][4] = {{0, 0, 0x7ffffffe, 0x7ffffffe},
+                                         {0, 0, 65535, 65535},
+                                         {0, 0, 1 << 20, 0},
+                                         {5, 5, 4, 4},
                                          {-2147483647 - 1, 0, 2147483647, 3}};
     render_image image = random_image(6, 20, 0, 1);
     render_bytes bytes = encode(&image, 1);

@@ -1,4 +1,5 @@
-/* test_render_images.c: PNG and Radiance, memory and files; hostile bytes give one line and no crash. */
+/* test_render_images.c: PNG and Radiance, memory and files; hostile bytes give one line and no crash.
+ */
 #include "render/image.h"
 
 #include <math.h>
@@ -25,7 +26,8 @@ static void assert_one_line(const hnbrdf_error *error)
         assert_true((unsigned char)*c >= ' ');
 }
 
-/* ---- PNG --------------------------------------------------------------------------------------------- */
+/* ---- PNG
+ * --------------------------------------------------------------------------------------------- */
 
 static unsigned char *decode_png(const render_bytes *bytes, int *width, int *height, int *channels)
 {
@@ -105,7 +107,8 @@ static void png_divides_colour_by_alpha(void **state)
     render_image_free(&image);
 }
 
-/* ---- Radiance ---------------------------------------------------------------------------------------- */
+/* ---- Radiance
+ * ---------------------------------------------------------------------------------------- */
 
 static const char hdr_header[] = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\nEXPOSURE=1\n\n";
 
@@ -165,7 +168,8 @@ static void radiance_decodes_flat_and_coded_scanlines(void **state)
         int coded = kind & 1, bottom_up = kind & 2, width = coded ? 300 : 5, height = 19;
         render_bytes bytes = make_hdr(width, height, coded, bottom_up ? "+" : "-");
         render_image image;
-        assert_int_equal(render_radiance_decode(bytes.data, bytes.size, "x.hdr", &image, NULL), HNBRDF_OK);
+        assert_int_equal(render_radiance_decode(bytes.data, bytes.size, "x.hdr", &image, NULL),
+                         HNBRDF_OK);
         assert_int_equal(image.width, width);
         assert_int_equal(image.height, height);
         for (int y = 0; y < height; y++)
@@ -249,7 +253,8 @@ static void absurd_radiance_is_refused(void **state)
     }
 }
 
-/* ---- Memory and files -------------------------------------------------------------------------------- */
+/* ---- Memory and files
+ * -------------------------------------------------------------------------------- */
 
 static void absurd_images_are_refused(void **state)
 {

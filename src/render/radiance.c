@@ -19,8 +19,8 @@ static hnbrdf_result bad(const reader *in, const char *what)
     return hnbrdf_fail(in->error, HNBRDF_ERROR_FORMAT, "%s: at byte %zu: %s", in->name, in->at, what);
 }
 
-/* Copies one header line without its end into text, truncated to size, control characters made '?'; 0 at the
- * end of the file. */
+/* Copies one header line without its end into text, truncated to size, control characters made '?'; 0
+ * at the end of the file. */
 static int header_line(reader *in, char *text, size_t size)
 {
     size_t length = 0;
