@@ -152,6 +152,7 @@ static const char *read_character(const char *at, const char *end, char to[4], s
                                   const char **expected)
 {
     static const char ESCAPES[] = "\"\\/bfnrt", MEANINGS[] = "\"\\/\b\f\n\r\t";
+    *length = 0;
     if (*at == '\\') {
         const char kind = end - at >= 2 ? at[1] : 0;
         const char *escape = kind ? strchr(ESCAPES, kind) : NULL;
