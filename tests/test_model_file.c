@@ -288,25 +288,28 @@ static void a_failed_save_leaves_the_old_file(void **state)
     hnbrdf_model_free(back);
 }
 
-/* /dev/full takes no byte; fclose tells. Only where there is one. */
+/* /dev/full takes no byte: a large file fails while it is written, one that fits the stream's buffer
+ * only when it is closed. Only where there is such a device. */
 static void a_full_disk_is_noticed(void **state)
 {
-    hnbrdf_model *model = example(0);
-    hnbrdf_error error = {""};
     char path[256], aside[256];
     (void)state;
     in_directory("full", path);
     in_directory("full.tmp", aside);
-    if (symlink("/dev/full", aside) != 0 || !exists(aside)) {
-        remove(aside);
+    for (int small = 0; small < 2; small++) {
+        hnbrdf_model *model = example(small ? 2 : 0);
+        hnbrdf_error error = {""};
+        if (symlink("/dev/full", aside) != 0 || !exists(aside)) {
+            remove(aside);
+            hnbrdf_model_free(model);
+            skip();
+        }
+        assert_int_equal(hnbrdf_model_save(model, path, &error), HNBRDF_ERROR_IO);
+        assert_non_null(strstr(error.text, "cannot be written"));
+        assert_false(exists(path));
+        assert_false(exists(aside));
         hnbrdf_model_free(model);
-        skip();
     }
-    assert_int_equal(hnbrdf_model_save(model, path, &error), HNBRDF_ERROR_IO);
-    assert_non_null(strstr(error.text, "cannot be written"));
-    assert_false(exists(path));
-    assert_false(exists(aside));
-    hnbrdf_model_free(model);
 }
 
 static int refuse(void *user, const void *data, size_t size)
