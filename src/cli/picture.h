@@ -30,8 +30,8 @@ typedef struct picture_options {
         "threads", 0, CLI_INT, &(p).threads, 0, 1024, "N", "default: all cores; changes no pixel"        \
     }
 
-/* -1 to go on, or an exit code after a message: the name must end in .exr or .png, and .exr must be
- * possible. */
+/* -1 to go on, or an exit code after a message: the name must end in .exr or .png, .exr must be
+ * possible, the folder writable. */
 int picture_check_output(const cli_command *command, const char *path);
 
 /* Opens the environment and, where none was given, sets the exposure. 0, or CLI_FAILURE. */
