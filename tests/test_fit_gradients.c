@@ -34,9 +34,8 @@ static void problem_make(problem *p, hnbrdf_kind kind, int hidden, int layers, i
     p->derived = calloc(p->layout.derived_count + 1, sizeof(double));
     p->scratch = calloc(p->layout.scratch_count + 1, sizeof(double));
     for (size_t i = 0; i < p->layout.count; i++) {
-        size_t unit = i % (size_t)p->layout.padded; /* padding must stay zero */
-        int weight = i < p->layout.last;
-        if (!weight || unit < (size_t)hidden)
+        int weight = i < p->layout.last; /* padding must stay zero */
+        if (!weight || i % (size_t)p->layout.padded < (size_t)hidden)
             p->parameters[i] = ((double)hnbrdf_rng_float(&rng) - 0.5) * 0.8;
     }
     for (size_t o = 0; o < (size_t)p->layout.outputs && kind != HNBRDF_KIND_GGX; o++)
