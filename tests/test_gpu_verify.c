@@ -25,6 +25,15 @@ static const hnbrdf_encoding DIRECTIONS = HNBRDF_ENCODING_DIRECTIONS,
 
 enum { PAIRS = 2048 };
 
+#if defined(__SANITIZE_ADDRESS__)
+#define HAS_LEAK_CHECK 1
+#elif defined(__has_feature)
+#define HAS_LEAK_CHECK __has_feature(address_sanitizer)
+#else
+#define HAS_LEAK_CHECK 0
+#endif
+static const gpu_validation VALIDATION = HAS_LEAK_CHECK ? GPU_VALIDATED : GPU_VALIDATED_SYNC;
+
 static gpu_report verify(const hnbrdf_model *model, const char *scene)
 {
     static const int all[SCENE_MATERIALS] = {0, 1, 2};
@@ -267,10 +276,10 @@ int main(void)
     }
     /* Kept loaded, or LeakSanitizer cannot tell what the driver still holds from a leak. */
     dlopen("libvulkan_lvp.so", RTLD_NOW | RTLD_NODELETE);
-    validated = gpu_open(1, &instance, &error) == HNBRDF_OK;
+    validated = gpu_open(VALIDATION, &instance, &error) == HNBRDF_OK;
     if (!validated)
         printf("without validation: %s\n", error.text);
-    if (!validated && gpu_open(0, &instance, &error)) {
+    if (!validated && gpu_open(GPU_NOT_VALIDATED, &instance, &error)) {
         printf("%s\n", error.text);
         return 1;
     }

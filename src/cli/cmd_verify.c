@@ -234,7 +234,7 @@ int cmd_verify(int argc, char **argv)
                          count);
     gpu_instance instance;
     hnbrdf_error error;
-    if (gpu_open(set.validate, &instance, &error))
+    if (gpu_open(set.validate ? GPU_VALIDATED_SYNC : GPU_NOT_VALIDATED, &instance, &error))
         return cli_fail("%s", error.text);
     if (set.list)
         list_devices(&instance);

@@ -104,13 +104,13 @@ static void make_messenger(gpu_instance *instance, const VkDebugUtilsMessengerCr
         instance->messenger = VK_NULL_HANDLE;
 }
 
-hnbrdf_result gpu_open(int validate, gpu_instance *instance, hnbrdf_error *error)
+hnbrdf_result gpu_open(gpu_validation validation, gpu_instance *instance, hnbrdf_error *error)
 {
     static const char *const extensions[] = {VK_EXT_DEBUG_UTILS_EXTENSION_NAME};
     static const VkValidationFeatureEnableEXT enables[] = {
         VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT};
     memset(instance, 0, sizeof *instance);
-    if (validate && !has_layer(VALIDATION_LAYER))
+    if (validation && !has_layer(VALIDATION_LAYER))
         return hnbrdf_fail(
             error, HNBRDF_ERROR_UNSUPPORTED,
             "Vulkan: %s is not installed (Debian: apt-get install vulkan-validationlayers)",
@@ -128,11 +128,12 @@ hnbrdf_result gpu_open(int validate, gpu_instance *instance, hnbrdf_error *error
         .pUserData = instance};
     VkValidationFeaturesEXT features = {.sType = VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT,
                                         .pNext = &messenger,
-                                        .enabledValidationFeatureCount = 1,
+                                        .enabledValidationFeatureCount =
+                                            validation == GPU_VALIDATED_SYNC,
                                         .pEnabledValidationFeatures = enables};
     VkInstanceCreateInfo info = {.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO,
                                  .pApplicationInfo = &application};
-    if (validate) {
+    if (validation) {
         info.pNext = &features;
         info.enabledLayerCount = 1;
         info.ppEnabledLayerNames = &VALIDATION_LAYER;
@@ -145,7 +146,7 @@ hnbrdf_result gpu_open(int validate, gpu_instance *instance, hnbrdf_error *error
     hnbrdf_result result = gpu_check(code, "creating an instance", error);
     if (result)
         return result;
-    if (validate)
+    if (validation)
         make_messenger(instance, &messenger);
     list_devices(instance);
     return HNBRDF_OK;

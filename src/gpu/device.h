@@ -19,10 +19,16 @@ typedef struct gpu_instance {
     char drivers[GPU_MAX_DEVICES][VK_MAX_DRIVER_NAME_SIZE + VK_MAX_DRIVER_INFO_SIZE + 2];
 } gpu_instance;
 
-/* validate: with the Khronos validation layer (synchronization checks too), whose messages are printed
- * to stderr and counted; HNBRDF_ERROR_UNSUPPORTED if it is not installed. The instance must stay where
+/* With the Khronos validation layer or not; its messages are printed to stderr and counted. */
+typedef enum gpu_validation {
+    GPU_NOT_VALIDATED = 0,
+    GPU_VALIDATED,
+    GPU_VALIDATED_SYNC /* synchronization too; the layer leaks when it does that (seen in 1.3.239) */
+} gpu_validation;
+
+/* HNBRDF_ERROR_UNSUPPORTED if validation is asked for and not installed. The instance must stay where
  * it is. No Vulkan loader or no device is no error: count is then 0. */
-hnbrdf_result gpu_open(int validate, gpu_instance *instance, hnbrdf_error *error);
+hnbrdf_result gpu_open(gpu_validation validation, gpu_instance *instance, hnbrdf_error *error);
 void gpu_close(gpu_instance *instance);
 
 /* "discrete", "integrated", "virtual", "cpu" or "other". */
