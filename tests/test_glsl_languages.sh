@@ -44,11 +44,13 @@ while read -r scene; do
             run glslangValidator -V -DHNBRDF_EXACT=$exact -I"$shaders" -I"$work" "$shaders/verify.comp" -o "$work/c.spv"
             fragment 450 "$scene" $exact "$work/a.frag"
             run glslangValidator -V "$work/a.frag" -o "$work/a.spv"
-            for spv in a c; do
-                if [ "$target" = directx ]; then
-                    run spirv-cross "$work/$spv.spv" --hlsl --shader-model 60 --output "$work/out.hlsl"
+            for stage in frag comp; do
+                [ $stage = frag ] && spv=$work/a.spv || spv=$work/c.spv
+                if [ "$target" = directx ]; then # and what comes out is HLSL that compiles
+                    run spirv-cross "$spv" --hlsl --shader-model 60 --output "$work/out.hlsl"
+                    run glslangValidator -D -V -S $stage -e main "$work/out.hlsl" -o "$work/d.spv"
                 else
-                    run spirv-cross "$work/$spv.spv" --msl --msl-version 20100 --output "$work/out.metal"
+                    run spirv-cross "$spv" --msl --msl-version 20100 --output "$work/out.metal"
                 fi
             done
         fi

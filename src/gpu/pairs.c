@@ -72,7 +72,7 @@ static void make_extreme(hnbrdf_rng *rng, float wi[3], float wo[3])
         break;
     default:
         for (int i = 0; i < 3; i++) {
-            wi[i] *= hnbrdf_rng_u32(rng) & 1 ? 1e3f : 1e-3f;
+            wi[i] *= hnbrdf_rng_u32(rng) & 1 ? 1.5f : 0.5f;
             wo[i] *= 2.0f;
         }
     }
