@@ -95,8 +95,8 @@ static void threads_do_not_change_the_model(void **state)
 static double smape(const hnbrdf_model *model, int i)
 {
     hnbrdf_comparison c;
-    assert_int_equal(hnbrdf_compare(model, hnbrdf_model_material(model, i), data[i], HNBRDF_SAMPLER_GRID, 20000,
-                                    3, &c, NULL),
+    assert_int_equal(hnbrdf_compare(model, hnbrdf_model_material(model, i), data[i],
+                                    HNBRDF_SAMPLER_GRID, 20000, 3, &c, NULL),
                      HNBRDF_OK);
     return c.smape;
 }
@@ -194,8 +194,8 @@ static hnbrdf_measured *known_table(const hnbrdf_material *material)
     return measured;
 }
 
-/* Nearest-bin lookup quantises theta_h: near the peak a bin is about 2 sqrt(theta_h) / 90 wide, up to 10 %
- * of a lobe of alpha 0.1; the parameters come back within that. */
+/* Nearest-bin lookup quantises theta_h: near the peak a bin is about 2 sqrt(theta_h) / 90 wide, up to
+ * 10 % of a lobe of alpha 0.1; the parameters come back within that. */
 static void ggx_fit_recovers_known_parameters(void **state)
 {
     (void)state;
@@ -211,7 +211,8 @@ static void ggx_fit_recovers_known_parameters(void **state)
         hnbrdf_measured *table = known_table(&known);
         hnbrdf_fit_options o = small(HNBRDF_KIND_GGX);
         hnbrdf_model *model;
-        assert_int_equal(hnbrdf_fit((const hnbrdf_measured *const *)&table, 1, &o, &model, NULL, NULL), HNBRDF_OK);
+        assert_int_equal(hnbrdf_fit((const hnbrdf_measured *const *)&table, 1, &o, &model, NULL, NULL),
+                         HNBRDF_OK);
         const hnbrdf_material *m = hnbrdf_model_material(model, 0);
         assert_true(fabsf(m->alpha[0] / known.alpha[0] - 1.0f) < 0.1f);
         assert_true(m->alpha[0] == m->alpha[1] && m->rotation == 0.0f);
@@ -318,17 +319,19 @@ static void resumed_fit_gives_the_same_model(void **state)
     assert_null(none);
 }
 
-/* A network trained on two materials, a third fitted on it: the network's bits stay, the third gains on GGX,
- * and the two that were there stay as they are. */
+/* A network trained on two materials, a third fitted on it: the network's bits stay, the third gains on
+ * GGX, and the two that were there stay as they are. */
 static void frozen_network_takes_a_new_material(void **state)
 {
     (void)state;
     hnbrdf_fit_options o = small(HNBRDF_KIND_HYBRID);
     hnbrdf_model *two = NULL, *three = NULL;
-    assert_int_equal(hnbrdf_fit((const hnbrdf_measured *const *)data, 2, &o, &two, NULL, NULL), HNBRDF_OK);
+    assert_int_equal(hnbrdf_fit((const hnbrdf_measured *const *)data, 2, &o, &two, NULL, NULL),
+                     HNBRDF_OK);
     o.freeze = two;
     o.hidden = 64; /* the frozen model's sizes count */
-    assert_int_equal(hnbrdf_fit((const hnbrdf_measured *const *)&data[2], 1, &o, &three, NULL, NULL), HNBRDF_OK);
+    assert_int_equal(hnbrdf_fit((const hnbrdf_measured *const *)&data[2], 1, &o, &three, NULL, NULL),
+                     HNBRDF_OK);
     hnbrdf_model_desc a, b;
     hnbrdf_model_describe(two, &a);
     hnbrdf_model_describe(three, &b);
@@ -340,12 +343,14 @@ static void frozen_network_takes_a_new_material(void **state)
     assert_string_equal(b.names[1], a.names[0]);
     assert_memory_equal(&b.materials[1], &a.materials[0], sizeof(hnbrdf_material));
     hnbrdf_comparison c;
-    assert_int_equal(hnbrdf_compare(three, &b.materials[0], data[2], HNBRDF_SAMPLER_GRID, 20000, 3, &c, NULL),
-                     HNBRDF_OK);
+    assert_int_equal(
+        hnbrdf_compare(three, &b.materials[0], data[2], HNBRDF_SAMPLER_GRID, 20000, 3, &c, NULL),
+        HNBRDF_OK);
     assert_true(c.smape < c.smape_analytic);
     hnbrdf_model_free(three);
     three = NULL; /* fitted again, a material of the same name is replaced */
-    assert_int_equal(hnbrdf_fit((const hnbrdf_measured *const *)&data[1], 1, &o, &three, NULL, NULL), HNBRDF_OK);
+    assert_int_equal(hnbrdf_fit((const hnbrdf_measured *const *)&data[1], 1, &o, &three, NULL, NULL),
+                     HNBRDF_OK);
     assert_int_equal(hnbrdf_model_material_count(three), 2);
     hnbrdf_model_free(two);
     hnbrdf_model_free(three);
@@ -357,19 +362,36 @@ static void bad_options_are_refused_with_a_message(void **state)
     for (int k = 0; k < 8; k++) {
         hnbrdf_fit_options o = small(HNBRDF_KIND_HYBRID);
         switch (k) {
-        case 0: o.hidden = HNBRDF_MAX_HIDDEN + 1; break;
-        case 1: o.layers = -1; break;
-        case 2: o.latent = HNBRDF_MAX_LATENT + 1; break;
-        case 3: o.learning_rate = NAN; break;
-        case 4: o.seconds = -1.0; break;
-        case 5: o.kind = (hnbrdf_kind)9; break;
-        case 6: o.encoding_set = 1, o.encoding = (hnbrdf_encoding)9; break;
-        default: o.batch = -5; break;
+        case 0:
+            o.hidden = HNBRDF_MAX_HIDDEN + 1;
+            break;
+        case 1:
+            o.layers = -1;
+            break;
+        case 2:
+            o.latent = HNBRDF_MAX_LATENT + 1;
+            break;
+        case 3:
+            o.learning_rate = NAN;
+            break;
+        case 4:
+            o.seconds = -1.0;
+            break;
+        case 5:
+            o.kind = (hnbrdf_kind)9;
+            break;
+        case 6:
+            o.encoding_set = 1, o.encoding = (hnbrdf_encoding)9;
+            break;
+        default:
+            o.batch = -5;
+            break;
         }
         hnbrdf_model *model = NULL;
         hnbrdf_error error = {{0}};
-        assert_int_equal(hnbrdf_fit((const hnbrdf_measured *const *)data, COUNT, &o, &model, NULL, &error),
-                         HNBRDF_ERROR_ARGUMENT);
+        assert_int_equal(
+            hnbrdf_fit((const hnbrdf_measured *const *)data, COUNT, &o, &model, NULL, &error),
+            HNBRDF_ERROR_ARGUMENT);
         assert_null(model);
         assert_true(error.text[0] != '\0');
     }

@@ -22,13 +22,13 @@ typedef struct problem {
     double *parameters, *gradient, *derived, *scratch;
 } problem;
 
-static void problem_make(problem *p, hnbrdf_kind kind, int hidden, int layers, int latent, int train_analytic,
-                         float floor)
+static void problem_make(problem *p, hnbrdf_kind kind, int hidden, int layers, int latent,
+                         int train_analytic, float floor)
 {
     hnbrdf_rng rng;
     hnbrdf_rng_seed(&rng, 7, (uint64_t)(hidden * 100 + layers * 10 + (int)kind));
     memset(p, 0, sizeof *p);
-    fit_layout_make(&p->layout, kind, hidden, layers, latent, 2, train_analytic, floor);
+    hnbrdf_fit_layout_make(&p->layout, kind, hidden, layers, latent, 2, train_analytic, floor);
     p->parameters = calloc(p->layout.count, sizeof(double));
     p->gradient = calloc(p->layout.count, sizeof(double));
     p->derived = calloc(p->layout.derived_count + 1, sizeof(double));
@@ -78,16 +78,17 @@ static void problem_free(problem *p)
 static double loss_at(problem *p, double *gradient, double mix)
 {
     if (p->layout.kind == HNBRDF_KIND_GGX)
-        return fit_kernel_double.analytic(p->parameters + p->layout.analytic + FIT_ANALYTIC, &p->tile, mix,
-                                          p->scratch, gradient + p->layout.analytic + FIT_ANALYTIC);
-    fit_kernel_double.derive(&p->layout, p->parameters, p->derived);
-    return fit_kernel_double.network(&p->layout, p->parameters, p->derived, &p->tile, 1, mix, p->scratch,
-                                     gradient);
+        return hnbrdf_fit_kernel_double.analytic(p->parameters + p->layout.analytic + FIT_ANALYTIC,
+                                                 &p->tile, mix, p->scratch,
+                                                 gradient + p->layout.analytic + FIT_ANALYTIC);
+    hnbrdf_fit_kernel_double.derive(&p->layout, p->parameters, p->derived);
+    return hnbrdf_fit_kernel_double.network(&p->layout, p->parameters, p->derived, &p->tile, 1, mix,
+                                            p->scratch, gradient);
 }
 
-/* Central differences with h = 1e-6: truncation h^2 f''' and rounding 1e-16 |f|/h leave about 1e-8 of the
- * loss. The loss has kinks (HardGELU, |.|, the floor); a parameter whose two one-sided slopes differ sits on
- * one within h, and is counted instead of compared: at most 1 in 50. */
+/* Central differences with h = 1e-6: truncation h^2 f''' and rounding 1e-16 |f|/h leave about 1e-8 of
+ * the loss. The loss has kinks (HardGELU, |.|, the floor); a parameter whose two one-sided slopes
+ * differ sits on one within h, and is counted instead of compared: at most 1 in 50. */
 static void check_all(problem *p, double mix)
 {
     /* A large network repeats itself: every 23rd of its numbers will do. */
@@ -104,7 +105,8 @@ static void check_all(problem *p, double mix)
         p->parameters[i] = keep - h;
         double below = loss_at(p, unused, mix);
         p->parameters[i] = keep;
-        double right = (above - loss) / h, left = (loss - below) / h, central = (above - below) / (2 * h);
+        double right = (above - loss) / h, left = (loss - below) / h,
+               central = (above - below) / (2 * h);
         double scale = 1.0 + fabs(central);
         moved += fabs(central) > 1e-3;
         if (fabs(right - left) > 1e-3 * scale) {
@@ -161,22 +163,23 @@ static const fit_kernel *kernel_number(int k)
 {
     switch (k) {
     case 0:
-        return &fit_kernel_plain;
+        return &hnbrdf_fit_kernel_plain;
 #ifdef FIT_KERNEL_X86
     case 1:
-        return __builtin_cpu_supports("avx2") ? &fit_kernel_avx2 : NULL;
+        return __builtin_cpu_supports("avx2") ? &hnbrdf_fit_kernel_avx2 : NULL;
     case 2:
-        return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") ? &fit_kernel_avx512
-                                                                                       : NULL;
+        return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq")
+                   ? &hnbrdf_fit_kernel_avx512
+                   : NULL;
 #endif
     default:
         return NULL;
     }
 }
 
-/* Float against double: sums of at most 64 products and a chain of at most 4 layers; 1e-4 of the largest
- * entry is some 800 ulp of it, what cancellation in 64-term sums of mixed sign may take. Among themselves
- * the float kernels must agree to the bit. */
+/* Float against double: sums of at most 64 products and a chain of at most 4 layers; 1e-4 of the
+ * largest entry is some 800 ulp of it, what cancellation in 64-term sums of mixed sign may take. Among
+ * themselves the float kernels must agree to the bit. */
 static void instruction_sets_agree_to_the_bit(void **state)
 {
     (void)state;
@@ -187,7 +190,8 @@ static void instruction_sets_agree_to_the_bit(void **state)
         double wanted_loss = loss_at(&p, p.gradient, 0.4), largest = 0.0;
         size_t count = p.layout.count;
         float *parameters = malloc(sizeof(float) * count), *first = calloc(count, sizeof(float));
-        float *gradient = malloc(sizeof(float) * count), *derived = malloc(sizeof(float) * p.layout.derived_count);
+        float *gradient = malloc(sizeof(float) * count),
+              *derived = malloc(sizeof(float) * p.layout.derived_count);
         float *scratch = malloc(sizeof(float) * p.layout.scratch_count);
         for (size_t i = 0; i < count; i++) {
             parameters[i] = (float)p.parameters[i];
@@ -200,7 +204,8 @@ static void instruction_sets_agree_to_the_bit(void **state)
                 continue;
             memset(gradient, 0, sizeof(float) * count);
             kernel->derive(&p.layout, parameters, derived);
-            double loss = kernel->network(&p.layout, parameters, derived, &p.tile, 1, 0.4f, scratch, gradient);
+            double loss =
+                kernel->network(&p.layout, parameters, derived, &p.tile, 1, 0.4f, scratch, gradient);
             if (k == 0) {
                 first_loss = loss;
                 memcpy(first, gradient, sizeof(float) * count);
@@ -228,13 +233,20 @@ static void gradients_stay_finite_at_the_limits(void **state)
     problem_make(&p, HNBRDF_KIND_GGX, 0, 0, 0, 0, 0.0f);
     static const float alphas[] = {1e-4f, 1e-2f, 1.0f}, above[] = {1e-3f, 0.5f, 999.0f};
     for (int i = 0; i < 9; i++) {
-        float a[FIT_ANALYTIC] = {0.5f, 0.0f, 1.0f, logf(above[i % 3]), logf(above[i % 3]), logf(above[i % 3]),
-                                 logf(alphas[i / 3]), logf(alphas[(i / 3 + 1) % 3]), 1.0f};
+        float a[FIT_ANALYTIC] = {0.5f,
+                                 0.0f,
+                                 1.0f,
+                                 logf(above[i % 3]),
+                                 logf(above[i % 3]),
+                                 logf(above[i % 3]),
+                                 logf(alphas[i / 3]),
+                                 logf(alphas[(i / 3 + 1) % 3]),
+                                 1.0f};
         float g[FIT_ANALYTIC] = {0};
         for (int b = 0; b < FIT_TILE; b += 4) /* exact mirror pairs among them */
             for (int c = 0; c < 3; c++)
                 p.wo[c * FIT_TILE + b] = c < 2 ? -p.wi[c * FIT_TILE + b] : p.wi[c * FIT_TILE + b];
-        double loss = fit_kernel_choose()->analytic(a, &p.tile, 0.5f, NULL, g);
+        double loss = hnbrdf_fit_kernel_choose()->analytic(a, &p.tile, 0.5f, NULL, g);
         assert_true(isfinite(loss));
         for (int k = 0; k < FIT_ANALYTIC; k++)
             assert_true(isfinite(g[k]));

@@ -10,9 +10,11 @@
 static const cli_command command = {
     "fit", "DATA... [options] -o MODEL.safetensors",
     "Fit one model to measured materials: GGX for each of them, then a small network and latent codes\n"
-    "that learn what GGX misses. DATA is `builtin`, builtin:NAME, files (.bsdf, .binary) or directories.\n"
+    "that learn what GGX misses. DATA is `builtin`, builtin:NAME, files (.bsdf, .binary) or "
+    "directories.\n"
     "The result depends on the data, the options and the seed, not on the number of threads; a fit\n"
-    "limited by --seconds prints the steps it made, to be repeated with --steps. Ctrl-C ends a fit after the\n"
+    "limited by --seconds prints the steps it made, to be repeated with --steps. Ctrl-C ends a fit "
+    "after the\n"
     "step, saves the model so far, and leaves OUTPUT.checkpoint, from which --resume goes on.",
     "  hnbrdf fit builtin -o builtin.safetensors\n"
     "  hnbrdf fit rgl/ --net 32x2 --latent 4 --seconds 120 -o rgl.safetensors\n"
@@ -79,10 +81,12 @@ static void summarise(const job *j, const hnbrdf_model *model, const hnbrdf_fit_
     hnbrdf_model_describe(model, &desc);
     printf("%s: %s", j->output, hnbrdf_kind_name(desc.kind));
     if (desc.kind != HNBRDF_KIND_GGX)
-        printf(" %dx%d, %s, l = %d", desc.hidden, desc.layers, hnbrdf_encoding_name(desc.encoding), desc.latent);
+        printf(" %dx%d, %s, l = %d", desc.hidden, desc.layers, hnbrdf_encoding_name(desc.encoding),
+               desc.latent);
     printf(", %d material%s", desc.material_count, desc.material_count == 1 ? "" : "s");
     if (j->fit.freeze)
-        printf(" (%d new on a frozen network, %.2f s each)", j->data.count, report->seconds / j->data.count);
+        printf(" (%d new on a frozen network, %.2f s each)", j->data.count,
+               report->seconds / j->data.count);
     if (desc.kind != HNBRDF_KIND_GGX)
         printf(", %ld steps, loss %.4f, %.2f M pairs/s", report->steps, report->final_loss,
                report->pairs_per_s * 1e-6);
@@ -103,8 +107,8 @@ static int run(job *j, FILE *log)
     j->fit.progress_user = &d;
     signal(SIGINT, on_interrupt);
     signal(SIGTERM, on_interrupt);
-    hnbrdf_result result = hnbrdf_fit((const hnbrdf_measured *const *)j->data.items, j->data.count, &j->fit,
-                                      &model, &report, &error);
+    hnbrdf_result result = hnbrdf_fit((const hnbrdf_measured *const *)j->data.items, j->data.count,
+                                      &j->fit, &model, &report, &error);
     signal(SIGINT, SIG_DFL);
     signal(SIGTERM, SIG_DFL);
     if (d.stage)
@@ -168,20 +172,24 @@ int cmd_fit(int argc, char **argv)
         {"net", 0, CLI_NET, net, 0, 0, "HxN", "N hidden layers of H units (default 32x2)"},
         {"latent", 0, CLI_INT, &latent, 1, HNBRDF_MAX_LATENT, "L",
          "floats of latent code a material (default 4; neural: 12)"},
-        {"encoding", 0, CLI_TEXT, &encoding, 0, 0, "NAME", "half-difference or directions (default the first)"},
+        {"encoding", 0, CLI_TEXT, &encoding, 0, 0, "NAME",
+         "half-difference or directions (default the first)"},
         {"analytic", 0, CLI_TEXT, &analytic, 0, 0, "HOW",
          "faithful: keep the GGX fit; joint: train it along (default faithful)"},
         {"floor", 0, CLI_REAL, &floor, 0, 0.999, "B", "the floor b, 1/sr; 0 for none (default 0.003)"},
         {"steps", 0, CLI_INT, &steps, 1, 1e9, "N", "training steps (default 32000)"},
         {"seconds", 0, CLI_REAL, &seconds, 0.1, 1e7, "S", "train the network for this long instead"},
         {"batch", 0, CLI_INT, &batch, 1, 1 << 24, "N", "direction pairs a step (default 2048)"},
-        {"pool", 0, CLI_INT, &pool, 64, 1 << 26, "N", "direction pairs drawn a material (default 131072)"},
+        {"pool", 0, CLI_INT, &pool, 64, 1 << 26, "N",
+         "direction pairs drawn a material (default 131072)"},
         {"rate", 0, CLI_REAL, &rate, 1e-7, 10, "R", "peak learning rate of Adam (default 0.01)"},
         {"seed", 0, CLI_INT, &seed, 0, 9e15, "N", "seed of everything random (default 1)"},
         {"freeze", 0, CLI_TEXT, &freeze, 0, 0, "MODEL",
          "keep this model's network, fit only the new materials (default steps 3000)"},
-        {"resume", 0, CLI_FLAG, &resume, 0, 0, NULL, "go on from OUTPUT.checkpoint of an interrupted fit"},
-        {"log", 0, CLI_TEXT, &log, 0, 0, "FILE", "write step,share,loss,pairs_per_s as CSV, a row every 100 steps"},
+        {"resume", 0, CLI_FLAG, &resume, 0, 0, NULL,
+         "go on from OUTPUT.checkpoint of an interrupted fit"},
+        {"log", 0, CLI_TEXT, &log, 0, 0, "FILE",
+         "write step,share,loss,pairs_per_s as CSV, a row every 100 steps"},
         {"threads", 0, CLI_INT, &threads, 1, 256, "N", "threads (default one a core)"},
         {NULL, 0, CLI_FLAG, NULL, 0, 0, NULL, NULL}};
     int given;

@@ -38,9 +38,11 @@ static uint64_t hash_number(uint64_t h, double value)
 static uint64_t fingerprint(const trainer *t)
 {
     const hnbrdf_fit_options *o = &t->options;
-    const double numbers[] = {o->kind,  o->hidden, o->layers, o->latent, o->encoding, (double)o->floor,
-                              o->analytic, (double)o->steps, o->seconds, t->tiles_per_step, t->pool.tiles,
-                              (double)o->learning_rate, (double)o->seed, t->count, o->freeze != NULL};
+    const double numbers[] = {o->kind,           o->hidden,        o->layers,
+                              o->latent,         o->encoding,      (double)o->floor,
+                              o->analytic,       (double)o->steps, o->seconds,
+                              t->tiles_per_step, t->pool.tiles,    (double)o->learning_rate,
+                              (double)o->seed,   t->count,         o->freeze != NULL};
     uint64_t h = UINT64_C(14695981039346656037);
     for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++)
         h = hash_number(h, numbers[i]);
@@ -69,7 +71,7 @@ static int transfer(trainer *t, FILE *file, int writing)
     return 1;
 }
 
-hnbrdf_result fit_checkpoint_save(const trainer *t, hnbrdf_error *error)
+hnbrdf_result hnbrdf_fit_checkpoint_save(const trainer *t, hnbrdf_error *error)
 {
     const char *path = t->options.checkpoint;
     size_t length = strlen(path);
@@ -102,26 +104,32 @@ hnbrdf_result fit_checkpoint_save(const trainer *t, hnbrdf_error *error)
     return HNBRDF_OK;
 }
 
-hnbrdf_result fit_checkpoint_load(trainer *t, hnbrdf_error *error)
+hnbrdf_result hnbrdf_fit_checkpoint_load(trainer *t, hnbrdf_error *error)
 {
     const char *path = t->options.checkpoint;
     FILE *file = fopen(path, "rb");
     if (!file)
-        return hnbrdf_fail(error, HNBRDF_ERROR_IO, "%s: no checkpoint to resume from can be read there", path);
+        return hnbrdf_fail(error, HNBRDF_ERROR_IO, "%s: no checkpoint to resume from can be read there",
+                           path);
     header h;
     hnbrdf_result result = HNBRDF_OK;
     if (fread(&h, sizeof h, 1, file) != 1 || memcmp(h.magic, magic, sizeof magic))
-        result = hnbrdf_fail(error, HNBRDF_ERROR_FORMAT, "%s: not a checkpoint of this version of hnbrdf", path);
+        result = hnbrdf_fail(error, HNBRDF_ERROR_FORMAT,
+                             "%s: not a checkpoint of this version of hnbrdf", path);
     else if (h.fingerprint != fingerprint(t))
-        result = hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT,
-                             "%s: the checkpoint is of a fit with other data, options or seed; repeat that "
-                             "command with --resume, or start anew without it",
-                             path);
+        result =
+            hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT,
+                        "%s: the checkpoint is of a fit with other data, options or seed; repeat that "
+                        "command with --resume, or start anew without it",
+                        path);
     else if (!transfer(t, file, 0) || fgetc(file) != EOF)
-        result = hnbrdf_fail(error, HNBRDF_ERROR_FORMAT, "%s: the checkpoint is damaged: its size is wrong", path);
+        result = hnbrdf_fail(error, HNBRDF_ERROR_FORMAT,
+                             "%s: the checkpoint is damaged: its size is wrong", path);
     for (int m = 0; m < t->count && !result; m++)
-        if (t->order[m] < 0 || t->order[m] >= t->count || t->cursor[m] < 0 || t->cursor[m] >= t->pool.tiles)
-            result = hnbrdf_fail(error, HNBRDF_ERROR_FORMAT, "%s: the checkpoint is damaged: material %d", path, m);
+        if (t->order[m] < 0 || t->order[m] >= t->count || t->cursor[m] < 0 ||
+            t->cursor[m] >= t->pool.tiles)
+            result = hnbrdf_fail(error, HNBRDF_ERROR_FORMAT,
+                                 "%s: the checkpoint is damaged: material %d", path, m);
     fclose(file);
     if (result)
         return result;

@@ -10,28 +10,33 @@
 #include <string.h>
 #include <time.h>
 
-enum { DEFAULT_STEPS = 32000, DEFAULT_FROZEN_STEPS = 3000, DEFAULT_BATCH = 2048, DEFAULT_POOL = 131072 };
+enum {
+    DEFAULT_STEPS = 32000,
+    DEFAULT_FROZEN_STEPS = 3000,
+    DEFAULT_BATCH = 2048,
+    DEFAULT_POOL = 131072
+};
 #define DEFAULT_RATE 1e-2f
 #define DEFAULT_FLOOR 0.003f
 #define POOL_LIMIT 1.25e9 /* bytes of training data; beyond, fewer pairs a material */
 
-double fit_seconds(void)
+double hnbrdf_fit_seconds(void)
 {
     struct timespec t;
     clock_gettime(CLOCK_MONOTONIC, &t);
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-void fit_stage_begin(trainer *t)
+void hnbrdf_fit_stage_begin(trainer *t)
 {
     atomic_store(&t->finished, 0);
-    t->stage_started = fit_seconds();
+    t->stage_started = hnbrdf_fit_seconds();
     t->shown = 0.0;
 }
 
-void fit_report(trainer *t, const char *stage, double done, double loss, double pairs, int always)
+void hnbrdf_fit_tell(trainer *t, const char *stage, double done, double loss, double pairs, int always)
 {
-    double now = fit_seconds(), elapsed = now - t->stage_started;
+    double now = hnbrdf_fit_seconds(), elapsed = now - t->stage_started;
     if (!t->options.progress || (!always && now - t->shown < 0.1 && done < 1.0))
         return;
     t->shown = now;
@@ -46,15 +51,17 @@ static void piece_done(trainer *t, const char *stage, int worker)
 {
     int done = atomic_fetch_add(&t->finished, 1) + 1;
     if (worker == 0)
-        fit_report(t, stage, (double)done / t->count, NAN, (double)done * t->pool.tiles * FIT_TILE, 0);
+        hnbrdf_fit_tell(t, stage, (double)done / t->count, NAN, (double)done * t->pool.tiles * FIT_TILE,
+                        0);
 }
 
-/* ---- Stages 1 and 2: data, GGX -------------------------------------------------------------------- */
+/* ---- Stages 1 and 2: data, GGX --------------------------------------------------------------------
+ */
 
 static void draw_one(void *context, int material, int worker)
 {
     trainer *t = context;
-    t->drawn[material] = fit_pool_draw(&t->pool, material, t->data[material], t->options.seed);
+    t->drawn[material] = hnbrdf_fit_pool_draw(&t->pool, material, t->data[material], t->options.seed);
     piece_done(t, "sampling", worker);
 }
 
@@ -64,15 +71,16 @@ static void fit_one(void *context, int material, int worker)
     hnbrdf_material_init(&t->materials[material]);
     if (t->options.kind != HNBRDF_KIND_NEURAL) {
         float *p = t->parameters + t->layout.analytic + (size_t)material * FIT_ANALYTIC;
-        fit_ggx(t->kernel, &t->pool, material, t->isotropic[material], p);
-        fit_ggx_material(p, &t->materials[material]);
+        hnbrdf_fit_ggx(t->kernel, &t->pool, material, t->isotropic[material], p);
+        hnbrdf_fit_ggx_material(p, &t->materials[material]);
     }
     if (t->options.kind != HNBRDF_KIND_GGX)
-        fit_pool_encode(&t->pool, material, t->options.encoding, &t->materials[material]);
+        hnbrdf_fit_pool_encode(&t->pool, material, t->options.encoding, &t->materials[material]);
     piece_done(t, "ggx", worker);
 }
 
-/* ---- Result ---------------------------------------------------------------------------------------- */
+/* ---- Result ----------------------------------------------------------------------------------------
+ */
 
 /* The trained weights as desc wants them, row-major without padding, in `weights`. */
 static void describe_network(const trainer *t, float *weights, hnbrdf_model_desc *desc)
@@ -93,7 +101,7 @@ static void describe_network(const trainer *t, float *weights, hnbrdf_model_desc
             for (size_t i = 0; i < columns; i++)
                 *weights++ = k == l->layers ? p[l->last + o * n + i]
                              : k > 0        ? p[l->hidden[k] + i * n + o]
-                                            : p[l->first + i * n + o]; /* latent rows follow the first six */
+                                     : p[l->first + i * n + o]; /* latent rows follow the first six */
     }
 }
 
@@ -105,7 +113,8 @@ static void settle_materials(trainer *t)
         memcpy(t->materials[m].latent, t->parameters + l->codes + (size_t)(m * l->latent_size),
                sizeof(float) * (size_t)l->latent_size);
         if (l->train_analytic)
-            fit_ggx_material(t->parameters + l->analytic + (size_t)m * FIT_ANALYTIC, &t->materials[m]);
+            hnbrdf_fit_ggx_material(t->parameters + l->analytic + (size_t)m * FIT_ANALYTIC,
+                                    &t->materials[m]);
     }
 }
 
@@ -161,12 +170,13 @@ static hnbrdf_result take_frozen(hnbrdf_fit_options *o, hnbrdf_error *error)
     hnbrdf_model_desc desc;
     hnbrdf_model_describe(o->freeze, &desc);
     if (desc.kind == HNBRDF_KIND_GGX)
-        return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT,
-                           "the model to freeze is a ggx model: it has no network; fit with kind ggx instead");
+        return hnbrdf_fail(
+            error, HNBRDF_ERROR_ARGUMENT,
+            "the model to freeze is a ggx model: it has no network; fit with kind ggx instead");
     if (desc.scale != 1.0f || desc.shift != 0.0f)
         return hnbrdf_fail(error, HNBRDF_ERROR_UNSUPPORTED,
-                           "the model to freeze has scale %g and shift %g, expected 1 and 0", (double)desc.scale,
-                           (double)desc.shift);
+                           "the model to freeze has scale %g and shift %g, expected 1 and 0",
+                           (double)desc.scale, (double)desc.shift);
     o->kind = desc.kind;
     o->hidden = desc.hidden;
     o->layers = desc.layers;
@@ -193,22 +203,26 @@ static hnbrdf_result fill_options(hnbrdf_fit_options *o, int count, hnbrdf_error
     o->steps = o->steps ? o->steps : (o->freeze ? DEFAULT_FROZEN_STEPS : DEFAULT_STEPS);
     o->batch = o->batch ? o->batch : DEFAULT_BATCH;
     if (o->pool == 0)
-        o->pool = (int)fmin(DEFAULT_POOL, POOL_LIMIT / ((double)count * FIT_POOL_TILE / FIT_TILE * sizeof(float)));
+        o->pool = (int)fmin(DEFAULT_POOL,
+                            POOL_LIMIT / ((double)count * FIT_POOL_TILE / FIT_TILE * sizeof(float)));
     o->learning_rate = o->learning_rate == 0.0f ? DEFAULT_RATE : o->learning_rate;
-    if (o->hidden < 1 || o->hidden > HNBRDF_MAX_HIDDEN || o->layers < 1 || o->layers > HNBRDF_MAX_LAYERS)
-        return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT, "network %dx%d, expected 1x1 to %dx%d", o->hidden,
-                           o->layers, HNBRDF_MAX_HIDDEN, HNBRDF_MAX_LAYERS);
+    if (o->hidden < 1 || o->hidden > HNBRDF_MAX_HIDDEN || o->layers < 1 ||
+        o->layers > HNBRDF_MAX_LAYERS)
+        return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT, "network %dx%d, expected 1x1 to %dx%d",
+                           o->hidden, o->layers, HNBRDF_MAX_HIDDEN, HNBRDF_MAX_LAYERS);
     if (o->latent < 1 || o->latent > HNBRDF_MAX_LATENT)
         return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT, "latent code of %d floats, expected 1 to %d",
                            o->latent, HNBRDF_MAX_LATENT);
     if (o->steps < 1 || o->batch < 1 || o->batch > 1 << 24 || o->pool > 1 << 26 || o->threads < 0 ||
-        !(o->seconds >= 0.0) || !(o->learning_rate > 0.0f) || !(o->floor < 1.0f) || !hnbrdf_kind_name(o->kind) ||
-        !hnbrdf_encoding_name(o->encoding))
-        return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT,
-                           "a fit option is out of its range: steps, batch and pool at least 1, learning "
-                           "rate above 0, floor below 1, seconds and threads not negative");
+        !(o->seconds >= 0.0) || !(o->learning_rate > 0.0f) || !(o->floor < 1.0f) ||
+        !hnbrdf_kind_name(o->kind) || !hnbrdf_encoding_name(o->encoding))
+        return hnbrdf_fail(
+            error, HNBRDF_ERROR_ARGUMENT,
+            "a fit option is out of its range: steps, batch and pool at least 1, learning "
+            "rate above 0, floor below 1, seconds and threads not negative");
     if (o->resume && !o->checkpoint)
-        return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT, "nothing to resume from: no checkpoint is named");
+        return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT,
+                           "nothing to resume from: no checkpoint is named");
     if (o->kind == HNBRDF_KIND_GGX)
         o->latent = 0;
     return HNBRDF_OK;
@@ -230,50 +244,54 @@ static int allocate(trainer *t)
     t->gradient = calloc(l->count, sizeof(float));
     t->chunk_gradients = calloc(FIT_CHUNKS * l->count, sizeof(float));
     t->derived = calloc(l->derived_count + 1, sizeof(float));
-    t->scratch = calloc((size_t)fit_workers_count(t->workers) * l->scratch_count + 1, sizeof(float));
+    t->scratch =
+        calloc((size_t)hnbrdf_fit_workers_count(t->workers) * l->scratch_count + 1, sizeof(float));
     t->tile_material = calloc(tiles, sizeof(int));
     t->tile_index = calloc(tiles, sizeof(int));
     t->moments = t->parameters ? t->parameters + l->count : NULL;
     return t->pool.data && t->materials && t->isotropic && t->drawn && t->order && t->cursor &&
-           t->parameters && t->snapshot && t->gradient && t->chunk_gradients && t->derived && t->scratch &&
-           t->tile_material && t->tile_index;
+           t->parameters && t->snapshot && t->gradient && t->chunk_gradients && t->derived &&
+           t->scratch && t->tile_material && t->tile_index;
 }
 
 static void release(trainer *t)
 {
-    fit_workers_stop(t->workers);
-    void *all[] = {t->pool.data, t->materials, t->isotropic, t->drawn, t->order, t->cursor, t->parameters,
-                   t->snapshot, t->gradient, t->chunk_gradients, t->derived, t->scratch, t->tile_material,
-                   t->tile_index};
+    hnbrdf_fit_workers_stop(t->workers);
+    void *all[] = {t->pool.data, t->materials,  t->isotropic,     t->drawn,     t->order,
+                   t->cursor,    t->parameters, t->snapshot,      t->gradient,  t->chunk_gradients,
+                   t->derived,   t->scratch,    t->tile_material, t->tile_index};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
         free(all[i]);
 }
 
-static hnbrdf_result run(trainer *t, hnbrdf_model **model, hnbrdf_fit_report *result, hnbrdf_error *error)
+static hnbrdf_result run(trainer *t, hnbrdf_model **model, hnbrdf_fit_report *result,
+                         hnbrdf_error *error)
 {
     for (int m = 0; m < t->count; m++) {
         t->isotropic[m] = hnbrdf_measured_is_isotropic(t->data[m]);
         t->order[m] = m;
     }
-    fit_stage_begin(t);
-    fit_workers_run(t->workers, t->count, draw_one, t);
+    hnbrdf_fit_stage_begin(t);
+    hnbrdf_fit_workers_run(t->workers, t->count, draw_one, t);
     for (int m = 0; m < t->count; m++)
         if (!t->drawn[m])
             return hnbrdf_fail(error, HNBRDF_ERROR_FORMAT,
                                "%s: fewer than 1 %% of the directions drawn are valid measurements",
                                hnbrdf_measured_name(t->data[m]));
-    fit_stage_begin(t);
-    fit_workers_run(t->workers, t->count, fit_one, t);
-    hnbrdf_result status = t->options.kind != HNBRDF_KIND_GGX ? fit_train(t, result, error) : HNBRDF_OK;
+    hnbrdf_fit_stage_begin(t);
+    hnbrdf_fit_workers_run(t->workers, t->count, fit_one, t);
+    hnbrdf_result status =
+        t->options.kind != HNBRDF_KIND_GGX ? hnbrdf_fit_train(t, result, error) : HNBRDF_OK;
     result->stopped = t->stopped;
     return status ? status : make_model(t, model, error);
 }
 
-hnbrdf_result hnbrdf_fit(const hnbrdf_measured *const *data, int count, const hnbrdf_fit_options *options,
-                         hnbrdf_model **model, hnbrdf_fit_report *report_out, hnbrdf_error *error)
+hnbrdf_result hnbrdf_fit(const hnbrdf_measured *const *data, int count,
+                         const hnbrdf_fit_options *options, hnbrdf_model **model,
+                         hnbrdf_fit_report *report_out, hnbrdf_error *error)
 {
     trainer t = {0};
-    double started = fit_seconds();
+    double started = hnbrdf_fit_seconds();
     hnbrdf_fit_report result_report = {NAN, 0.0, 0.0, 0, 0};
     if (count < 1 || count > HNBRDF_MAX_MATERIALS)
         return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT, "%d materials to fit, expected 1 to %d", count,
@@ -289,18 +307,19 @@ hnbrdf_result hnbrdf_fit(const hnbrdf_measured *const *data, int count, const hn
     t.tiles_per_step = (t.options.batch + unit - 1) / unit * FIT_CHUNKS;
     t.pool.tiles = (t.options.pool + FIT_TILE - 1) / FIT_TILE;
     t.pool.tiles = t.pool.tiles > 0 ? t.pool.tiles : 1;
-    t.kernel = fit_kernel_choose();
-    fit_layout_make(&t.layout, t.options.kind, t.options.hidden, t.options.layers, t.options.latent, count,
-                    t.options.analytic == HNBRDF_FIT_JOINT, t.options.floor);
-    t.workers = fit_workers_start(t.options.threads);
+    t.kernel = hnbrdf_fit_kernel_choose();
+    hnbrdf_fit_layout_make(&t.layout, t.options.kind, t.options.hidden, t.options.layers,
+                           t.options.latent, count, t.options.analytic == HNBRDF_FIT_JOINT,
+                           t.options.floor);
+    t.workers = hnbrdf_fit_workers_start(t.options.threads);
     if (!t.workers || !allocate(&t))
-        result = hnbrdf_fail(error, HNBRDF_ERROR_MEMORY, "out of memory: %d materials of %d pairs need about %.0f MB",
-                             count, t.options.pool,
-                             (double)count * t.pool.tiles * FIT_POOL_TILE * sizeof(float) * 1e-6);
+        result = hnbrdf_fail(
+            error, HNBRDF_ERROR_MEMORY, "out of memory: %d materials of %d pairs need about %.0f MB",
+            count, t.options.pool, (double)count * t.pool.tiles * FIT_POOL_TILE * sizeof(float) * 1e-6);
     else
         result = run(&t, model, &result_report, error);
     release(&t);
-    result_report.seconds = fit_seconds() - started;
+    result_report.seconds = hnbrdf_fit_seconds() - started;
     if (!result && report_out)
         *report_out = result_report;
     return result;

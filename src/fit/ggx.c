@@ -9,7 +9,7 @@
 enum {
     SCOUT_STEPS = 120, /* every start, on SCOUT_TILES */
     SCOUT_TILES = 24,
-    KEEP = 3,          /* starts that go on, on REFINE_TILES */
+    KEEP = 3, /* starts that go on, on REFINE_TILES */
     REFINE_STEPS = 250,
     REFINE_TILES = 96
 };
@@ -19,7 +19,7 @@ static float clampf(float x, float low, float high)
     return x > low ? (x < high ? x : high) : low;
 }
 
-void fit_ggx_project(float *p, int isotropic)
+void hnbrdf_fit_ggx_project(float *p, int isotropic)
 {
     for (int c = 0; c < 3; c++) {
         p[FIT_KD + c] = clampf(p[FIT_KD + c], 0.0f, 1.0f);
@@ -33,7 +33,7 @@ void fit_ggx_project(float *p, int isotropic)
         p[FIT_ALPHA + a] = clampf(p[FIT_ALPHA + a], -9.2103f, 0.0f); /* ln 1.0001e-4 */
 }
 
-void fit_ggx_material(const float *p, hnbrdf_material *material)
+void hnbrdf_fit_ggx_material(const float *p, hnbrdf_material *material)
 {
     for (int c = 0; c < 3; c++) {
         material->kd[c] = clampf(p[FIT_KD + c], 0.0f, 1.0f);
@@ -46,14 +46,14 @@ void fit_ggx_material(const float *p, hnbrdf_material *material)
 }
 
 /* Mean loss over the first `tiles` tiles; gradient of the mean, or NULL. */
-static double loss_of(const fit_kernel *kernel, const fit_pool *pool, int material, int tiles, float mix,
-                      const float *p, float *gradient)
+static double loss_of(const fit_kernel *kernel, const fit_pool *pool, int material, int tiles,
+                      float mix, const float *p, float *gradient)
 {
     double sum = 0.0;
     float unused[FIT_ANALYTIC], *g = gradient ? gradient : unused;
     memset(g, 0, sizeof unused);
     for (int t = 0; t < tiles; t++) {
-        fit_tile tile = fit_pool_view(pool, material, t);
+        fit_tile tile = hnbrdf_fit_pool_view(pool, material, t);
         sum += kernel->analytic(p, &tile, mix, NULL, g);
     }
     float scale = 1.0f / (3.0f * FIT_TILE * (float)tiles);
@@ -63,8 +63,8 @@ static double loss_of(const fit_kernel *kernel, const fit_pool *pool, int materi
 }
 
 /* Adam from p on; p ends as the best state seen. Returns its loss with mix = 1. */
-static double descend(const fit_kernel *kernel, const fit_pool *pool, int material, int isotropic, int tiles,
-                      int steps, double rate, float *p)
+static double descend(const fit_kernel *kernel, const fit_pool *pool, int material, int isotropic,
+                      int tiles, int steps, double rate, float *p)
 {
     float moments[2 * FIT_ANALYTIC] = {0}, gradient[FIT_ANALYTIC], best[FIT_ANALYTIC];
     memcpy(best, p, sizeof best);
@@ -82,8 +82,8 @@ static double descend(const fit_kernel *kernel, const fit_pool *pool, int materi
                 0.5f * (gradient[FIT_ALPHA] + gradient[FIT_ALPHA + 1]);
             gradient[FIT_ROTATION] = 0.0f;
         }
-        fit_adam(p, gradient, moments, FIT_ANALYTIC, step, rate * (1.02 - fmin(1.0, share)));
-        fit_ggx_project(p, isotropic);
+        hnbrdf_fit_adam(p, gradient, moments, FIT_ANALYTIC, step, rate * (1.02 - fmin(1.0, share)));
+        hnbrdf_fit_ggx_project(p, isotropic);
     }
     memcpy(p, best, sizeof best);
     return least;
@@ -109,7 +109,8 @@ static int start(int k, int isotropic, const float mean[3], float *p)
     return 1;
 }
 
-double fit_ggx(const fit_kernel *kernel, const fit_pool *pool, int material, int isotropic, float *parameters)
+double hnbrdf_fit_ggx(const fit_kernel *kernel, const fit_pool *pool, int material, int isotropic,
+                      float *parameters)
 {
     int scouts = SCOUT_TILES < pool->tiles ? SCOUT_TILES : pool->tiles;
     int refiners = REFINE_TILES < pool->tiles ? REFINE_TILES : pool->tiles;
@@ -121,7 +122,8 @@ double fit_ggx(const fit_kernel *kernel, const fit_pool *pool, int material, int
         double sum = 0.0;
         for (int t = 0; t < scouts; t++)
             for (int b = 0; b < FIT_TILE; b++)
-                sum += log((double)fit_pool_view(pool, material, t).target[c * FIT_TILE + b] + 1e-4);
+                sum += log((double)hnbrdf_fit_pool_view(pool, material, t).target[c * FIT_TILE + b] +
+                           1e-4);
         mean[c] = 3.14159265f * (float)exp(sum / (scouts * FIT_TILE));
     }
     for (int k = 0; start(k, isotropic, mean, p); k++) {

@@ -4,14 +4,15 @@
 
 #include "fit/pool.h"
 
-/* Fits parameters[FIT_ANALYTIC] (kernel.h) to the material's tiles: Adam from several starts, the best of
- * them refined. Isotropic data tie the two alphas and keep the rotation 0. Returns the mean loss. */
-double fit_ggx(const fit_kernel *kernel, const fit_pool *pool, int material, int isotropic, float *parameters);
+/* Fits parameters[FIT_ANALYTIC] (kernel.h) to the material's tiles: Adam from several starts, the best
+ * of them refined. Isotropic data tie the two alphas and keep the rotation 0. Returns the mean loss. */
+double hnbrdf_fit_ggx(const fit_kernel *kernel, const fit_pool *pool, int material, int isotropic,
+                      float *parameters);
 
 /* Moves parameters into their ranges: kd [0, 1], eta [1.001, 100], alpha [HNBRDF_MIN_ALPHA, 1]. */
-void fit_ggx_project(float *parameters, int isotropic);
+void hnbrdf_fit_ggx_project(float *parameters, int isotropic);
 
 /* parameters to kd, eta, alpha and rotation of a material. */
-void fit_ggx_material(const float *parameters, hnbrdf_material *material);
+void hnbrdf_fit_ggx_material(const float *parameters, hnbrdf_material *material);
 
 #endif

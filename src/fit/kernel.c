@@ -3,21 +3,21 @@
 #define KERNEL_WIDTH 4
 #include "fit/kernel_float.h"
 
-const fit_kernel fit_kernel_plain = {"plain", kernel_derive, kernel_network, kernel_analytic};
+const fit_kernel hnbrdf_fit_kernel_plain = {"plain", kernel_derive, kernel_network, kernel_analytic};
 
-const fit_kernel *fit_kernel_choose(void)
+const fit_kernel *hnbrdf_fit_kernel_choose(void)
 {
 #ifdef FIT_KERNEL_X86
     if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq"))
-        return &fit_kernel_avx512;
+        return &hnbrdf_fit_kernel_avx512;
     if (__builtin_cpu_supports("avx2"))
-        return &fit_kernel_avx2;
+        return &hnbrdf_fit_kernel_avx2;
 #endif
-    return &fit_kernel_plain;
+    return &hnbrdf_fit_kernel_plain;
 }
 
-void fit_layout_make(fit_layout *layout, hnbrdf_kind kind, int hidden, int layers, int latent,
-                     int materials, int train_analytic, float floor)
+void hnbrdf_fit_layout_make(fit_layout *layout, hnbrdf_kind kind, int hidden, int layers, int latent,
+                            int materials, int train_analytic, float floor)
 {
     fit_layout l = {0};
     l.kind = kind;
@@ -41,8 +41,8 @@ void fit_layout_make(fit_layout *layout, hnbrdf_kind kind, int hidden, int layer
         l.last = at, at += (size_t)l.outputs * n;
         l.bias[layers] = at, at += FIT_LANES;
         l.derived_count = (size_t)(layers - 1) * n * n + n * FIT_LANES;
-        l.scratch_count = (size_t)(2 * layers + 2) * FIT_TILE * n +
-                          FIT_TILE * (FIT_INPUTS + 2 * FIT_LANES) + n;
+        l.scratch_count =
+            (size_t)(2 * layers + 2) * FIT_TILE * n + FIT_TILE * (FIT_INPUTS + 2 * FIT_LANES) + n;
     }
     l.network_count = l.codes = at;
     at += (size_t)materials * (size_t)latent;

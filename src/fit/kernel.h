@@ -17,9 +17,8 @@ enum { FIT_TILE = 64, FIT_LANES = 16, FIT_INPUTS = 6 };
  * rotation. */
 enum { FIT_KD = 0, FIT_ETA = 3, FIT_ALPHA = 6, FIT_ROTATION = 8, FIT_ANALYTIC = 9 };
 
-/* Layout of the flat arrays, in numbers (not bytes); all offsets are multiples of FIT_LANES but those of
- * single materials.
- *   first    [6][padded]          layer 0, directions:  transposed, input-major
+/* Layout of the flat arrays, in numbers (not bytes); all offsets are multiples of FIT_LANES but those
+ * of single materials. first    [6][padded]          layer 0, directions:  transposed, input-major
  *   latent   [l][padded]          layer 0, latent code: transposed
  *   bias[0]  [padded]
  *   hidden   [padded][padded]     layers 1 .. N-1, transposed; bias[k] [padded]
@@ -29,17 +28,17 @@ enum { FIT_KD = 0, FIT_ETA = 3, FIT_ALPHA = 6, FIT_ROTATION = 8, FIT_ANALYTIC = 
 typedef struct fit_layout {
     hnbrdf_kind kind;
     int latent_size, hidden_size, padded, layers, outputs, materials;
-    int train_analytic;                   /* 1: the gradient of the analytic part is wanted */
+    int train_analytic; /* 1: the gradient of the analytic part is wanted */
     float floor;
     size_t first, latent, bias[HNBRDF_MAX_LAYERS + 1], hidden[HNBRDF_MAX_LAYERS], last, codes, analytic;
-    size_t network_count;                 /* numbers before codes: all shared by the materials */
+    size_t network_count; /* numbers before codes: all shared by the materials */
     size_t count;
-    size_t derived_count;                 /* numbers of the derived array, see fit_kernel.derive */
-    size_t scratch_count;                 /* numbers of scratch one thread needs */
+    size_t derived_count; /* numbers of the derived array, see fit_kernel.derive */
+    size_t scratch_count; /* numbers of scratch one thread needs */
 } fit_layout;
 
-void fit_layout_make(fit_layout *layout, hnbrdf_kind kind, int hidden, int layers, int latent,
-                     int materials, int train_analytic, float floor);
+void hnbrdf_fit_layout_make(fit_layout *layout, hnbrdf_kind kind, int hidden, int layers, int latent,
+                            int materials, int train_analytic, float floor);
 
 /* One tile of training data, all float: x [FIT_TILE][6] encoded; analytic [3][FIT_TILE] f_a where the
  * analytic part is frozen; wi and wo [3][FIT_TILE] in the shading frame where it is trained; target
@@ -62,28 +61,30 @@ typedef struct fit_kernel {
     void (*derive)(const fit_layout *layout, const float *parameters, float *derived);
     double (*network)(const fit_layout *layout, const float *parameters, const float *derived,
                       const fit_tile *tile, int material, float mix, float *scratch, float *gradient);
-    /* The analytic part alone, wi, wo and target of the tile; parameters and gradient [FIT_ANALYTIC]. */
+    /* The analytic part alone, wi, wo and target of the tile; parameters and gradient [FIT_ANALYTIC].
+     */
     double (*analytic)(const float *parameters, const fit_tile *tile, float mix, float *scratch,
                        float *gradient);
 } fit_kernel;
 
 /* The best one this machine runs; all give the same bits. */
-const fit_kernel *fit_kernel_choose(void);
+const fit_kernel *hnbrdf_fit_kernel_choose(void);
 
-extern const fit_kernel fit_kernel_plain;
+extern const fit_kernel hnbrdf_fit_kernel_plain;
 #if defined(__x86_64__) || defined(__i386__)
 #define FIT_KERNEL_X86 1
-extern const fit_kernel fit_kernel_avx2, fit_kernel_avx512;
+extern const fit_kernel hnbrdf_fit_kernel_avx2, hnbrdf_fit_kernel_avx512;
 #endif
 
 /* The same text compiled in double, for the gradient tests. */
 typedef struct fit_kernel_double_table {
     void (*derive)(const fit_layout *layout, const double *parameters, double *derived);
     double (*network)(const fit_layout *layout, const double *parameters, const double *derived,
-                      const fit_tile *tile, int material, double mix, double *scratch, double *gradient);
+                      const fit_tile *tile, int material, double mix, double *scratch,
+                      double *gradient);
     double (*analytic)(const double *parameters, const fit_tile *tile, double mix, double *scratch,
                        double *gradient);
 } fit_kernel_double_table;
-extern const fit_kernel_double_table fit_kernel_double;
+extern const fit_kernel_double_table hnbrdf_fit_kernel_double;
 
 #endif

@@ -1,6 +1,6 @@
 /* kernel_body.h: the text of every kernel, included once per instruction set and once in double.
- * The includer defines REAL, REAL_EXP, REAL_LOG, REAL_SQRT, REAL_COS, REAL_SIN, and KERNEL_WIDTH, the numbers
- * in one vector of its machine. */
+ * The includer defines REAL, REAL_EXP, REAL_LOG, REAL_SQRT, REAL_COS, REAL_SIN, and KERNEL_WIDTH, the
+ * numbers in one vector of its machine. */
 #include "fit/kernel.h"
 
 #include <string.h>
@@ -13,8 +13,8 @@ enum { KERNEL_ROWS = 8 };
 
 /* y[b][u] = bias[u] + sum over k of x[b][k] w[k][u], b in the tile, u < columns (a multiple of
  * FIT_LANES); bias may be NULL. Strides are in numbers. */
-static void product(const REAL *restrict x, int x_stride, int depth, const REAL *restrict w, int columns,
-                    const REAL *restrict bias, REAL *restrict y, int y_stride)
+static void product(const REAL *restrict x, int x_stride, int depth, const REAL *restrict w,
+                    int columns, const REAL *restrict bias, REAL *restrict y, int y_stride)
 {
     for (int u = 0; u < columns; u += KERNEL_WIDTH)
         for (int b = 0; b < FIT_TILE; b += KERNEL_ROWS) {
@@ -118,7 +118,8 @@ static double channel_loss(const REAL *restrict u, const float *restrict target,
         REAL difference = f - t;
         REAL sign = difference > 0 ? (REAL)1 : (difference < 0 ? (REAL)-1 : (REAL)0);
         REAL sum = f + t + e2;
-        loss[b] = (1 - mix) * (sign * REAL_LOG((f + e1) / (t + e1))) + mix * (2 * (sign * difference) / sum);
+        loss[b] =
+            (1 - mix) * (sign * REAL_LOG((f + e1) / (t + e1))) + mix * (2 * (sign * difference) / sum);
         slope[b] = sign * ((1 - mix) / (f + e1) + mix * (2 * (2 * t + e2) / (sum * sum)));
     }
     return (double)tile_sum(loss);
@@ -128,11 +129,11 @@ static double channel_loss(const REAL *restrict u, const float *restrict target,
 
 /* What the backward pass needs of one tile. */
 typedef struct analytic_cache {
-    REAL specular[FIT_TILE];       /* D V V */
-    REAL by_alpha[2][FIT_TILE];    /* d ln(D V V) / d ln alpha */
-    REAL by_rotation[FIT_TILE];    /* d ln(D V V) / d rotation */
+    REAL specular[FIT_TILE];    /* D V V */
+    REAL by_alpha[2][FIT_TILE]; /* d ln(D V V) / d ln alpha */
+    REAL by_rotation[FIT_TILE]; /* d ln(D V V) / d rotation */
     REAL fresnel[3][FIT_TILE];
-    REAL by_eta[3][FIT_TILE];      /* d F / d ln(eta - 1) */
+    REAL by_eta[3][FIT_TILE]; /* d F / d ln(eta - 1) */
 } analytic_cache;
 
 static void analytic_forward(const REAL *p, const fit_tile *tile, analytic_cache *cache,
@@ -154,7 +155,7 @@ static void analytic_forward(const REAL *p, const fit_tile *tile, analytic_cache
         REAL sx = ix + ox, sy = iy + oy, sz = iz + oz;
         REAL length2 = sx * sx + sy * sy + sz * sz;
         REAL tx = sx * sx / ax2, ty = sy * sy / ay2;
-        REAL t = tx + ty + sz * sz;                    /* |s|^2 times the t of D */
+        REAL t = tx + ty + sz * sz; /* |s|^2 times the t of D */
         REAL ratio = t / length2;
         REAL qi = REAL_SQRT(iz * iz + ax2 * ix * ix + ay2 * iy * iy);
         REAL qo = REAL_SQRT(oz * oz + ax2 * ox * ox + ay2 * oy * oy);
@@ -164,8 +165,8 @@ static void analytic_forward(const REAL *p, const fit_tile *tile, analytic_cache
         cache->specular[b] = 1 / (area * ratio * ratio) * (vi * vo);
         cache->by_alpha[0][b] = 4 * tx / t - 1 - ax2 * (ki * ix * ix + ko * ox * ox);
         cache->by_alpha[1][b] = 4 * ty / t - 1 - ay2 * (ki * iy * iy + ko * oy * oy);
-        cache->by_rotation[b] = -4 * sx * sy * (1 / ax2 - 1 / ay2) / t -
-                                (ax2 - ay2) * (ki * ix * iy + ko * ox * oy);
+        cache->by_rotation[b] =
+            -4 * sx * sy * (1 / ax2 - 1 / ay2) / t - (ax2 - ay2) * (ki * ix * iy + ko * ox * oy);
     }
     for (int k = 0; k < 3; k++) {
         REAL above = REAL_EXP(p[FIT_ETA + k]); /* eta - 1 */
@@ -239,7 +240,8 @@ static void kernel_derive(const fit_layout *l, const REAL *parameters, REAL *der
                 o < l->outputs ? parameters[l->last + (size_t)(o * n + i)] : (REAL)0;
 }
 
-/* Values, loss and the derivative of the loss by the network's outputs (and by f_a, into by_analytic). */
+/* Values, loss and the derivative of the loss by the network's outputs (and by f_a, into by_analytic).
+ */
 static double compose_loss(const fit_layout *l, const REAL *out, const fit_tile *tile,
                            REAL analytic[3][FIT_TILE], REAL mix, REAL *by_out,
                            REAL by_analytic[3][FIT_TILE])
@@ -278,12 +280,14 @@ static double compose_loss(const fit_layout *l, const REAL *out, const fit_tile 
 }
 
 static double kernel_network(const fit_layout *l, const REAL *parameters, const REAL *derived,
-                             const fit_tile *tile, int material, REAL mix, REAL *scratch, REAL *gradient)
+                             const fit_tile *tile, int material, REAL mix, REAL *scratch,
+                             REAL *gradient)
 {
     const int n = l->padded, area = FIT_TILE * n;
     const size_t code = l->codes + (size_t)material * (size_t)l->latent_size;
     const size_t own = l->analytic + (size_t)material * FIT_ANALYTIC;
-    REAL *activation = scratch, *slope = activation + l->layers * area, *back = slope + l->layers * area;
+    REAL *activation = scratch, *slope = activation + l->layers * area,
+         *back = slope + l->layers * area;
     REAL *next = back + area, *x = next + area, *out = x + FIT_TILE * FIT_INPUTS;
     REAL *by_out = out + FIT_TILE * FIT_LANES, *folded = by_out + FIT_TILE * FIT_LANES;
     const REAL *last_transposed = derived + (l->layers - 1) * n * n;
@@ -300,8 +304,8 @@ static double kernel_network(const fit_layout *l, const REAL *parameters, const 
     product(x, FIT_INPUTS, FIT_INPUTS, parameters + l->first, n, folded, activation, n);
     activate(activation, slope, area);
     for (int k = 1; k < l->layers; k++) {
-        product(activation + (k - 1) * area, n, n, parameters + l->hidden[k], n, parameters + l->bias[k],
-                activation + k * area, n);
+        product(activation + (k - 1) * area, n, n, parameters + l->hidden[k], n,
+                parameters + l->bias[k], activation + k * area, n);
         activate(activation + k * area, slope + k * area, area);
     }
     product(activation + (l->layers - 1) * area, n, n, last_transposed, FIT_LANES,

@@ -5,25 +5,26 @@
 #include "core/frame.h"
 #include "core/microfacet.h"
 
-float *fit_pool_tile(const fit_pool *pool, int material, int tile)
+float *hnbrdf_fit_pool_tile(const fit_pool *pool, int material, int tile)
 {
     return pool->data + ((size_t)material * (size_t)pool->tiles + (size_t)tile) * FIT_POOL_TILE;
 }
 
-fit_tile fit_pool_view(const fit_pool *pool, int material, int tile)
+fit_tile hnbrdf_fit_pool_view(const fit_pool *pool, int material, int tile)
 {
-    const float *p = fit_pool_tile(pool, material, tile);
+    const float *p = hnbrdf_fit_pool_tile(pool, material, tile);
     fit_tile view = {p + 12 * FIT_TILE, p + 9 * FIT_TILE, p, p + 3 * FIT_TILE, p + 6 * FIT_TILE};
     return view;
 }
 
-int fit_pool_draw(const fit_pool *pool, int material, const hnbrdf_measured *measured, uint64_t seed)
+int hnbrdf_fit_pool_draw(const fit_pool *pool, int material, const hnbrdf_measured *measured,
+                         uint64_t seed)
 {
     hnbrdf_rng rng;
     hnbrdf_rng_seed(&rng, seed, (uint64_t)material);
     long pairs = (long)pool->tiles * FIT_TILE, budget = 100 * pairs;
     for (long k = 0; k < pairs; k++) {
-        float *tile = fit_pool_tile(pool, material, (int)(k / FIT_TILE));
+        float *tile = hnbrdf_fit_pool_tile(pool, material, (int)(k / FIT_TILE));
         size_t b = (size_t)(k % FIT_TILE);
         float wi[3], wo[3], f[3];
         do {
@@ -40,12 +41,12 @@ int fit_pool_draw(const fit_pool *pool, int material, const hnbrdf_measured *mea
     return 1;
 }
 
-void fit_pool_encode(const fit_pool *pool, int material, hnbrdf_encoding encoding,
-                     const hnbrdf_material *fitted)
+void hnbrdf_fit_pool_encode(const fit_pool *pool, int material, hnbrdf_encoding encoding,
+                            const hnbrdf_material *fitted)
 {
     hnbrdf_frame frame = hnbrdf_frame_of(fitted);
     for (int t = 0; t < pool->tiles; t++) {
-        float *tile = fit_pool_tile(pool, material, t);
+        float *tile = hnbrdf_fit_pool_tile(pool, material, t);
         for (size_t b = 0; b < FIT_TILE; b++) {
             float wi[3], wo[3], i[3], o[3], *x = tile + 12 * FIT_TILE + b * FIT_INPUTS;
             for (size_t c = 0; c < 3; c++) {

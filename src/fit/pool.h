@@ -10,21 +10,22 @@
 enum { FIT_POOL_TILE = (12 + FIT_INPUTS) * FIT_TILE };
 
 typedef struct fit_pool {
-    float *data;    /* [materials][tiles][FIT_POOL_TILE] */
-    int tiles;      /* per material */
+    float *data; /* [materials][tiles][FIT_POOL_TILE] */
+    int tiles;   /* per material */
 } fit_pool;
 
 /* Where one tile lies. */
-float *fit_pool_tile(const fit_pool *pool, int material, int tile);
+float *hnbrdf_fit_pool_tile(const fit_pool *pool, int material, int tile);
 /* The same, as the kernels see it. */
-fit_tile fit_pool_view(const fit_pool *pool, int material, int tile);
+fit_tile hnbrdf_fit_pool_view(const fit_pool *pool, int material, int tile);
 
 /* Draw all tiles of one material; depends on (seed, material) only. 0 if too few of the drawn pairs
  * were valid measurements, 1 otherwise. */
-int fit_pool_draw(const fit_pool *pool, int material, const hnbrdf_measured *measured, uint64_t seed);
+int hnbrdf_fit_pool_draw(const fit_pool *pool, int material, const hnbrdf_measured *measured,
+                         uint64_t seed);
 
 /* Fill x, and f_a of `fitted`, for one material: what a frozen analytic part needs. */
-void fit_pool_encode(const fit_pool *pool, int material, hnbrdf_encoding encoding,
-                     const hnbrdf_material *fitted);
+void hnbrdf_fit_pool_encode(const fit_pool *pool, int material, hnbrdf_encoding encoding,
+                            const hnbrdf_material *fitted);
 
 #endif

@@ -9,8 +9,9 @@
 #include <string.h>
 
 enum {
-    WARM_UP = 100,       /* steps */
-    SNAPSHOT_EVERY = 100 /* steps between copies of a state to fall back to, and between entries of a log */
+    WARM_UP = 100, /* steps */
+    SNAPSHOT_EVERY =
+        100 /* steps between copies of a state to fall back to, and between entries of a log */
 };
 #define LAST_RATE 0.01 /* the cosine schedule ends at this share of the peak rate */
 #define CHECKPOINT_SECONDS 30.0
@@ -48,7 +49,8 @@ static void initialise(trainer *t)
         p[l->codes + i] = uniform(&rng, 0.5);
 }
 
-/* ---- A frozen network ------------------------------------------------------------------------------ */
+/* ---- A frozen network ------------------------------------------------------------------------------
+ */
 
 /* The weights of options.freeze into the flat array. */
 static void take_network(trainer *t)
@@ -63,7 +65,8 @@ static void take_network(trainer *t)
         const float *w = desc.weights[k];
         for (size_t o = 0; o < rows; o++) {
             for (size_t i = 0; i < columns; i++)
-                p[k == l->layers ? l->last + o * n + i : (k ? l->hidden[k] : l->first) + i * n + o] = *w++;
+                p[k == l->layers ? l->last + o * n + i : (k ? l->hidden[k] : l->first) + i * n + o] =
+                    *w++;
             p[l->bias[k] + o] = desc.biases[k][o];
         }
     }
@@ -73,9 +76,9 @@ static double loss_of_code(trainer *t, int material, int tiles)
 {
     double loss = 0.0;
     for (int k = 0; k < tiles; k++) {
-        fit_tile tile = fit_pool_view(&t->pool, material, k);
-        loss += t->kernel->network(&t->layout, t->parameters, t->derived, &tile, material, 1.0f, t->scratch,
-                                   t->gradient);
+        fit_tile tile = hnbrdf_fit_pool_view(&t->pool, material, k);
+        loss += t->kernel->network(&t->layout, t->parameters, t->derived, &tile, material, 1.0f,
+                                   t->scratch, t->gradient);
     }
     return loss;
 }
@@ -103,7 +106,8 @@ static void take_codes(trainer *t)
     }
 }
 
-/* ---- Steps ----------------------------------------------------------------------------------------- */
+/* ---- Steps -----------------------------------------------------------------------------------------
+ */
 
 /* Choose the tiles of a step: materials in shuffled rounds, each material's tiles in turn. */
 static void schedule(trainer *t)
@@ -132,9 +136,10 @@ static void chunk(void *context, int index, int worker)
     memset(gradient, 0, sizeof(float) * t->layout.count);
     double loss = 0.0;
     for (int k = index * each; k < (index + 1) * each; k++) {
-        fit_tile tile = fit_pool_view(&t->pool, t->tile_material[k], t->tile_index[k]);
-        loss += t->kernel->network(&t->layout, t->parameters, t->derived, &tile, t->tile_material[k], t->mix,
-                                   t->scratch + (size_t)worker * t->layout.scratch_count, gradient);
+        fit_tile tile = hnbrdf_fit_pool_view(&t->pool, t->tile_material[k], t->tile_index[k]);
+        loss +=
+            t->kernel->network(&t->layout, t->parameters, t->derived, &tile, t->tile_material[k],
+                               t->mix, t->scratch + (size_t)worker * t->layout.scratch_count, gradient);
     }
     t->chunk_losses[index] = loss;
 }
@@ -143,7 +148,7 @@ static void chunk(void *context, int index, int worker)
 static double step_gradient(trainer *t)
 {
     t->kernel->derive(&t->layout, t->parameters, t->derived);
-    fit_workers_run(t->workers, FIT_CHUNKS, chunk, t);
+    hnbrdf_fit_workers_run(t->workers, FIT_CHUNKS, chunk, t);
     double scale = 1.0 / (3.0 * FIT_TILE * t->tiles_per_step), loss = 0.0;
     memcpy(t->gradient, t->chunk_gradients, sizeof(float) * t->layout.count);
     for (int c = 1; c < FIT_CHUNKS; c++) {
@@ -166,7 +171,7 @@ static void settle_analytic(trainer *t)
     for (int m = 0; m < t->count; m++) {
         float *p = t->parameters + t->layout.analytic + (size_t)m * FIT_ANALYTIC;
         p[FIT_ROTATION] = t->materials[m].rotation; /* the encoded directions were turned by it */
-        fit_ggx_project(p, t->isotropic[m]);
+        hnbrdf_fit_ggx_project(p, t->isotropic[m]);
     }
 }
 
@@ -178,7 +183,8 @@ static int all_finite(const float *values, size_t count)
     return 1;
 }
 
-/* One step of Adam; a state that is not finite goes back to the last good one and on at a lower rate. */
+/* One step of Adam; a state that is not finite goes back to the last good one and on at a lower rate.
+ */
 static void advance(trainer *t, double loss)
 {
     size_t bytes = 3 * t->layout.count * sizeof(float); /* parameters and moments */
@@ -191,8 +197,9 @@ static void advance(trainer *t, double loss)
     if (due)
         memcpy(t->snapshot, t->parameters, bytes);
     double cosine = 0.5 + 0.5 * cos(3.14159265358979 * t->share);
-    double rate = t->peak * (LAST_RATE + (1.0 - LAST_RATE) * cosine) * fmin(1.0, (double)t->step / WARM_UP);
-    fit_adam(t->parameters, t->gradient, t->moments, t->layout.count, t->step, rate);
+    double rate =
+        t->peak * (LAST_RATE + (1.0 - LAST_RATE) * cosine) * fmin(1.0, (double)t->step / WARM_UP);
+    hnbrdf_fit_adam(t->parameters, t->gradient, t->moments, t->layout.count, t->step, rate);
     if (t->layout.train_analytic)
         settle_analytic(t);
     t->running = isfinite(t->running) ? 0.98 * t->running + 0.02 * loss : loss;
@@ -210,7 +217,7 @@ static hnbrdf_result start(trainer *t, hnbrdf_error *error)
         initialise(t);
     }
     if (t->options.resume) {
-        hnbrdf_result result = fit_checkpoint_load(t, error);
+        hnbrdf_result result = hnbrdf_fit_checkpoint_load(t, error);
         if (result)
             return result;
     }
@@ -218,14 +225,14 @@ static hnbrdf_result start(trainer *t, hnbrdf_error *error)
     return HNBRDF_OK;
 }
 
-hnbrdf_result fit_train(trainer *t, hnbrdf_fit_report *report, hnbrdf_error *error)
+hnbrdf_result hnbrdf_fit_train(trainer *t, hnbrdf_fit_report *report, hnbrdf_error *error)
 {
     hnbrdf_result result = start(t, error);
     if (result)
         return result;
-    fit_stage_begin(t);
+    hnbrdf_fit_stage_begin(t);
     const double share_before = t->share, each = (double)t->tiles_per_step * FIT_TILE;
-    double saved = fit_seconds(), pairs = 0.0;
+    double saved = hnbrdf_fit_seconds(), pairs = 0.0;
     while (t->share < 1.0 && !t->stopped) {
         t->mix = (float)fmin(1.0, fmax(0.0, (t->share - 0.3) / 0.4));
         schedule(t);
@@ -233,20 +240,22 @@ hnbrdf_result fit_train(trainer *t, hnbrdf_fit_report *report, hnbrdf_error *err
         t->step++;
         pairs += each;
         advance(t, loss);
-        double now = fit_seconds();
+        double now = hnbrdf_fit_seconds();
         t->share = t->options.seconds > 0.0
                        ? share_before + (now - t->stage_started) / t->options.seconds
                        : (double)t->step / (double)t->options.steps;
-        fit_report(t, "network", fmin(t->share, 1.0), t->running, pairs, t->step % SNAPSHOT_EVERY == 0);
-        if (t->options.checkpoint && t->share < 1.0 && (t->stopped || now - saved > CHECKPOINT_SECONDS)) {
-            if ((result = fit_checkpoint_save(t, error)))
+        hnbrdf_fit_tell(t, "network", fmin(t->share, 1.0), t->running, pairs,
+                        t->step % SNAPSHOT_EVERY == 0);
+        if (t->options.checkpoint && t->share < 1.0 &&
+            (t->stopped || now - saved > CHECKPOINT_SECONDS)) {
+            if ((result = hnbrdf_fit_checkpoint_save(t, error)))
                 return result;
             saved = now;
         }
     }
     if (!all_finite(t->parameters, t->layout.count))
         memcpy(t->parameters, t->snapshot, sizeof(float) * t->layout.count);
-    double elapsed = fit_seconds() - t->stage_started;
+    double elapsed = hnbrdf_fit_seconds() - t->stage_started;
     report->final_loss = t->running;
     report->pairs_per_s = elapsed > 0.0 ? pairs / elapsed : 0.0;
     report->steps = t->step;

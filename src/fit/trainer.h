@@ -14,7 +14,7 @@ enum { FIT_CHUNKS = 16 }; /* gradients are summed in this many pieces, whatever 
 typedef struct trainer {
     const hnbrdf_measured *const *data;
     hnbrdf_fit_options options;
-    int count;                              /* materials */
+    int count; /* materials */
     fit_layout layout;
     const fit_kernel *kernel;
     fit_workers *workers;
@@ -25,33 +25,34 @@ typedef struct trainer {
     float *snapshot;                        /* parameters and moments that were finite */
     float *derived, *chunk_gradients, *scratch;
     double chunk_losses[FIT_CHUNKS];
-    int *tile_material, *tile_index;        /* [tiles a step] */
-    int *order, *cursor;                    /* [count] shuffled materials; the next tile of each */
+    int *tile_material, *tile_index; /* [tiles a step] */
+    int *order, *cursor;             /* [count] shuffled materials; the next tile of each */
     int tiles_per_step, order_at;
     float mix;
     /* State of the network stage besides the arrays: what a checkpoint holds. */
     hnbrdf_rng rng;
     long step;
-    double share, peak, running;            /* done, peak rate, running loss */
-    atomic_int finished;                    /* pieces of the stage that are done */
+    double share, peak, running; /* done, peak rate, running loss */
+    atomic_int finished;         /* pieces of the stage that are done */
     double stage_started, shown;
     int stopped;
 } trainer;
 
 /* Monotonic seconds. */
-double fit_seconds(void);
+double hnbrdf_fit_seconds(void);
 /* A stage starts: its clock and its count of finished pieces. */
-void fit_stage_begin(trainer *t);
+void hnbrdf_fit_stage_begin(trainer *t);
 /* Tell the caller how far a stage is, from the calling thread only; at most ten times a second unless
  * `always`. pairs is how many were handled since the stage began. */
-void fit_report(trainer *t, const char *stage, double done, double loss, double pairs, int always);
+void hnbrdf_fit_tell(trainer *t, const char *stage, double done, double loss, double pairs, int always);
 
-/* The network stage, from a fresh start or from a checkpoint. Fills steps, rate and loss of the report. */
-hnbrdf_result fit_train(trainer *t, hnbrdf_fit_report *report, hnbrdf_error *error);
+/* The network stage, from a fresh start or from a checkpoint. Fills steps, rate and loss of the report.
+ */
+hnbrdf_result hnbrdf_fit_train(trainer *t, hnbrdf_fit_report *report, hnbrdf_error *error);
 
 /* Write options.checkpoint, aside and renamed. */
-hnbrdf_result fit_checkpoint_save(const trainer *t, hnbrdf_error *error);
+hnbrdf_result hnbrdf_fit_checkpoint_save(const trainer *t, hnbrdf_error *error);
 /* Go on from options.checkpoint. It must come from the same data, options and seed. */
-hnbrdf_result fit_checkpoint_load(trainer *t, hnbrdf_error *error);
+hnbrdf_result hnbrdf_fit_checkpoint_load(trainer *t, hnbrdf_error *error);
 
 #endif

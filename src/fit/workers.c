@@ -12,7 +12,7 @@ enum { MAX_THREADS = 256 };
 struct fit_workers {
     pthread_mutex_t mutex;
     pthread_cond_t wake, done;
-    unsigned round;         /* a new number wakes the threads */
+    unsigned round; /* a new number wakes the threads */
     int busy, quit, threads;
     int count;
     fit_work_fn work;
@@ -53,7 +53,7 @@ static void *loop(void *argument)
     return NULL;
 }
 
-fit_workers *fit_workers_start(int threads)
+fit_workers *hnbrdf_fit_workers_start(int threads)
 {
     if (threads <= 0) {
         long cores = sysconf(_SC_NPROCESSORS_ONLN);
@@ -78,12 +78,12 @@ fit_workers *fit_workers_start(int threads)
     return w;
 }
 
-int fit_workers_count(const fit_workers *workers)
+int hnbrdf_fit_workers_count(const fit_workers *workers)
 {
     return workers->threads;
 }
 
-void fit_workers_run(fit_workers *w, int count, fit_work_fn work, void *context)
+void hnbrdf_fit_workers_run(fit_workers *w, int count, fit_work_fn work, void *context)
 {
     pthread_mutex_lock(&w->mutex);
     w->work = work;
@@ -101,7 +101,7 @@ void fit_workers_run(fit_workers *w, int count, fit_work_fn work, void *context)
     pthread_mutex_unlock(&w->mutex);
 }
 
-void fit_workers_stop(fit_workers *w)
+void hnbrdf_fit_workers_stop(fit_workers *w)
 {
     if (!w)
         return;

@@ -1,18 +1,19 @@
-/* workers.h: run the same function for indices 0 .. count-1 on a few threads that live as long as a fit. */
+/* workers.h: run the same function for indices 0 .. count-1 on a few threads that live as long as a
+ * fit. */
 #ifndef HNBRDF_FIT_WORKERS_H
 #define HNBRDF_FIT_WORKERS_H
 
 typedef struct fit_workers fit_workers;
 
-/* index is the piece of work, worker (0 .. threads-1) whose scratch to use. Which worker gets which index
- * is left to chance: results must not depend on it. */
+/* index is the piece of work, worker (0 .. threads-1) whose scratch to use. Which worker gets which
+ * index is left to chance: results must not depend on it. */
 typedef void (*fit_work_fn)(void *context, int index, int worker);
 
 /* threads 0 stands for one a core. NULL when memory or threads cannot be had. */
-fit_workers *fit_workers_start(int threads);
-int fit_workers_count(const fit_workers *workers);
+fit_workers *hnbrdf_fit_workers_start(int threads);
+int hnbrdf_fit_workers_count(const fit_workers *workers);
 /* Returns when every index is done. The calling thread works too. */
-void fit_workers_run(fit_workers *workers, int count, fit_work_fn work, void *context);
-void fit_workers_stop(fit_workers *workers);
+void hnbrdf_fit_workers_run(fit_workers *workers, int count, fit_work_fn work, void *context);
+void hnbrdf_fit_workers_stop(fit_workers *workers);
 
 #endif
