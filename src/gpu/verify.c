@@ -40,7 +40,7 @@ typedef struct push_constants {
 } push_constants;
 
 /* Everything that lives as long as one device is verified. */
-typedef struct session {
+typedef struct verifier {
     const gpu_device *device;
     const hnbrdf_model *model;
     const gpu_verify_options *options;
@@ -51,15 +51,15 @@ typedef struct session {
     VkPipeline pipelines[GPU_BUILDS][PIPELINES];
     gpu_reference reference;
     float *device_values[GPU_STAGES];
-} session;
+} verifier;
 
-static size_t evaluations(const session *s)
+static size_t evaluations(const verifier *s)
 {
     size_t timed = s->options->without_timing ? 0 : TIMED_EVALUATIONS;
     return s->options->pairs > timed ? s->options->pairs : timed;
 }
 
-static hnbrdf_result open_buffers(session *s)
+static hnbrdf_result open_buffers(verifier *s)
 {
     size_t bytes = evaluations(s) * 6 * sizeof(float);
     gpu_buffer *const buffers[] = {&s->directions, &s->encoded, &s->values};
@@ -78,7 +78,7 @@ static hnbrdf_result open_buffers(session *s)
     return gpu_reference_open(s->options->pairs, &s->reference, s->error);
 }
 
-static hnbrdf_result open_program(session *s, gpu_build build)
+static hnbrdf_result open_program(verifier *s, gpu_build build)
 {
     const gpu_include includes[] = {{"hybrid_brdf.glsl", hnbrdf_hybrid_brdf_glsl},
                                     {"scene.glsl", s->options->scene}};
@@ -102,7 +102,7 @@ static hnbrdf_result open_program(session *s, gpu_build build)
     return result;
 }
 
-static void close_session(session *s)
+static void close_verifier(verifier *s)
 {
     for (int build = 0; build < GPU_BUILDS; build++) {
         for (int stage = 0; stage < PIPELINES; stage++)
@@ -119,14 +119,14 @@ static void close_session(session *s)
 
 /* ---- Comparing ------------------------------------------------------------------------------- */
 
-static int stage_exists(const session *s, int stage)
+static int stage_exists(const verifier *s, int stage)
 {
     hnbrdf_kind kind = s->model->desc.kind;
     return stage == GPU_STAGE_VALUE ||
            (stage == GPU_STAGE_ANALYTIC ? kind != HNBRDF_KIND_NEURAL : kind != HNBRDF_KIND_GGX);
 }
 
-static hnbrdf_result run_stages(session *s, gpu_build build, int material)
+static hnbrdf_result run_stages(verifier *s, gpu_build build, int material)
 {
     push_constants push = {(uint32_t)s->options->pairs, material};
     hnbrdf_result result = HNBRDF_OK;
@@ -142,7 +142,7 @@ static hnbrdf_result run_stages(session *s, gpu_build build, int material)
     return result;
 }
 
-static hnbrdf_result verify_material(session *s, const gpu_rules rules[GPU_BUILDS], int k)
+static hnbrdf_result verify_material(verifier *s, const gpu_rules rules[GPU_BUILDS], int k)
 {
     const hnbrdf_material *material = hnbrdf_model_material(s->model, s->options->materials[k]);
     size_t bytes = s->options->pairs * 6 * sizeof(float);
@@ -170,7 +170,7 @@ static hnbrdf_result verify_material(session *s, const gpu_rules rules[GPU_BUILD
 enum { TIMED_RUNS = 3 };
 
 /* Nanoseconds of one evaluation: the best of a few runs of at least 5 ms each. */
-static hnbrdf_result time_stage(session *s, int stage, double *ns)
+static hnbrdf_result time_stage(verifier *s, int stage, double *ns)
 {
     push_constants push = {TIMED_EVALUATIONS, 0};
     const gpu_program *program = &s->programs[GPU_BUILD_FAST];
@@ -193,7 +193,7 @@ static hnbrdf_result time_stage(session *s, int stage, double *ns)
     return result;
 }
 
-static hnbrdf_result time_evaluations(session *s)
+static hnbrdf_result time_evaluations(verifier *s)
 {
     gpu_timing *timing = &s->report->timing;
     timing->evaluations = TIMED_EVALUATIONS;
@@ -215,7 +215,7 @@ static hnbrdf_result time_evaluations(session *s)
 }
 
 /* What a renderer waits for before the first picture: drivers compile here or at the first dispatch. */
-static hnbrdf_result open_timed_pipeline(session *s)
+static hnbrdf_result open_timed_pipeline(verifier *s)
 {
     push_constants push = {1, 0};
     const gpu_program *program = &s->programs[GPU_BUILD_FAST];
@@ -230,7 +230,7 @@ static hnbrdf_result open_timed_pipeline(session *s)
 
 /* ---- All of it ------------------------------------------------------------------------------- */
 
-static hnbrdf_result run_session(session *s)
+static hnbrdf_result run_verifier(verifier *s)
 {
     gpu_report *report = s->report;
     hnbrdf_result result = gpu_probe(s->device, &report->arithmetic, s->error);
@@ -264,9 +264,10 @@ hnbrdf_result gpu_verify(const gpu_device *device, const hnbrdf_model *model,
     if (!made.comparisons)
         return hnbrdf_fail(error, HNBRDF_ERROR_MEMORY, "verify: no memory for %d materials",
                            options->material_count);
-    session s = {.device = device, .model = model, .options = options, .report = &made, .error = error};
-    hnbrdf_result result = run_session(&s);
-    close_session(&s);
+    verifier s = {
+        .device = device, .model = model, .options = options, .report = &made, .error = error};
+    hnbrdf_result result = run_verifier(&s);
+    close_verifier(&s);
     if (result)
         gpu_report_free(&made);
     else
