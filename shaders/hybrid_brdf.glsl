@@ -213,6 +213,46 @@ void hnbrdf_encode_half_difference(hnbrdf_pair p, out vec3 x0, out vec3 x1)
     x1 = vec3(z, product, p.s.z);
 }
 
+// What the encodings by angles share; the cosines of incidence are a and b:
+//   1 + ln(1e-5 + tan^2 th)/4, sin th, ln(1e-3 + 1 - c)/4, 1 - c, a, b
+void hnbrdf_encode_angle_terms(hnbrdf_pair p, float a, float b, out vec3 x0, out vec3 x1)
+{
+    HNBRDF_PRECISE float r2 = p.s.x * p.s.x + p.s.y * p.s.y;
+    HNBRDF_PRECISE float d2 = hnbrdf_dot3(p.wi - p.wo);
+    HNBRDF_PRECISE float q = (0.25 * d2) / (1.0 + p.c);
+    HNBRDF_PRECISE float tan2 = 1e-5 + r2 / (p.s.z * p.s.z);
+    HNBRDF_PRECISE float x = 1.0 + 0.25 * HNBRDF_LOG(tan2);
+    HNBRDF_PRECISE float y = sqrt(r2 / p.length2);
+    HNBRDF_PRECISE float off = 1e-3 + q;
+    HNBRDF_PRECISE float z = 0.25 * HNBRDF_LOG(off);
+    x0 = vec3(x, y, z);
+    x1 = vec3(q, a, b);
+}
+
+// a = wi.z, b = wo.z: sees which of the two is the light.
+void hnbrdf_encode_angles_directed(hnbrdf_pair p, out vec3 x0, out vec3 x1)
+{
+    hnbrdf_encode_angle_terms(p, p.wi.z, p.wo.z, x0, x1);
+}
+
+// a and b in order of size: reciprocal.
+void hnbrdf_encode_angles(hnbrdf_pair p, out vec3 x0, out vec3 x1)
+{
+    bool swap = p.wo.z < p.wi.z;
+    hnbrdf_encode_angle_terms(p, swap ? p.wo.z : p.wi.z, swap ? p.wi.z : p.wo.z, x0, x1);
+}
+
+// |h.x| for sin th and |h.y| for 1 - c: reciprocal, and mirror-symmetric about the tangent frame.
+void hnbrdf_encode_angles_anisotropic(hnbrdf_pair p, out vec3 x0, out vec3 x1)
+{
+    hnbrdf_encode_angles(p, x0, x1);
+    HNBRDF_PRECISE float len = sqrt(p.length2);
+    HNBRDF_PRECISE float x = abs(p.s.x) / len;
+    HNBRDF_PRECISE float y = abs(p.s.y) / len;
+    x0.y = x;
+    x1.x = y;
+}
+
 // ---- Composition ---------------------------------------------------------------------------------------
 
 // [0, HNBRDF_MAX_VALUE]; a NaN becomes 0.

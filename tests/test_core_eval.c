@@ -15,7 +15,9 @@
 #include <cmocka.h>
 
 static const hnbrdf_kind kinds[] = {HNBRDF_KIND_HYBRID, HNBRDF_KIND_NEURAL, HNBRDF_KIND_GGX};
-static const hnbrdf_encoding encodings[] = {HNBRDF_ENCODING_DIRECTIONS, HNBRDF_ENCODING_HALF_DIFFERENCE};
+static const hnbrdf_encoding encodings[] = {
+    HNBRDF_ENCODING_DIRECTIONS, HNBRDF_ENCODING_HALF_DIFFERENCE, HNBRDF_ENCODING_ANGLES_DIRECTED,
+    HNBRDF_ENCODING_ANGLES, HNBRDF_ENCODING_ANGLES_ANISOTROPIC};
 
 typedef void visit(rng *r, const hnbrdf_model *model);
 
@@ -25,7 +27,7 @@ static void for_each_model(uint64_t seed, visit *visitor)
     static const int shapes[][3] = {{32, 2, 4}, {7, 3, 0}, {33, 1, 16}};
     rng r = rng_make(seed);
     for (size_t k = 0; k < 3; k++)
-        for (size_t e = 0; e < 2; e++)
+        for (size_t e = 0; e < sizeof encodings / sizeof encodings[0]; e++)
             for (size_t s = 0; s < sizeof shapes / sizeof shapes[0]; s++) {
                 hnbrdf_model *model =
                     random_model(&r, kinds[k], encodings[e], shapes[s][0], shapes[s][1], shapes[s][2]);
@@ -54,10 +56,7 @@ static void check_composition(rng *r, const hnbrdf_model *model)
         direction_uniform(r, wi);
         direction_uniform(r, wo);
         hnbrdf_pair pair = hnbrdf_pair_make(wi, wo);
-        if (desc.encoding == HNBRDF_ENCODING_DIRECTIONS)
-            hnbrdf_encode_directions(&pair, x);
-        else
-            hnbrdf_encode_half_difference(&pair, x);
+        hnbrdf_encode(desc.encoding, &pair, x);
         hnbrdf_network(&desc, m.latent, x, out);
         hnbrdf_eval(model, &m, wi, wo, f);
         hnbrdf_eval_analytic(model, &m, wi, wo, f_a);
@@ -175,7 +174,8 @@ static void batch_has_the_bits_of_single_evaluations(void **state)
 static void check_reciprocity(rng *r, const hnbrdf_model *model)
 {
     hnbrdf_model_desc desc = describe(model);
-    int reciprocal = desc.kind == HNBRDF_KIND_GGX || desc.encoding == HNBRDF_ENCODING_HALF_DIFFERENCE;
+    int reciprocal = desc.kind == HNBRDF_KIND_GGX || (desc.encoding != HNBRDF_ENCODING_DIRECTIONS &&
+                                                      desc.encoding != HNBRDF_ENCODING_ANGLES_DIRECTED);
     int differences = 0;
     for (int k = 0; k < 1000; k++) {
         hnbrdf_material m = random_material(r, k & 1);
@@ -191,17 +191,19 @@ static void check_reciprocity(rng *r, const hnbrdf_model *model)
         assert_true(differences > 300);
 }
 
-static void reciprocity_is_exact_for_half_difference_and_ggx(void **state)
+static void reciprocity_is_exact_for_ggx_and_every_encoding_that_says_so(void **state)
 {
     (void)state;
     for_each_model(24, check_reciprocity);
 }
 
-/* A quarter turn moves components without rounding. Only `directions` may see the azimuth. */
+/* A quarter turn moves components without rounding. Only `directions` and `angles-anisotropic` may see
+ * the azimuth. */
 static void check_quarter_turn(rng *r, const hnbrdf_model *model)
 {
     hnbrdf_model_desc desc = describe(model);
-    if (desc.kind != HNBRDF_KIND_GGX && desc.encoding == HNBRDF_ENCODING_DIRECTIONS)
+    if (desc.kind != HNBRDF_KIND_GGX && (desc.encoding == HNBRDF_ENCODING_DIRECTIONS ||
+                                         desc.encoding == HNBRDF_ENCODING_ANGLES_ANISOTROPIC))
         return;
     for (int k = 0; k < 1000; k++) {
         hnbrdf_material m = random_material(r, 1);
@@ -379,7 +381,7 @@ int main(void)
         cmocka_unit_test(value_is_composed_as_the_paper_says),
         cmocka_unit_test(scale_and_shift_act_on_the_correction),
         cmocka_unit_test(batch_has_the_bits_of_single_evaluations),
-        cmocka_unit_test(reciprocity_is_exact_for_half_difference_and_ggx),
+        cmocka_unit_test(reciprocity_is_exact_for_ggx_and_every_encoding_that_says_so),
         cmocka_unit_test(isotropic_materials_do_not_see_the_azimuth),
         cmocka_unit_test(rotation_reaches_network_and_analytic_part_alike),
         cmocka_unit_test(value_is_zero_at_and_below_the_horizon),

@@ -133,6 +133,22 @@ static void anisotropic_rotated_hybrid_equals_c(void **state)
         .encoding = DIRECTIONS, .hidden = 8, .layers = 2, .latent = 5, .rotated = 1, .shift = 0.25f});
 }
 
+static void encodings_by_angles_equal_c(void **state)
+{
+    (void)state;
+    holds(&(scene_shape){
+        .encoding = HNBRDF_ENCODING_ANGLES, .hidden = 16, .layers = 2, .latent = 4, .floor = 0.003f});
+    holds(&(scene_shape){
+        .encoding = HNBRDF_ENCODING_ANGLES_DIRECTED, .hidden = 16, .layers = 1, .latent = 4});
+    holds(&(scene_shape){.encoding = HNBRDF_ENCODING_ANGLES_ANISOTROPIC,
+                         .hidden = 16,
+                         .layers = 2,
+                         .latent = 4,
+                         .anisotropic = 1,
+                         .rotated = 1,
+                         .floor = 0.003f});
+}
+
 static void neural_equals_c(void **state)
 {
     (void)state;
@@ -247,6 +263,7 @@ static int run_on(int index)
         cmocka_unit_test(isotropic_hybrid_equals_c),
         cmocka_unit_test(published_form_equals_c),
         cmocka_unit_test(anisotropic_rotated_hybrid_equals_c),
+        cmocka_unit_test(encodings_by_angles_equal_c),
         cmocka_unit_test(neural_equals_c),
         cmocka_unit_test(ggx_equals_c),
         cmocka_unit_test(smallest_and_deepest_networks_equal_c),

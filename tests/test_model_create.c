@@ -295,7 +295,10 @@ static void every_result_kind_and_encoding_has_its_word(void **state)
     assert_null(hnbrdf_kind_name((hnbrdf_kind)3));
     assert_string_equal(hnbrdf_encoding_name(HNBRDF_ENCODING_DIRECTIONS), "directions");
     assert_string_equal(hnbrdf_encoding_name(HNBRDF_ENCODING_HALF_DIFFERENCE), "half-difference");
-    assert_null(hnbrdf_encoding_name((hnbrdf_encoding)2));
+    assert_string_equal(hnbrdf_encoding_name(HNBRDF_ENCODING_ANGLES), "angles");
+    assert_string_equal(hnbrdf_encoding_name(HNBRDF_ENCODING_ANGLES_DIRECTED), "angles-directed");
+    assert_string_equal(hnbrdf_encoding_name(HNBRDF_ENCODING_ANGLES_ANISOTROPIC), "angles-anisotropic");
+    assert_null(hnbrdf_encoding_name((hnbrdf_encoding)5));
     assert_string_equal(hnbrdf_version(), HNBRDF_VERSION_STRING);
 }
 

@@ -116,6 +116,14 @@ HNBRDF_API void hnbrdf_material_init(hnbrdf_material *material);
  * naming the first field that is not. */
 HNBRDF_API hnbrdf_result hnbrdf_material_check(const hnbrdf_material *material, hnbrdf_error *error);
 
+/* The material between a and b: at t <= 0 (or NaN) *a and at t >= 1 *b, bit by bit. Each kd, the latent code
+ * and the reflectance at normal incidence ((eta - 1)/(eta + 1))^2 go linearly: eta itself would turn to
+ * metal within the first steps. alpha goes linearly in its logarithm; rotation the short way modulo pi, a
+ * half turn being the same GGX lobe, and all at once where one end is isotropic and has none to speak of.
+ * Every field stays between its two ends, so two legal materials give a legal one. out may be a or b. */
+HNBRDF_API void hnbrdf_material_mix(const hnbrdf_material *a, const hnbrdf_material *b, float t,
+                                    hnbrdf_material *out);
+
 /* ---- Models ---------------------------------------------------------------------------------- */
 
 typedef enum hnbrdf_kind {
@@ -124,13 +132,20 @@ typedef enum hnbrdf_kind {
     HNBRDF_KIND_GGX         /* f = f_a, no network */
 } hnbrdf_kind;
 
+/* What the network sees of a pair of directions: six numbers. th is the angle between n and the half
+ * vector h, td that between h and wi. All but the first and the third are unchanged to the last bit when
+ * wi and wo swap: reciprocal by construction. */
 typedef enum hnbrdf_encoding {
-    HNBRDF_ENCODING_DIRECTIONS = 0,  /* (wi, wo), the paper's: 6 inputs, not reciprocal */
-    HNBRDF_ENCODING_HALF_DIFFERENCE  /* 6 functions of h and the difference angle, unchanged to the
-                                        last bit when wi and wo swap: reciprocal by construction */
+    HNBRDF_ENCODING_DIRECTIONS = 0,    /* wi, wo: the paper's; not reciprocal */
+    HNBRDF_ENCODING_HALF_DIFFERENCE,   /* functions of th, td, wi.z wo.z and wi.z + wo.z */
+    HNBRDF_ENCODING_ANGLES_DIRECTED,   /* functions of th and td, then wi.z, wo.z; not reciprocal: for
+                                          measurements that are not */
+    HNBRDF_ENCODING_ANGLES,            /* the same with the smaller and the larger of wi.z, wo.z */
+    HNBRDF_ENCODING_ANGLES_ANISOTROPIC /* with |h.x|, |h.y|: sees the azimuth of h, mirror-symmetric */
 } hnbrdf_encoding;
 
-/* "hybrid", "neural", "ggx"; "directions", "half-difference"; NULL for any other value. */
+/* "hybrid", "neural", "ggx"; "directions", "half-difference", "angles-directed", "angles",
+ * "angles-anisotropic"; NULL for any other value. */
 HNBRDF_API const char *hnbrdf_kind_name(hnbrdf_kind kind);
 HNBRDF_API const char *hnbrdf_encoding_name(hnbrdf_encoding encoding);
 

@@ -10,12 +10,11 @@
 static const cli_command command = {
     "fit", "DATA... [options] -o MODEL.safetensors",
     "Fit one model to measured materials: GGX for each of them, then a small network and latent codes\n"
-    "that learn what GGX misses. DATA is `builtin`, builtin:NAME, files (.bsdf, .binary) or "
-    "directories.\n"
+    "that learn what GGX misses. DATA is `builtin`, builtin:NAME, files (.bsdf, .binary, .bin)\n"
+    "or directories.\n"
     "The result depends on the data, the options and the seed, not on the number of threads; a fit\n"
-    "limited by --seconds prints the steps it made, to be repeated with --steps. Ctrl-C ends a fit "
-    "after the\n"
-    "step, saves the model so far, and leaves OUTPUT.checkpoint, from which --resume goes on.",
+    "limited by --seconds prints the steps it made, to be repeated with --steps. Ctrl-C ends a fit\n"
+    "after the step, saves the model so far, and leaves OUTPUT.checkpoint, from which --resume goes on.",
     "  hnbrdf fit builtin -o builtin.safetensors\n"
     "  hnbrdf fit rgl/ --net 32x2 --latent 4 --seconds 120 -o rgl.safetensors\n"
     "  hnbrdf fit rgl/ --kind ggx -o ggx.safetensors\n"
@@ -65,6 +64,15 @@ static int choose(const char *text, const char *const *names)
 {
     for (int i = 0; names[i]; i++)
         if (strcmp(text, names[i]) == 0)
+            return i;
+    return -1;
+}
+
+static int choose_encoding(const char *text)
+{
+    const char *name;
+    for (int i = 0; (name = hnbrdf_encoding_name((hnbrdf_encoding)i)); i++)
+        if (strcmp(text, name) == 0)
             return i;
     return -1;
 }
@@ -158,11 +166,10 @@ static int open_and_run(job *j, const char *freeze, const char *log, char *const
 int cmd_fit(int argc, char **argv)
 {
     static const char *const kinds[] = {"hybrid", "neural", "ggx", NULL};
-    static const char *const encodings[] = {"directions", "half-difference", NULL};
     static const char *const analytics[] = {"faithful", "joint", NULL};
     const char *freeze = NULL, *log = NULL;
     int resume = 0;
-    const char *kind = "hybrid", *encoding = "half-difference", *analytic = "faithful", *output = NULL;
+    const char *kind = "hybrid", *encoding = NULL, *analytic = "faithful", *output = NULL;
     int net[2] = {32, 2};
     long latent = 0, steps = 0, seed = 1, threads = 0, batch = 0, pool = 0;
     double seconds = 0.0, floor = 0.003, rate = 1e-2;
@@ -173,7 +180,8 @@ int cmd_fit(int argc, char **argv)
         {"latent", 0, CLI_INT, &latent, 1, HNBRDF_MAX_LATENT, "L",
          "floats of latent code a material (default 4; neural: 12)"},
         {"encoding", 0, CLI_TEXT, &encoding, 0, 0, "NAME",
-         "half-difference or directions (default the first)"},
+         "angles, angles-anisotropic, angles-directed, half-difference or directions (default angles; "
+         "angles-anisotropic if a material is)"},
         {"analytic", 0, CLI_TEXT, &analytic, 0, 0, "HOW",
          "faithful: keep the GGX fit; joint: train it along (default faithful)"},
         {"floor", 0, CLI_REAL, &floor, 0, 0.999, "B", "the floor b, 1/sr; 0 for none (default 0.003)"},
@@ -191,6 +199,7 @@ int cmd_fit(int argc, char **argv)
         {"log", 0, CLI_TEXT, &log, 0, 0, "FILE",
          "write step,share,loss,pairs_per_s as CSV, a row every 100 steps"},
         {"threads", 0, CLI_INT, &threads, 1, 256, "N", "threads (default one a core)"},
+        CLI_READING_OPTIONS,
         {NULL, 0, CLI_FLAG, NULL, 0, 0, NULL, NULL}};
     int given;
     int code = cli_parse(&command, options, argc, argv, &given);
@@ -200,12 +209,15 @@ int cmd_fit(int argc, char **argv)
         return cli_usage(&command, "no DATA given");
     if (!output)
         return cli_usage(&command, "no output file given, expected -o MODEL.safetensors");
-    int kind_index = choose(kind, kinds), encoding_index = choose(encoding, encodings);
+    int kind_index = choose(kind, kinds), encoding_index = encoding ? choose_encoding(encoding) : 0;
     int analytic_index = choose(analytic, analytics);
     if (kind_index < 0)
         return cli_usage(&command, "--kind %s, expected hybrid, neural or ggx", kind);
     if (encoding_index < 0)
-        return cli_usage(&command, "--encoding %s, expected directions or half-difference", encoding);
+        return cli_usage(&command,
+                         "--encoding %s, expected angles, angles-anisotropic, angles-directed, "
+                         "half-difference or directions",
+                         encoding);
     if (analytic_index < 0)
         return cli_usage(&command, "--analytic %s, expected faithful or joint", analytic);
     if (steps && seconds > 0.0)
@@ -218,7 +230,7 @@ int cmd_fit(int argc, char **argv)
     j.fit.layers = net[1];
     j.fit.latent = (int)latent;
     j.fit.encoding = (hnbrdf_encoding)encoding_index;
-    j.fit.encoding_set = 1;
+    j.fit.encoding_set = encoding != NULL;
     j.fit.floor = floor > 0.0 ? (float)floor : -1.0f;
     j.fit.analytic = (hnbrdf_fit_analytic)analytic_index;
     j.fit.steps = steps;

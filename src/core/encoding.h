@@ -4,6 +4,7 @@
 #define HNBRDF_CORE_ENCODING_H
 
 #include "core/microfacet.h"
+#include "hnbrdf/hnbrdf.h"
 
 /* The paper's: the six Cartesian components. */
 static inline void hnbrdf_encode_directions(const hnbrdf_pair *p, float x[6])
@@ -30,6 +31,71 @@ static inline void hnbrdf_encode_half_difference(const hnbrdf_pair *p, float x[6
     x[3] = sqrtf((0.25f * d2) / (1.0f + p->c));
     x[4] = p->wi[2] * p->wo[2];
     x[5] = p->sz;
+}
+
+/* 1 - c of the difference angle from |wi - wo|^2 = 4 (1 - c^2). */
+static inline float hnbrdf_one_minus_c(const hnbrdf_pair *p)
+{
+    float d2 = hnbrdf_dot3(p->wi[0] - p->wo[0], p->wi[1] - p->wo[1], p->wi[2] - p->wo[2]);
+    return (0.25f * d2) / (1.0f + p->c);
+}
+
+/* What the encodings by angles share; the cosines of incidence are a and b:
+ *   1 + ln(1e-5 + tan^2 th)/4, sin th, ln(1e-3 + 1 - c)/4, 1 - c, a, b */
+static inline void hnbrdf_encode_angle_terms(const hnbrdf_pair *p, float a, float b, float x[6])
+{
+    float r2 = p->sx * p->sx + p->sy * p->sy;
+    float q = hnbrdf_one_minus_c(p);
+    x[0] = 1.0f + 0.25f * hnbrdf_log(1e-5f + r2 / (p->sz * p->sz));
+    x[1] = sqrtf(r2 / p->length2);
+    x[2] = 0.25f * hnbrdf_log(1e-3f + q);
+    x[3] = q;
+    x[4] = a;
+    x[5] = b;
+}
+
+/* a = wi.z, b = wo.z: sees which of the two is the light. */
+static inline void hnbrdf_encode_angles_directed(const hnbrdf_pair *p, float x[6])
+{
+    hnbrdf_encode_angle_terms(p, p->wi[2], p->wo[2], x);
+}
+
+/* a and b in order of size: reciprocal. */
+static inline void hnbrdf_encode_angles(const hnbrdf_pair *p, float x[6])
+{
+    int swap = p->wo[2] < p->wi[2];
+    hnbrdf_encode_angle_terms(p, swap ? p->wo[2] : p->wi[2], swap ? p->wi[2] : p->wo[2], x);
+}
+
+/* |h.x| for sin th and |h.y| for 1 - c: reciprocal, and mirror-symmetric about the tangent frame. */
+static inline void hnbrdf_encode_angles_anisotropic(const hnbrdf_pair *p, float x[6])
+{
+    hnbrdf_encode_angles(p, x);
+    float length = sqrtf(p->length2);
+    x[1] = fabsf(p->sx) / length;
+    x[3] = fabsf(p->sy) / length;
+}
+
+static inline void hnbrdf_encode(hnbrdf_encoding encoding, const hnbrdf_pair *p, float x[6])
+{
+    switch (encoding) {
+    case HNBRDF_ENCODING_DIRECTIONS:
+        hnbrdf_encode_directions(p, x);
+        break;
+    case HNBRDF_ENCODING_HALF_DIFFERENCE:
+        hnbrdf_encode_half_difference(p, x);
+        break;
+    case HNBRDF_ENCODING_ANGLES_DIRECTED:
+        hnbrdf_encode_angles_directed(p, x);
+        break;
+    case HNBRDF_ENCODING_ANGLES:
+        hnbrdf_encode_angles(p, x);
+        break;
+    case HNBRDF_ENCODING_ANGLES_ANISOTROPIC:
+    default:
+        hnbrdf_encode_angles_anisotropic(p, x);
+        break;
+    }
 }
 
 #endif

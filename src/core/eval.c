@@ -18,14 +18,6 @@ static hnbrdf_pair pair_in_frame(hnbrdf_frame frame, const float wi[3], const fl
     return hnbrdf_pair_make(i, o);
 }
 
-static void encode(hnbrdf_encoding encoding, const hnbrdf_pair *pair, float x[HNBRDF_ENCODING_SIZE])
-{
-    if (encoding == HNBRDF_ENCODING_DIRECTIONS)
-        hnbrdf_encode_directions(pair, x);
-    else
-        hnbrdf_encode_half_difference(pair, x);
-}
-
 static void analytic(const hnbrdf_material *material, const hnbrdf_pair *pair, float f[3])
 {
     float specular = hnbrdf_specular(pair, material->alpha[0], material->alpha[1]);
@@ -57,7 +49,7 @@ void hnbrdf_eval(const hnbrdf_model *model, const hnbrdf_material *material, con
             f[c] = hnbrdf_finish(f_a[c]);
         return;
     }
-    encode(desc->encoding, &pair, x);
+    hnbrdf_encode(desc->encoding, &pair, x);
     hnbrdf_network(desc, material->latent, x, out);
     for (int c = 0; c < 3; c++)
         f[c] = compose(desc, out, 1, f_a, c);
@@ -92,7 +84,7 @@ static void eval_block(const hnbrdf_model_desc *desc, const hnbrdf_material *mat
         size_t k = l < count ? l : count - 1;
         hnbrdf_pair pair = pair_in_frame(frame, at(wi, wi_stride, k), at(wo, wo_stride, k));
         float encoded[HNBRDF_ENCODING_SIZE];
-        encode(desc->encoding, &pair, encoded);
+        hnbrdf_encode(desc->encoding, &pair, encoded);
         for (int i = 0; i < HNBRDF_ENCODING_SIZE; i++)
             x[i][l] = encoded[i];
         analytic(material, &pair, f_a[l]);

@@ -49,6 +49,12 @@ const char *hnbrdf_encoding_name(hnbrdf_encoding encoding)
         return "directions";
     case HNBRDF_ENCODING_HALF_DIFFERENCE:
         return "half-difference";
+    case HNBRDF_ENCODING_ANGLES_DIRECTED:
+        return "angles-directed";
+    case HNBRDF_ENCODING_ANGLES:
+        return "angles";
+    case HNBRDF_ENCODING_ANGLES_ANISOTROPIC:
+        return "angles-anisotropic";
     }
     return NULL;
 }

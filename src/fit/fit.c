@@ -187,6 +187,15 @@ static hnbrdf_result take_frozen(hnbrdf_fit_options *o, hnbrdf_error *error)
     return HNBRDF_OK;
 }
 
+/* The most accurate reciprocal one (examples/encodings.md). */
+static hnbrdf_encoding default_encoding(const hnbrdf_measured *const *data, int count)
+{
+    for (int m = 0; m < count; m++)
+        if (!hnbrdf_measured_is_isotropic(data[m]))
+            return HNBRDF_ENCODING_ANGLES_ANISOTROPIC;
+    return HNBRDF_ENCODING_ANGLES;
+}
+
 static hnbrdf_result fill_options(hnbrdf_fit_options *o, int count, hnbrdf_error *error)
 {
     if (o->freeze) {
@@ -197,8 +206,6 @@ static hnbrdf_result fill_options(hnbrdf_fit_options *o, int count, hnbrdf_error
     o->hidden = o->hidden ? o->hidden : 32;
     o->layers = o->layers ? o->layers : 2;
     o->latent = o->latent ? o->latent : (o->kind == HNBRDF_KIND_NEURAL ? 12 : 4);
-    if (!o->encoding_set)
-        o->encoding = HNBRDF_ENCODING_HALF_DIFFERENCE;
     o->floor = o->floor == 0.0f ? DEFAULT_FLOOR : fmaxf(o->floor, 0.0f);
     o->steps = o->steps ? o->steps : (o->freeze ? DEFAULT_FROZEN_STEPS : DEFAULT_STEPS);
     o->batch = o->batch ? o->batch : DEFAULT_BATCH;
@@ -303,6 +310,8 @@ hnbrdf_result hnbrdf_fit(const hnbrdf_measured *const *data, int count,
     hnbrdf_result result = fill_options(&t.options, count, error);
     if (result)
         return result;
+    if (!t.options.encoding_set)
+        t.options.encoding = default_encoding(data, count);
     int unit = FIT_TILE * FIT_CHUNKS;
     t.tiles_per_step = (t.options.batch + unit - 1) / unit * FIT_CHUNKS;
     t.pool.tiles = (t.options.pool + FIT_TILE - 1) / FIT_TILE;

@@ -56,10 +56,7 @@ void hnbrdf_fit_pool_encode(const fit_pool *pool, int material, hnbrdf_encoding 
             hnbrdf_to_tangent(frame, wi, i);
             hnbrdf_to_tangent(frame, wo, o);
             hnbrdf_pair pair = hnbrdf_pair_make(i, o);
-            if (encoding == HNBRDF_ENCODING_DIRECTIONS)
-                hnbrdf_encode_directions(&pair, x);
-            else
-                hnbrdf_encode_half_difference(&pair, x);
+            hnbrdf_encode(encoding, &pair, x);
             float specular = hnbrdf_specular(&pair, fitted->alpha[0], fitted->alpha[1]);
             for (size_t c = 0; c < 3; c++)
                 tile[(9 + c) * FIT_TILE + b] =

@@ -197,16 +197,8 @@ static void analytic(const gpu_rules *k, const hnbrdf_material *material, const 
     }
 }
 
-static void encode(const gpu_rules *k, hnbrdf_encoding encoding, const pair *p,
-                   num x[HNBRDF_ENCODING_SIZE])
+static void encode_half_difference(const gpu_rules *k, const pair *p, num x[HNBRDF_ENCODING_SIZE])
 {
-    if (encoding == HNBRDF_ENCODING_DIRECTIONS) {
-        for (int i = 0; i < 3; i++) {
-            x[i] = p->wi[i];
-            x[3 + i] = p->wo[i];
-        }
-        return;
-    }
     num r2 = add(k, multiply(k, p->s[0], p->s[0]), multiply(k, p->s[1], p->s[1]));
     num d2 = dot3(k, subtract(k, p->wi[0], p->wo[0]), subtract(k, p->wi[1], p->wo[1]),
                   subtract(k, p->wi[2], p->wo[2]));
@@ -217,6 +209,54 @@ static void encode(const gpu_rules *k, hnbrdf_encoding encoding, const pair *p,
     x[3] = root(k, divide(k, multiply(k, same(0.25f), d2), add(k, same(1.0f), p->c)));
     x[4] = multiply(k, p->wi[2], p->wo[2]);
     x[5] = p->s[2];
+}
+
+/* a, b: the cosines of incidence in the order of the encoding. */
+static void encode_angles(const gpu_rules *k, const pair *p, num a, num b, num x[HNBRDF_ENCODING_SIZE])
+{
+    num r2 = add(k, multiply(k, p->s[0], p->s[0]), multiply(k, p->s[1], p->s[1]));
+    num d2 = dot3(k, subtract(k, p->wi[0], p->wo[0]), subtract(k, p->wi[1], p->wo[1]),
+                  subtract(k, p->wi[2], p->wo[2]));
+    num q = divide(k, multiply(k, same(0.25f), d2), add(k, same(1.0f), p->c));
+    num tan2 = add(k, same(1e-5f), divide(k, r2, multiply(k, p->s[2], p->s[2])));
+    x[0] = add(k, same(1.0f), multiply(k, same(0.25f), logarithm(k, tan2)));
+    x[1] = root(k, divide(k, r2, p->length2));
+    x[2] = multiply(k, same(0.25f), logarithm(k, add(k, same(1e-3f), q)));
+    x[3] = q;
+    x[4] = a;
+    x[5] = b;
+}
+
+static num magnitude(num a)
+{
+    return (num){fabsf(a.v), a.e};
+}
+
+static void encode(const gpu_rules *k, hnbrdf_encoding encoding, const pair *p,
+                   num x[HNBRDF_ENCODING_SIZE])
+{
+    int swap = encoding != HNBRDF_ENCODING_ANGLES_DIRECTED && p->wo[2].v < p->wi[2].v;
+    switch (encoding) {
+    case HNBRDF_ENCODING_DIRECTIONS:
+        for (int i = 0; i < 3; i++) {
+            x[i] = p->wi[i];
+            x[3 + i] = p->wo[i];
+        }
+        break;
+    case HNBRDF_ENCODING_HALF_DIFFERENCE:
+        encode_half_difference(k, p, x);
+        break;
+    case HNBRDF_ENCODING_ANGLES_DIRECTED:
+    case HNBRDF_ENCODING_ANGLES:
+    case HNBRDF_ENCODING_ANGLES_ANISOTROPIC:
+        encode_angles(k, p, swap ? p->wo[2] : p->wi[2], swap ? p->wi[2] : p->wo[2], x);
+        if (encoding == HNBRDF_ENCODING_ANGLES_ANISOTROPIC) {
+            num length = root(k, p->length2);
+            x[1] = divide(k, magnitude(p->s[0]), length);
+            x[3] = divide(k, magnitude(p->s[1]), length);
+        }
+        break;
+    }
 }
 
 /* Adds `count` products to a sum in C's order, and to the two sums that the bound is made of. */

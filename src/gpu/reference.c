@@ -61,10 +61,7 @@ static void encode(const hnbrdf_model_desc *desc, hnbrdf_frame frame, const floa
     hnbrdf_to_tangent(frame, pair, i);
     hnbrdf_to_tangent(frame, pair + 3, o);
     hnbrdf_pair p = hnbrdf_pair_make(i, o);
-    if (desc->encoding == HNBRDF_ENCODING_DIRECTIONS)
-        hnbrdf_encode_directions(&p, x);
-    else
-        hnbrdf_encode_half_difference(&p, x);
+    hnbrdf_encode(desc->encoding, &p, x);
 }
 
 void gpu_reference_fill(const hnbrdf_model *model, const hnbrdf_material *material, hnbrdf_rng *rng,

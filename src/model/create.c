@@ -50,7 +50,7 @@ static hnbrdf_result check_shape(const hnbrdf_model_desc *desc, hnbrdf_error *er
     }
     if (!hnbrdf_encoding_name(desc->encoding)) {
         return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT,
-                           "encoding is %d, expected directions or half-difference",
+                           "encoding is %d, expected an HNBRDF_ENCODING_ constant",
                            (int)desc->encoding);
     }
     if ((result = check_size("hidden", desc->hidden, 1, HNBRDF_MAX_HIDDEN, error)) ||

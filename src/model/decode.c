@@ -86,7 +86,8 @@ static hnbrdf_result read_encoding(loading *l)
             return HNBRDF_OK;
         }
     }
-    return fail_key(l, HNBRDF_ERROR_FORMAT, HNBRDF_KEY_ENCODING, "directions or half-difference");
+    return fail_key(l, HNBRDF_ERROR_FORMAT, HNBRDF_KEY_ENCODING, "directions, half-difference, angles-directed, angles or "
+                    "angles-anisotropic");
 }
 
 /* An optional number; *value stays when the key is not there. */

@@ -246,10 +246,13 @@ static void put_switches(printer *out, const scene *s)
 {
     static const char *const kinds[] = {"HYBRID", "NEURAL", "GGX"};
     put(out, "#define HNBRDF_SCENE_%s\n", kinds[s->desc->kind]);
-    if (has_network(s))
-        put(out, "#define HNBRDF_SCENE_ENCODE %s\n",
-            s->desc->encoding == HNBRDF_ENCODING_DIRECTIONS ? "hnbrdf_encode_directions"
-                                                            : "hnbrdf_encode_half_difference");
+    if (has_network(s)) {
+        char function[32];
+        snprintf(function, sizeof function, "%s", hnbrdf_encoding_name(s->desc->encoding));
+        for (char *c = function; *c; c++)
+            *c = *c == '-' ? '_' : *c;
+        put(out, "#define HNBRDF_SCENE_ENCODE hnbrdf_encode_%s\n", function);
+    }
     put(out, "\n");
 }
 
