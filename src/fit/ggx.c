@@ -1,6 +1,8 @@
 /* ggx.c: fit Lambert + one GGX lobe to one material. */
 #include "fit/ggx.h"
 
+#include "core/frame.h"
+#include "core/microfacet.h"
 #include "fit/adam.h"
 
 #include <math.h>
@@ -13,6 +15,10 @@ enum {
     REFINE_STEPS = 250,
     REFINE_TILES = 96
 };
+
+/* SMAPE saturates: far from the data it is flat, and the channels of a grey lobe then settle on
+ * different colours. A share of log-L1, which never does, decides. */
+#define FINAL_MIX 0.7f
 
 static float clampf(float x, float low, float high)
 {
@@ -62,7 +68,7 @@ static double loss_of(const fit_kernel *kernel, const fit_pool *pool, int materi
     return sum * (double)scale;
 }
 
-/* Adam from p on; p ends as the best state seen. Returns its loss with mix = 1. */
+/* Adam from p on; p ends as the best state seen. Returns its loss. */
 static double descend(const fit_kernel *kernel, const fit_pool *pool, int material, int isotropic,
                       int tiles, int steps, double rate, float *p)
 {
@@ -71,9 +77,9 @@ static double descend(const fit_kernel *kernel, const fit_pool *pool, int materi
     double least = INFINITY;
     for (int step = 1; step <= steps + 1; step++) {
         double share = (double)step / steps;
-        float mix = (float)fmin(1.0, 2.0 * share);
+        float mix = FINAL_MIX * (float)fmin(1.0, 2.0 * share);
         double loss = loss_of(kernel, pool, material, tiles, mix, p, gradient);
-        if (mix >= 1.0f && loss < least) {
+        if (mix >= FINAL_MIX && loss < least) {
             least = loss;
             memcpy(best, p, sizeof best);
         }
@@ -87,6 +93,84 @@ static double descend(const fit_kernel *kernel, const fit_pool *pool, int materi
     }
     memcpy(p, best, sizeof best);
     return least;
+}
+
+/* ---- Diffuse and reflectance of one channel
+ * ---------------------------------------------------------- With the lobe given, kd and eta of a
+ * channel are found by search: its loss has several minima in them (a dark channel may be read as
+ * diffuse or as the lobe's tail) where Adam stays in the nearest. */
+
+enum { SEARCH_PAIRS = SCOUT_TILES * FIT_TILE, SEARCH_KD = 25, SEARCH_ETA = 17 };
+
+typedef struct lobe {
+    float specular[SEARCH_PAIRS], c[SEARCH_PAIRS]; /* D V V and wi.h of every pair */
+    int pairs;
+} lobe;
+
+static void lobe_make(const fit_pool *pool, int material, int tiles, const float *p, lobe *l)
+{
+    hnbrdf_material m;
+    hnbrdf_fit_ggx_material(p, &m);
+    hnbrdf_frame frame = hnbrdf_frame_of(&m);
+    l->pairs = tiles * FIT_TILE;
+    for (int k = 0; k < l->pairs; k++) {
+        fit_tile tile = hnbrdf_fit_pool_view(pool, material, k / FIT_TILE);
+        int b = k % FIT_TILE;
+        const float wi[3] = {tile.wi[b], tile.wi[FIT_TILE + b], tile.wi[2 * FIT_TILE + b]};
+        const float wo[3] = {tile.wo[b], tile.wo[FIT_TILE + b], tile.wo[2 * FIT_TILE + b]};
+        float i[3], o[3];
+        hnbrdf_to_tangent(frame, wi, i);
+        hnbrdf_to_tangent(frame, wo, o);
+        hnbrdf_pair pair = hnbrdf_pair_make(i, o);
+        l->specular[k] = hnbrdf_specular(&pair, m.alpha[0], m.alpha[1]);
+        l->c[k] = pair.c;
+    }
+}
+
+static double channel_loss(const float *reflected, const float *target, int pairs, float kd)
+{
+    double sum = 0.0;
+    for (int k = 0; k < pairs; k++) {
+        float f = kd * HNBRDF_INV_PI + reflected[k], t = target[k];
+        float smape = 2.0f * fabsf(f - t) / (f + t + (float)FIT_SMAPE_OFFSET);
+        float ratio = hnbrdf_log((f + (float)FIT_LOG_OFFSET) / (t + (float)FIT_LOG_OFFSET));
+        sum += (double)(FINAL_MIX * smape + (1.0f - FINAL_MIX) * fabsf(ratio));
+    }
+    return sum;
+}
+
+/* Moves kd and eta of every channel to the best of a grid, if that is better than where they are. */
+static void search_channels(const fit_pool *pool, int material, int tiles, float *p)
+{
+    lobe l;
+    lobe_make(pool, material, tiles, p, &l);
+    for (int c = 0; c < 3; c++) {
+        float target[SEARCH_PAIRS], reflected[SEARCH_PAIRS];
+        float best_kd = p[FIT_KD + c], best_eta = p[FIT_ETA + c];
+        double least = INFINITY;
+        for (int k = 0; k < l.pairs; k++)
+            target[k] =
+                hnbrdf_fit_pool_view(pool, material, k / FIT_TILE).target[c * FIT_TILE + k % FIT_TILE];
+        for (int e = -1; e < SEARCH_ETA; e++) { /* -1: where it is; then eta - 1 from 0.01 to 90 */
+            float above = e < 0 ? p[FIT_ETA + c] : logf(0.01f) + 9.1f * (float)e / (SEARCH_ETA - 1);
+            for (int k = 0; k < l.pairs; k++)
+                reflected[k] = hnbrdf_fresnel_dielectric(1.0f + expf(above), l.c[k]) * l.specular[k];
+            for (int d = -1; d < SEARCH_KD; d++) { /* -1: where it is; 0; then 1e-3 to 1 */
+                float kd =
+                    d < 0
+                        ? p[FIT_KD + c]
+                        : (d == 0 ? 0.0f : expf(-6.9f * (float)(SEARCH_KD - 1 - d) / (SEARCH_KD - 2)));
+                double loss = channel_loss(reflected, target, l.pairs, kd);
+                if (loss < least) {
+                    least = loss;
+                    best_kd = kd;
+                    best_eta = above;
+                }
+            }
+        }
+        p[FIT_KD + c] = best_kd;
+        p[FIT_ETA + c] = best_eta;
+    }
 }
 
 /* Start k of the search; 0 when there are no more. */
@@ -142,6 +226,7 @@ double hnbrdf_fit_ggx(const fit_kernel *kernel, const fit_pool *pool, int materi
     int best = -1;
     double least = INFINITY;
     for (int i = 0; i < KEEP && losses[i] < INFINITY; i++) {
+        search_channels(pool, material, scouts, kept[i]);
         double loss = descend(kernel, pool, material, isotropic, refiners, REFINE_STEPS, 0.03, kept[i]);
         if (best < 0 || loss < least) {
             best = i;
