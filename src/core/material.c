@@ -1,5 +1,6 @@
-/* material.c: make and check a material. */
+/* material.c: make, check and interpolate a material. */
 #include "core/error.h"
+#include "core/math.h"
 
 #include <math.h>
 #include <string.h>
@@ -44,4 +45,64 @@ hnbrdf_result hnbrdf_material_check(const hnbrdf_material *material, hnbrdf_erro
             return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT, "latent[%d] is %g, expected a finite number",
                                i, (double)material->latent[i]);
     return HNBRDF_OK;
+}
+
+/* Never outside its two ends, whatever rounding does; a where both are equal. */
+static float between(float value, float a, float b)
+{
+    return a < b ? hnbrdf_clamp(value, a, b) : hnbrdf_clamp(value, b, a);
+}
+
+static float mix_linear(float a, float b, float t)
+{
+    return between((1.0f - t) * a + t * b, a, b);
+}
+
+static float mix_log(float a, float b, float t)
+{
+    return between(hnbrdf_exp(mix_linear(hnbrdf_log(a), hnbrdf_log(b), t)), a, b);
+}
+
+/* Amplitude r = (eta - 1)/(eta + 1), reflectance r^2 and transmittance 1 - r^2 = 4 eta/(eta + 1)^2, so
+ * that eta = (1 + r)^2/(1 - r^2) is free of cancellation for metals too. */
+static float mix_eta(float a, float b, float t)
+{
+    float ra = (a - 1.0f) / (a + 1.0f), rb = (b - 1.0f) / (b + 1.0f);
+    float ta = 4.0f * a / ((a + 1.0f) * (a + 1.0f)), tb = 4.0f * b / ((b + 1.0f) * (b + 1.0f));
+    float r = sqrtf(mix_linear(ra * ra, rb * rb, t));
+    return between((1.0f + r) * (1.0f + r) / mix_linear(ta, tb, t), a, b);
+}
+
+static int is_isotropic(const hnbrdf_material *material)
+{
+    return material->alpha[0] == material->alpha[1];
+}
+
+static float mix_rotation(const hnbrdf_material *a, const hnbrdf_material *b, float t)
+{
+    const double pi = 3.14159265358979324, to_whole = 6755399441055744.0; /* 1.5 * 2^52 */
+    if (is_isotropic(a) != is_isotropic(b))
+        return is_isotropic(a) ? b->rotation : a->rotation;
+    double angle = (double)b->rotation - (double)a->rotation;
+    double half_turns = (angle / pi + to_whole) - to_whole; /* rounded to nearest */
+    return (float)((double)a->rotation + (double)t * (angle - half_turns * pi));
+}
+
+void hnbrdf_material_mix(const hnbrdf_material *a, const hnbrdf_material *b, float t, hnbrdf_material *out)
+{
+    hnbrdf_material mixed;
+    if (!(t > 0.0f && t < 1.0f)) {
+        *out = t >= 1.0f ? *b : *a;
+        return;
+    }
+    for (int c = 0; c < 3; c++) {
+        mixed.kd[c] = mix_linear(a->kd[c], b->kd[c], t);
+        mixed.eta[c] = mix_eta(a->eta[c], b->eta[c], t);
+    }
+    for (int c = 0; c < 2; c++)
+        mixed.alpha[c] = mix_log(a->alpha[c], b->alpha[c], t);
+    mixed.rotation = mix_rotation(a, b, t);
+    for (int i = 0; i < HNBRDF_MAX_LATENT; i++)
+        mixed.latent[i] = mix_linear(a->latent[i], b->latent[i], t);
+    *out = mixed;
 }

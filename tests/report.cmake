@@ -1,0 +1,2 @@
+# Editing, mixing and the accuracy report.
+hnbrdf_test(test_edit test_edit.c)
