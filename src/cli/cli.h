@@ -18,6 +18,8 @@ int cmd_export(int argc, char **argv);
 int cmd_verify(int argc, char **argv);
 int cmd_render(int argc, char **argv);
 int cmd_sheet(int argc, char **argv);
+int cmd_edit(int argc, char **argv);
+int cmd_mix(int argc, char **argv);
 int cmd_import(int argc, char **argv);
 int cmd_info(int argc, char **argv);
 

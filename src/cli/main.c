@@ -19,6 +19,8 @@ static const subcommand subcommands[] = {
     {"verify", cmd_verify, "prove on a GPU that the exported shader equals the C library"},
     {"render", cmd_render, "picture of a sphere under an environment map"},
     {"sheet", cmd_sheet, "contact sheet: reference, GGX alone and model, side by side"},
+    {"edit", cmd_edit, "change a material: colour, refraction, roughness, angle"},
+    {"mix", cmd_mix, "materials between two of a model"},
     {"import", cmd_import, "published .brdf shaders to a model file"},
 };
 enum { SUBCOMMANDS = sizeof subcommands / sizeof subcommands[0] };
