@@ -69,7 +69,9 @@ static double formula(const char *name, const uint64_t *index, test_circle circl
         return 1 + (double)((3 * p + 5 * t + 2 * index[3] + 7 * index[2]) % 11);
     if (strcmp(name, "luminance") == 0)
         return 1 + (double)((2 * p + 3 * t + 5 * index[3] + index[2]) % 7);
-    if (strcmp(name, "rgb") == 0)
+    if (strcmp(name, "wavelengths") == 0)
+        return 400.0 + 100.0 * (double)index[0];
+    if (strcmp(name, "rgb") == 0 || strcmp(name, "spectra") == 0)
         return 0.05 * (double)(1 + (p + 2 * t + 3 * index[2] + 5 * index[4] + 7 * index[3]) % 13) - 0.1;
     return 1.0; /* jacobian and the fields that are not read */
 }
@@ -88,10 +90,11 @@ static void put_field(unsigned char *p, const test_field *field, test_circle cir
     }
 }
 
-test_bytes test_rgl(test_circle circle)
+/* Without fields of rank 0: they are not asked for. */
+static test_bytes make_file(test_circle circle, int rgb, int spectra)
 {
     uint64_t p = circle == TEST_ISOTROPIC ? 1 : 5;
-    const test_field fields[] = {
+    const test_field wanted[] = {
         {"description", TYPE_U8, 1, {7}},
         {"theta_i", TYPE_F32, 1, {3}},
         {"phi_i", TYPE_F32, 1, {p}},
@@ -99,12 +102,18 @@ test_bytes test_rgl(test_circle circle)
         {"sigma", TYPE_F32, 2, {3, 4}},
         {"vndf", TYPE_F32, 4, {p, 3, 6, 5}},
         {"luminance", TYPE_F32, 4, {p, 3, 4, 4}},
-        {"rgb", TYPE_F32, 5, {p, 3, 3, 4, 4}},
+        {"rgb", TYPE_F32, rgb ? 5 : 0, {p, 3, 3, 4, 4}},
+        {"spectra", TYPE_F32, spectra ? 5 : 0, {p, 3, 4, 4, 4}},
+        {"wavelengths", TYPE_F32, spectra ? 1 : 0, {4}},
         {"jacobian", TYPE_U8, 1, {1}},
         {"version", TYPE_U32, 1, {2}},
         {"spare", TYPE_U8, 1, {3}},
     };
-    size_t count = sizeof fields / sizeof fields[0], header = 18;
+    test_field fields[sizeof wanted / sizeof wanted[0]];
+    size_t count = 0, header = 18;
+    for (size_t i = 0; i < sizeof wanted / sizeof wanted[0]; i++)
+        if (wanted[i].dims > 0)
+            fields[count++] = wanted[i];
     for (size_t i = 0; i < count; i++)
         header += record_size(&fields[i]);
     size_t size = (header + 7) / 8 * 8;
@@ -132,6 +141,16 @@ test_bytes test_rgl(test_circle circle)
         at += (element_count(field) * type_size(field->type) + 7) / 8 * 8;
     }
     return file;
+}
+
+test_bytes test_rgl(test_circle circle)
+{
+    return make_file(circle, 1, 0);
+}
+
+test_bytes test_rgl_spectral(int with_rgb)
+{
+    return make_file(TEST_WHOLE, with_rgb, 1);
 }
 
 size_t test_record(const test_bytes *file, const char *field)
@@ -172,13 +191,14 @@ static const char PATH[] = "folder/broken_rgb.bsdf";
 
 /* A copy of exactly this size, so that a sanitizer sees every read beyond it. */
 static hnbrdf_result open_exact(const void *data, size_t size, const char *path,
-                                hnbrdf_measured **measured, hnbrdf_error *error)
+                                const hnbrdf_measured_options *options, hnbrdf_measured **measured,
+                                hnbrdf_error *error)
 {
     unsigned char *copy = malloc(size ? size : 1);
     assert_non_null(copy);
     if (size)
         memcpy(copy, data, size);
-    hnbrdf_result result = hnbrdf_measured_open_memory(copy, size, path, NULL, measured, error);
+    hnbrdf_result result = hnbrdf_measured_open_memory(copy, size, path, options, measured, error);
     free(copy);
     return result;
 }
@@ -193,7 +213,7 @@ void expect_refusal(const void *data, size_t size, hnbrdf_result result, const c
 {
     hnbrdf_error error = {""};
     hnbrdf_measured *untouched = (hnbrdf_measured *)&error, *measured = untouched;
-    hnbrdf_result found = open_exact(data, size, PATH, &measured, &error);
+    hnbrdf_result found = open_exact(data, size, PATH, NULL, &measured, &error);
     if (found != result)
         fail_msg("result %d, expected %d (%s): %s", (int)found, (int)result, words, error.text);
     assert_ptr_equal(measured, untouched);
@@ -204,30 +224,47 @@ void expect_refusal(const void *data, size_t size, hnbrdf_result result, const c
 
 hnbrdf_measured *expect_opens(const void *data, size_t size, const char *path)
 {
+    return expect_opens_with(data, size, path, NULL);
+}
+
+hnbrdf_measured *expect_opens_with(const void *data, size_t size, const char *path,
+                                   const hnbrdf_measured_options *options)
+{
     hnbrdf_error error = {""};
     hnbrdf_measured *measured = NULL;
-    if (open_exact(data, size, path, &measured, &error) != HNBRDF_OK)
+    if (open_exact(data, size, path, options, &measured, &error) != HNBRDF_OK)
         fail_msg("%s", error.text);
     return measured;
 }
 
 void expect_sane(const void *data, size_t size)
 {
+    expect_sane_with(data, size, PATH, NULL);
+}
+
+void expect_sane_with(const void *data, size_t size, const char *path,
+                      const hnbrdf_measured_options *options)
+{
     hnbrdf_error error = {""};
     hnbrdf_measured *measured = NULL;
-    if (open_exact(data, size, PATH, &measured, &error) != HNBRDF_OK) {
+    float lowest = options && options->rgl_signed ? -HNBRDF_MAX_VALUE : 0.0f;
+    if (open_exact(data, size, path, options, &measured, &error) != HNBRDF_OK) {
         assert_null(measured);
-        check_message(&error);
+        if (!strstr(error.text, path) || strpbrk(error.text, "\r\n"))
+            fail_msg("not one line naming the file: %s", error.text);
         return;
     }
     hnbrdf_rng rng;
     hnbrdf_rng_seed(&rng, 7, 7);
     for (int i = 0; i < 16; i++) {
-        float wi[3], wo[3], f[3];
+        float wi[3], wo[3], f[3], spectrum[2];
         hnbrdf_sampler_draw((hnbrdf_sampler)(i % 3), &rng, wi, wo);
         hnbrdf_measured_eval(measured, wi, wo, f);
         for (int c = 0; c < 3; c++)
-            assert_true(f[c] >= 0.0f && f[c] <= HNBRDF_MAX_VALUE);
+            assert_true(f[c] >= lowest && f[c] <= HNBRDF_MAX_VALUE);
+        hnbrdf_measured_eval_spectrum(measured, wi, wo, 2, (float[2]){450.0f, 1e30f}, spectrum);
+        for (int c = 0; c < 2; c++)
+            assert_true(fabsf(spectrum[c]) <= HNBRDF_MAX_VALUE);
     }
     hnbrdf_measured_close(measured);
 }

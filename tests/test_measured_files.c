@@ -82,7 +82,7 @@ static void missing_empty_and_foreign_files_are_refused(void **state)
 static void files_above_the_limit_are_refused_at_the_limit(void **state)
 {
     test_bytes file = test_rgl(TEST_ISOTROPIC);
-    hnbrdf_measured_options options = {file.size - 1};
+    hnbrdf_measured_options options = {.max_bytes = file.size - 1};
     hnbrdf_measured *measured = NULL;
     char path[512];
     (void)state;
@@ -101,7 +101,7 @@ static void files_above_the_limit_are_refused_at_the_limit(void **state)
 /* A sparse file of 2 GiB: refused after the limit, not after reading it all. */
 static void a_huge_file_is_refused_without_reading_it_all(void **state)
 {
-    hnbrdf_measured_options options = {3u << 20};
+    hnbrdf_measured_options options = {.max_bytes = 3u << 20};
     char path[512];
     (void)state;
     in_folder(path, "huge.binary");
@@ -180,7 +180,30 @@ static void long_paths_leave_room_for_the_message(void **state)
     assert_int_equal(hnbrdf_measured_open_memory("123456789012", 12, path, NULL, &measured, &error),
                      HNBRDF_ERROR_FORMAT);
     assert_non_null(strstr(error.text, "aaa/last.bsdf: 12 bytes starting with"));
-    assert_non_null(strstr(error.text, "90 90 180)"));
+    assert_non_null(strstr(error.text, "90 90 180) or a UTIA .bin (1990656 bytes)"));
+}
+
+static void options_outside_their_range_are_refused(void **state)
+{
+    const hnbrdf_measured_options bad[] = {{.merl_lookup = (hnbrdf_merl_lookup)2},
+                                           {.merl_node = (hnbrdf_merl_node)7},
+                                           {.utia_mode = (hnbrdf_utia_mode)3},
+                                           {.utia_scale = -1.0},
+                                           {.utia_scale = NAN},
+                                           {.utia_scale = INFINITY}};
+    test_bytes file = test_rgl(TEST_ISOTROPIC);
+    (void)state;
+    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
+        hnbrdf_measured *measured = NULL;
+        hnbrdf_error error = {""};
+        assert_int_equal(
+            hnbrdf_measured_open_memory(file.data, file.size, "x", &bad[i], &measured, &error),
+            HNBRDF_ERROR_ARGUMENT);
+        assert_int_equal(hnbrdf_measured_open("x", &bad[i], &measured, NULL), HNBRDF_ERROR_ARGUMENT);
+        assert_null(measured);
+        assert_non_null(strstr(error.text, "measured options: "));
+    }
+    free(file.data);
 }
 
 static void wrong_arguments_are_refused(void **state)
@@ -256,6 +279,7 @@ int main(void)
         cmocka_unit_test(names_come_from_the_file_name),
         cmocka_unit_test(long_names_are_cut_at_a_character),
         cmocka_unit_test(long_paths_leave_room_for_the_message),
+        cmocka_unit_test(options_outside_their_range_are_refused),
         cmocka_unit_test(wrong_arguments_are_refused),
         cmocka_unit_test(directions_below_the_horizon_or_not_finite_are_no_measurement),
         cmocka_unit_test(the_length_of_directions_does_not_matter),

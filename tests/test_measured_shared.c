@@ -1,6 +1,7 @@
 /* test_measured_shared.c: the readers meet the reference values of real RGL files and of MERL
  * stand-ins. Skipped without the shared data: HNBRDF_DATA_DIR, or the folder beside the checkout. */
 #include "measured_support.h"
+#include "measured/merl_known.h"
 
 #include <sys/stat.h>
 #include <unistd.h>
@@ -43,12 +44,16 @@ typedef struct row {
     double f[3];
 } row;
 
+static int parse_row(const char *line, row *r)
+{
+    return sscanf(line, "%99[^,],%f,%f,%f,%f,%f,%f,%lf,%lf,%lf", r->name, &r->wi[0], &r->wi[1],
+                  &r->wi[2], &r->wo[0], &r->wo[1], &r->wo[2], &r->f[0], &r->f[1], &r->f[2]) == 10;
+}
+
 static int read_row(FILE *file, row *r)
 {
     char line[400];
-    return fgets(line, sizeof line, file) &&
-           sscanf(line, "%99[^,],%f,%f,%f,%f,%f,%f,%lf,%lf,%lf", r->name, &r->wi[0], &r->wi[1],
-                  &r->wi[2], &r->wo[0], &r->wo[1], &r->wo[2], &r->f[0], &r->f[1], &r->f[2]) == 10;
+    return fgets(line, sizeof line, file) && parse_row(line, r);
 }
 
 static double largest(const double f[3])
@@ -86,21 +91,43 @@ static void rgl_files_give_the_reference_values(void **state)
     assert_true(worst <= 1e-4);
 }
 
+/* f wo.z at the four wavelengths, signed, six digits: the reference is a float loader. */
+static void check_spectral(const char *path, const char *line)
+{
+    const hnbrdf_measured_options options = {.rgl_spectra = 1, .rgl_signed = 1};
+    hnbrdf_measured *measured = NULL;
+    float wi[3], wo[3], spectrum[4];
+    double reference[4], most = 0.0;
+    const float *nm = NULL;
+    assert_int_equal(sscanf(line, "%*[^,],%f,%f,%f,%f,%f,%f,%lf,%lf,%lf,%lf", &wi[0], &wi[1], &wi[2],
+                            &wo[0], &wo[1], &wo[2], &reference[0], &reference[1], &reference[2],
+                            &reference[3]),
+                     10);
+    assert_int_equal(hnbrdf_measured_open(path, &options, &measured, NULL), HNBRDF_OK);
+    assert_int_equal(hnbrdf_measured_wavelengths(measured, &nm), 4);
+    assert_int_equal(hnbrdf_measured_eval_spectrum(measured, wi, wo, 4, nm, spectrum), 1);
+    for (int l = 0; l < 4; l++)
+        most = fmax(most, fabs(reference[l]));
+    for (int l = 0; l < 4; l++)
+        assert_true(fabs((double)spectrum[l] * (double)wo[2] - reference[l]) <= 1e-5 * most);
+    hnbrdf_measured_close(measured);
+}
+
 /* f wo.z, six digits. */
 static void synthetic_rgl_files_give_the_reference_values(void **state)
 {
     FILE *file = open_table("synthetic/rgl_synthetic_checkpoints.csv");
-    int rows = 0;
+    char line[400];
+    int rows = 0, spectral = 0;
     row r;
     (void)state;
-    while (read_row(file, &r)) {
+    while (fgets(line, sizeof line, file) && parse_row(line, &r)) {
         char path[600];
         float f[3];
         shared_path(path, "data/synthetic/%s.bsdf", r.name);
         if (strcmp(r.name, "aniso_spec") == 0) {
-            hnbrdf_measured *measured = NULL;
-            assert_int_equal(hnbrdf_measured_open(path, NULL, &measured, NULL),
-                             HNBRDF_ERROR_UNSUPPORTED);
+            check_spectral(path, line);
+            spectral++;
             continue;
         }
         hnbrdf_measured *measured = open_path(path);
@@ -112,6 +139,61 @@ static void synthetic_rgl_files_give_the_reference_values(void **state)
     }
     fclose(file);
     assert_int_equal(rows, 20);
+    assert_int_equal(spectral, 5);
+}
+
+/* Signed f wo.z of the 240 rows: what the default clips, the option keeps. */
+static void rgl_files_keep_their_sign_on_request(void **state)
+{
+    const hnbrdf_measured_options options = {.rgl_signed = 1};
+    FILE *file = open_table("rgl_checkpoints_extra.csv");
+    hnbrdf_measured *measured = NULL;
+    char line[400], name[100], path[600];
+    int rows = 0, negative = 0;
+    (void)state;
+    for (; fgets(line, sizeof line, file); rows++) {
+        float wi[3], wo[3], f[3];
+        double reference[3];
+        assert_int_equal(sscanf(line, "%99[^,],%f,%f,%f,%f,%f,%f,%*f,%*f,%*f,%lf,%lf,%lf", name, &wi[0],
+                                &wi[1], &wi[2], &wo[0], &wo[1], &wo[2], &reference[0], &reference[1],
+                                &reference[2]),
+                         10);
+        if (!measured || strcmp(hnbrdf_measured_name(measured), name) != 0) {
+            hnbrdf_measured_close(measured);
+            shared_path(path, "data/rgl/%s_rgb.bsdf", name);
+            assert_int_equal(hnbrdf_measured_open(path, &options, &measured, NULL), HNBRDF_OK);
+        }
+        hnbrdf_measured_eval(measured, wi, wo, f);
+        double most = fmax(fabs(reference[0]), fmax(fabs(reference[1]), fabs(reference[2])));
+        for (int c = 0; c < 3; c++) {
+            assert_true(fabs((double)f[c] * (double)wo[2] - reference[c]) <= 1e-4 * most);
+            negative += f[c] < 0.0f;
+        }
+    }
+    hnbrdf_measured_close(measured);
+    fclose(file);
+    print_message("    %d negative values\n", negative);
+    assert_int_equal(rows, 240);
+    assert_true(negative > 8);
+}
+
+/* The table in the library against the list it was made from. */
+static void published_checksums_are_those_of_the_list(void **state)
+{
+    char path[600], digest[65], file_name[100];
+    int rows = 0;
+    (void)state;
+    shared_path(path, "data/MERL.sha256");
+    FILE *file = fopen(path, "r");
+    assert_non_null(file);
+    for (; fscanf(file, "%64s %99s", digest, file_name) == 2; rows++) {
+        const char *name = hnbrdf_merl_known_digest(digest);
+        assert_non_null(name);
+        *strstr(file_name, ".binary") = 0;
+        assert_string_equal(name, file_name);
+    }
+    fclose(file);
+    assert_int_equal(rows, 100);
 }
 
 /* ---- MERL stand-ins, decoded by the program in shared/tools -----------------------------------------
@@ -244,6 +326,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(rgl_files_give_the_reference_values),
         cmocka_unit_test(synthetic_rgl_files_give_the_reference_values),
+        cmocka_unit_test(rgl_files_keep_their_sign_on_request),
+        cmocka_unit_test(published_checksums_are_those_of_the_list),
         cmocka_unit_test(merl_stand_in_alum_bronze_gives_the_reference_values),
         cmocka_unit_test(merl_stand_in_gold_metallic_paint_gives_the_reference_values),
         cmocka_unit_test(merl_stand_in_red_phenolic_gives_the_reference_values),

@@ -1,11 +1,12 @@
 /* measured.h: measured and procedural BRDFs behind one interface (libhnbrdf_measured).
  *
  * Convention, units and errors are those of hnbrdf.h: wi towards the light, wo towards the viewer,
- * both away from the surface; f in 1/sr without the cosine, linear RGB, never negative or NaN.
+ * both away from the surface; f in 1/sr without the cosine, linear RGB, never NaN, and never negative
+ * unless rgl_signed asks for it.
  *
- * Formats: MERL .binary (Matusik et al. 2003; nearest bin), RGL .bsdf in the RGB editions, isotropic and
- * anisotropic (Dupuy and Jakob 2018), and built-in procedural materials. Spectral RGL files are refused
- * with HNBRDF_ERROR_UNSUPPORTED. A file is recognised by its content, not by its name.
+ * Formats: MERL .binary (Matusik et al. 2003), RGL .bsdf, isotropic and anisotropic, RGB and spectral
+ * (Dupuy and Jakob 2018), UTIA .bin (Filip and Vavra 2014; 150 anisotropic materials), and built-in
+ * procedural materials. A file is recognised by its content; a UTIA file, which has no header, by its size.
  */
 #ifndef HNBRDF_MEASURED_H
 #define HNBRDF_MEASURED_H
@@ -21,18 +22,53 @@ extern "C" {
 typedef enum hnbrdf_measured_format {
     HNBRDF_MEASURED_BUILTIN = 0,
     HNBRDF_MEASURED_MERL,
-    HNBRDF_MEASURED_RGL
+    HNBRDF_MEASURED_RGL,
+    HNBRDF_MEASURED_UTIA
 } hnbrdf_measured_format;
 
-/* "builtin", "MERL", "RGL". */
+/* "builtin", "MERL", "RGL", "UTIA"; NULL for any other value. */
 HNBRDF_API const char *hnbrdf_measured_format_name(hnbrdf_measured_format format);
 
 /* One measured material. Immutable after opening, may be shared between threads. */
 typedef struct hnbrdf_measured hnbrdf_measured;
 
-/* Zero-initialise for defaults. */
+typedef enum hnbrdf_merl_lookup {
+    HNBRDF_MERL_NEAREST = 0, /* the bin that holds the directions, as the database's own code */
+    HNBRDF_MERL_TRILINEAR    /* between 8 bins; those without a measurement are left out */
+} hnbrdf_merl_lookup;
+
+/* Where in its bin a sample counts as taken, for the trilinear lookup. No source settles it; the choice
+ * moves theta_h by half a bin (21 % at 0.3, 5 % at 4.4 degrees), enough to bias a fitted roughness. */
+typedef enum hnbrdf_merl_node {
+    HNBRDF_MERL_CENTRE = 0,
+    HNBRDF_MERL_EDGE /* the lower edge in all three angles */
+} hnbrdf_merl_node;
+
+/* What the numbers of a UTIA file mean. Public readers disagree, so the absolute scale of UTIA data is
+ * uncertain. v: a sample; f is never negative. */
+typedef enum hnbrdf_utia_mode {
+    HNBRDF_UTIA_DJB = 0, /* f = 100 decode(max(v, 0) / 140), decoded after interpolation (J. Dupuy's dj_brdf,
+                            which credits the data's author): v > 0.0375 ? ((v+0.055)/1.055)^2.4 : v/12.92 */
+    HNBRDF_UTIA_RAW,     /* f = v */
+    HNBRDF_UTIA_SRGB     /* f = v through the inverse sRGB curve, sample by sample */
+} hnbrdf_utia_mode;
+
+/* Zero-initialise for defaults. A value outside its range is HNBRDF_ERROR_ARGUMENT on opening. */
 typedef struct hnbrdf_measured_options {
     size_t max_bytes; /* refuse larger files; 0 stands for 1 GiB */
+    hnbrdf_merl_lookup merl_lookup;
+    hnbrdf_merl_node merl_node;
+    int merl_identify; /* 1: compare the SHA-256 of a MERL file with the published ones, see
+                          hnbrdf_measured_published(); takes about 0.2 s a file */
+    int rgl_signed;    /* 1: keep negative colours, which lie outside the gamut, for colour transforms and
+                          for export; models and fits know no negative f */
+    int rgl_spectra;   /* 1: where a file has spectra, use them even if it has RGB too, and keep them for
+                          hnbrdf_measured_eval_spectrum() (as much memory as the file). 0: RGB if there is,
+                          otherwise spectra made RGB and dropped */
+    hnbrdf_utia_mode utia_mode;
+    double utia_scale;       /* f is multiplied by it; 0 stands for 1, negative is refused */
+    int utia_no_extrapolate; /* 1: beyond the last sample at 75 degrees use its value. 0: go on linearly
+                                from the last two, as all readers that descend from the author's do */
 } hnbrdf_measured_options;
 
 /* Open a file; its material's name is the file's name without directory, extension and a trailing
@@ -61,15 +97,29 @@ HNBRDF_API hnbrdf_measured_format hnbrdf_measured_format_of(const hnbrdf_measure
 /* 1 if turning wi and wo together about n never changes the value. Of an RGL file: whether its tables
  * leave out the azimuth of wi altogether. */
 HNBRDF_API int hnbrdf_measured_is_isotropic(const hnbrdf_measured *measured);
-/* One line about what the file holds (grid sizes, valid share, negatives); for people. */
+/* One line about what the file holds and how it is read (grid sizes, valid share, negatives; of a UTIA file
+ * also its directional albedo); for people. */
 HNBRDF_API const char *hnbrdf_measured_summary(const hnbrdf_measured *measured);
+/* The material of the MERL database whose published file this is, to the last bit ("alum-bronze"); NULL if
+ * it is none of the 100, or was opened without merl_identify. */
+HNBRDF_API const char *hnbrdf_measured_published(const hnbrdf_measured *measured);
 
 /* f(wi, wo). Returns 1 if this is a valid measurement; 0 with f = 0 if it is not: below the horizon,
  * a bin that was never measured, a half vector that an RGL file calls invisible, directions that are not
- * finite. Fits and error metrics skip those. Colours outside the gamut are clipped to 0 per channel and
- * are valid. The length of the directions is divided out. */
+ * finite. Fits and error metrics skip those. Colours outside the gamut are clipped to 0 per channel
+ * (unless rgl_signed) and are valid. The length of the directions is divided out.
+ * Spectra become linear sRGB by the CIE 1931 2-degree observer under D65; a flat one has R = G = B. */
 HNBRDF_API int hnbrdf_measured_eval(const hnbrdf_measured *measured, const float wi[3],
                                     const float wo[3], float f[3]);
+
+/* The wavelengths in nm, increasing, of an RGL material opened with rgl_spectra; 0 if it has no spectra. *nm
+ * lives as long as the material; it is untouched if there is none, and nm may be NULL. */
+HNBRDF_API size_t hnbrdf_measured_wavelengths(const hnbrdf_measured *measured, const float **nm);
+/* f at `count` wavelengths in nm, finite, in any order: linear between those of the file, the end values
+ * beyond them. Never clipped at 0: noise makes some negative. Returns as hnbrdf_measured_eval(); 0 with f = 0
+ * also if there are no spectra. */
+HNBRDF_API int hnbrdf_measured_eval_spectrum(const hnbrdf_measured *measured, const float wi[3],
+                                             const float wo[3], size_t count, const float *nm, float *f);
 
 /* ---- Where to look: the three samplers every error figure must name ----------------------------- */
 

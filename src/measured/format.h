@@ -12,18 +12,33 @@ typedef struct measured_body {
     int (*eval)(const void *data, const double wi[3], const double wo[3], double f[3]);
     void (*release)(void *data);
     int isotropic;
+    int is_signed; /* negative values are kept: the caller clamps to +-HNBRDF_MAX_VALUE */
     char summary[256];
+    /* Only of spectral data, else 0 and NULL: f at `count` wavelengths; likewise. */
+    size_t wavelength_count;
+    const float *wavelengths;
+    int (*eval_spectrum)(const void *data, const double wi[3], const double wo[3], size_t count,
+                         const float *nm, float *f);
 } measured_body;
 
 /* Each reader: does the content claim this format (then every further complaint is about it), and
- * read it. `label` names the file in messages. The bytes are not needed afterwards. */
+ * read it. `label` names the file in messages. The bytes are not needed afterwards. `options` is never
+ * NULL, has been checked, and has its defaults filled in. */
 int hnbrdf_merl_recognise(const unsigned char *bytes, size_t size);
 hnbrdf_result hnbrdf_merl_open(const unsigned char *bytes, size_t size, const char *label,
-                               measured_body *body, hnbrdf_error *error);
+                               const hnbrdf_measured_options *options, measured_body *body,
+                               hnbrdf_error *error);
 
 int hnbrdf_rgl_recognise(const unsigned char *bytes, size_t size);
 hnbrdf_result hnbrdf_rgl_open(const unsigned char *bytes, size_t size, const char *label,
-                              measured_body *body, hnbrdf_error *error);
+                              const hnbrdf_measured_options *options, measured_body *body,
+                              hnbrdf_error *error);
+
+/* A file without a header: recognised by its size, and as a failed one by a label that ends in ".bin". */
+int hnbrdf_utia_recognise(size_t size, const char *label);
+hnbrdf_result hnbrdf_utia_open(const unsigned char *bytes, size_t size, const char *label,
+                               const hnbrdf_measured_options *options, measured_body *body,
+                               hnbrdf_error *error);
 
 /* index is in range. */
 hnbrdf_result hnbrdf_builtin_open(int index, measured_body *body, hnbrdf_error *error);

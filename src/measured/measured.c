@@ -1,6 +1,7 @@
 /* measured.c: open a measured material from a file, from memory or from the built-in list, and ask it
  * for values. Which format it is, is decided here by content; everything else lies in the formats. */
 #include "measured/format.h"
+#include "measured/merl_known.h"
 #include "core/error.h"
 
 #include <math.h>
@@ -17,6 +18,7 @@ static const size_t DEFAULT_MAX_BYTES = (size_t)1 << 30;
 struct hnbrdf_measured {
     hnbrdf_measured_format format;
     measured_body body;
+    const char *published; /* or NULL */
     char name[HNBRDF_MAX_NAME + 1];
 };
 
@@ -103,9 +105,33 @@ static void make_name(char name[HNBRDF_MAX_NAME + 1], const char *path)
 
 /* ---- Opening ------------------------------------------------------------------------------------- */
 
-static size_t limit_of(const hnbrdf_measured_options *options)
+/* given, or the defaults where it is NULL or has 0s that stand for something else. */
+static hnbrdf_result settle_options(const hnbrdf_measured_options *given,
+                                    hnbrdf_measured_options *options, hnbrdf_error *error)
 {
-    return options && options->max_bytes ? options->max_bytes : DEFAULT_MAX_BYTES;
+    hnbrdf_measured_options settled = {0};
+    if (given)
+        settled = *given;
+    int known =
+        (settled.merl_lookup == HNBRDF_MERL_NEAREST || settled.merl_lookup == HNBRDF_MERL_TRILINEAR) &&
+        (settled.merl_node == HNBRDF_MERL_CENTRE || settled.merl_node == HNBRDF_MERL_EDGE) &&
+        (settled.utia_mode == HNBRDF_UTIA_DJB || settled.utia_mode == HNBRDF_UTIA_RAW ||
+         settled.utia_mode == HNBRDF_UTIA_SRGB);
+    if (!known)
+        return hnbrdf_fail(
+            error, HNBRDF_ERROR_ARGUMENT,
+            "measured options: merl_lookup %d, merl_node %d, utia_mode %d, expected values "
+            "of their enums",
+            (int)settled.merl_lookup, (int)settled.merl_node, (int)settled.utia_mode);
+    if (!(settled.utia_scale >= 0.0 && settled.utia_scale <= (double)HNBRDF_MAX_VALUE))
+        return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT,
+                           "measured options: utia_scale is negative or not finite, expected a factor");
+    if (settled.utia_scale == 0.0)
+        settled.utia_scale = 1.0;
+    if (settled.max_bytes == 0)
+        settled.max_bytes = DEFAULT_MAX_BYTES;
+    *options = settled;
+    return HNBRDF_OK;
 }
 
 /* Everything up to the end of the stream, at most limit bytes, into *bytes (malloc'ed, also when
@@ -147,8 +173,8 @@ static hnbrdf_result unrecognised(const unsigned char *bytes, size_t size, const
                                   hnbrdf_error *error)
 {
     static const char expected[] =
-        "expected an RGL .bsdf (starts with \"tensor_file\") or a MERL .binary "
-        "(starts with the sizes 90 90 180)";
+        "expected an RGL .bsdf (starts with \"tensor_file\"), a MERL .binary "
+        "(starts with the sizes 90 90 180) or a UTIA .bin (1990656 bytes)";
     if (size == 0)
         return hnbrdf_fail(error, HNBRDF_ERROR_FORMAT, "%s: empty, %s", label, expected);
     char start[3 * 12 + 1] = "";
@@ -159,26 +185,34 @@ static hnbrdf_result unrecognised(const unsigned char *bytes, size_t size, const
 }
 
 static hnbrdf_result open_bytes(const unsigned char *bytes, size_t size, const char *label,
-                                hnbrdf_measured *measured, hnbrdf_error *error)
+                                const hnbrdf_measured_options *options, hnbrdf_measured *measured,
+                                hnbrdf_error *error)
 {
     if (hnbrdf_rgl_recognise(bytes, size)) {
         measured->format = HNBRDF_MEASURED_RGL;
-        return hnbrdf_rgl_open(bytes, size, label, &measured->body, error);
+        return hnbrdf_rgl_open(bytes, size, label, options, &measured->body, error);
     }
     if (hnbrdf_merl_recognise(bytes, size)) {
         measured->format = HNBRDF_MEASURED_MERL;
-        return hnbrdf_merl_open(bytes, size, label, &measured->body, error);
+        if (options->merl_identify)
+            measured->published = hnbrdf_merl_known(bytes, size);
+        return hnbrdf_merl_open(bytes, size, label, options, &measured->body, error);
+    }
+    if (hnbrdf_utia_recognise(size, label)) {
+        measured->format = HNBRDF_MEASURED_UTIA;
+        return hnbrdf_utia_open(bytes, size, label, options, &measured->body, error);
     }
     return unrecognised(bytes, size, label, error);
 }
 
 static hnbrdf_result open_labelled(const unsigned char *bytes, size_t size, const char *path,
-                                   const char *label, hnbrdf_measured **measured, hnbrdf_error *error)
+                                   const char *label, const hnbrdf_measured_options *options,
+                                   hnbrdf_measured **measured, hnbrdf_error *error)
 {
     hnbrdf_measured *opened = calloc(1, sizeof *opened);
     if (!opened)
         return hnbrdf_fail(error, HNBRDF_ERROR_MEMORY, "%s: out of memory", label);
-    hnbrdf_result result = open_bytes(bytes, size, label, opened, error);
+    hnbrdf_result result = open_bytes(bytes, size, label, options, opened, error);
     if (result) {
         free(opened);
         return result;
@@ -195,16 +229,20 @@ hnbrdf_result hnbrdf_measured_open(const char *path, const hnbrdf_measured_optio
         return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT,
                            "hnbrdf_measured_open: path or result is NULL");
     char label[LABEL_SIZE];
+    hnbrdf_measured_options settled;
+    hnbrdf_result result = settle_options(options, &settled, error);
+    if (result)
+        return result;
     make_label(label, path);
     FILE *stream = fopen(path, "rb");
     if (!stream)
         return hnbrdf_fail(error, HNBRDF_ERROR_IO, "%s: cannot be opened for reading", label);
     unsigned char *bytes = NULL;
     size_t size = 0;
-    hnbrdf_result result = read_stream(stream, limit_of(options), label, &bytes, &size, error);
+    result = read_stream(stream, settled.max_bytes, label, &bytes, &size, error);
     fclose(stream);
     if (!result)
-        result = open_labelled(bytes, size, path, label, measured, error);
+        result = open_labelled(bytes, size, path, label, &settled, measured, error);
     free(bytes);
     return result;
 }
@@ -217,11 +255,15 @@ hnbrdf_result hnbrdf_measured_open_memory(const void *data, size_t size, const c
         return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT,
                            "hnbrdf_measured_open_memory: data, path or result is NULL");
     char label[LABEL_SIZE];
+    hnbrdf_measured_options settled;
+    hnbrdf_result result = settle_options(options, &settled, error);
+    if (result)
+        return result;
     make_label(label, path);
-    if (size > limit_of(options))
+    if (size > settled.max_bytes)
         return hnbrdf_fail(error, HNBRDF_ERROR_LIMIT, "%s: %zu bytes, larger than the limit of %zu",
-                           label, size, limit_of(options));
-    return open_labelled(data, size, path, label, measured, error);
+                           label, size, settled.max_bytes);
+    return open_labelled(data, size, path, label, &settled, measured, error);
 }
 
 hnbrdf_result hnbrdf_measured_open_builtin(int index, hnbrdf_measured **measured, hnbrdf_error *error)
@@ -264,6 +306,8 @@ const char *hnbrdf_measured_format_name(hnbrdf_measured_format format)
         return "MERL";
     case HNBRDF_MEASURED_RGL:
         return "RGL";
+    case HNBRDF_MEASURED_UTIA:
+        return "UTIA";
     }
     return NULL;
 }
@@ -288,6 +332,18 @@ const char *hnbrdf_measured_summary(const hnbrdf_measured *measured)
     return measured->body.summary;
 }
 
+const char *hnbrdf_measured_published(const hnbrdf_measured *measured)
+{
+    return measured->published;
+}
+
+size_t hnbrdf_measured_wavelengths(const hnbrdf_measured *measured, const float **nm)
+{
+    if (nm && measured->body.wavelength_count)
+        *nm = measured->body.wavelengths;
+    return measured->body.wavelength_count;
+}
+
 /* The unit vector along w in double precision; 0 if w is not finite or not above the horizon. */
 static int unit_above_horizon(const float w[3], double unit[3])
 {
@@ -300,6 +356,14 @@ static int unit_above_horizon(const float w[3], double unit[3])
     return 1;
 }
 
+/* Within [lowest, HNBRDF_MAX_VALUE]; NaN is 0. */
+static float clamp_value(double value, float lowest)
+{
+    if (!(value > (double)lowest))
+        return value <= (double)lowest ? lowest : 0.0f;
+    return value < (double)HNBRDF_MAX_VALUE ? (float)value : HNBRDF_MAX_VALUE;
+}
+
 int hnbrdf_measured_eval(const hnbrdf_measured *measured, const float wi[3], const float wo[3],
                          float f[3])
 {
@@ -309,7 +373,18 @@ int hnbrdf_measured_eval(const hnbrdf_measured *measured, const float wi[3], con
         !measured->body.eval(measured->body.data, i, o, value))
         return 0;
     for (int c = 0; c < 3; c++)
-        if (value[c] > 0.0)
-            f[c] = value[c] < (double)HNBRDF_MAX_VALUE ? (float)value[c] : HNBRDF_MAX_VALUE;
+        f[c] = clamp_value(value[c], measured->body.is_signed ? -HNBRDF_MAX_VALUE : 0.0f);
     return 1;
+}
+
+int hnbrdf_measured_eval_spectrum(const hnbrdf_measured *measured, const float wi[3], const float wo[3],
+                                  size_t count, const float *nm, float *f)
+{
+    double i[3], o[3];
+    if (measured->body.eval_spectrum && unit_above_horizon(wi, i) && unit_above_horizon(wo, o) &&
+        measured->body.eval_spectrum(measured->body.data, i, o, count, nm, f))
+        return 1;
+    for (size_t k = 0; k < count; k++)
+        f[k] = 0.0f;
+    return 0;
 }

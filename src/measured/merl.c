@@ -1,5 +1,5 @@
 /* merl.c: MERL .binary tables (Matusik et al. 2003): 90 x 90 x 180 bins over the half and difference
- * angles of Rusinkiewicz 1998. Nearest bin, as the database's own code looks up. */
+ * angles of Rusinkiewicz 1998. Nearest bin, as the database's own code looks up, or trilinear. */
 #include "measured/format.h"
 #include "measured/bytes.h"
 #include "core/error.h"
@@ -24,6 +24,7 @@ static const double SCALE[3] = {1.00 / 1500.0, 1.15 / 1500.0, 1.66 / 1500.0};
 
 /* f per bin; a bin that holds no measurement has a negative red. phi_d is the fastest axis. */
 typedef struct merl_table {
+    double node; /* where in its bin a sample counts as taken: 0.5 centre, 0 lower edge */
     float f[BINS][3];
 } merl_table;
 
@@ -32,10 +33,11 @@ static int min_int(int a, int b)
     return a < b ? a : b;
 }
 
-/* The bin of two unit vectors above the horizon. With h the half vector, t and b the frame that
- * carries z to h, wi.t = (wi - wo).t / 2: swapping wi and wo negates both components to the last
- * bit, and the fold to [0, pi) makes the bin the same. */
-static int bin_of(const double wi[3], const double wo[3])
+/* The place of two unit vectors above the horizon among the bins: their lower edges are at whole
+ * numbers. With h the half vector, t and b the frame that carries z to h, wi.t = (wi - wo).t / 2:
+ * swapping wi and wo negates both components to the last bit, and the fold to [0, pi) makes the place
+ * the same. */
+static void locate(const double wi[3], const double wo[3], double place[3])
 {
     double s[3] = {wi[0] + wo[0], wi[1] + wo[1], wi[2] + wo[2]};
     double d[3] = {wi[0] - wo[0], wi[1] - wo[1], wi[2] - wo[2]};
@@ -56,18 +58,80 @@ static int bin_of(const double wi[3], const double wo[3])
     }
     double phi_d = y == 0.0 ? 0.0 : atan2(y, x); /* pi is 0 */
 
-    int i = min_int((int)(THETA_H_BINS * sqrt(theta_h / (PI / 2))), THETA_H_BINS - 1);
-    int j = min_int((int)(THETA_D_BINS * theta_d / (PI / 2)), THETA_D_BINS - 1);
-    int k = min_int((int)(PHI_D_BINS * phi_d / PI), PHI_D_BINS - 1);
+    place[0] = THETA_H_BINS * sqrt(theta_h / (PI / 2));
+    place[1] = THETA_D_BINS * theta_d / (PI / 2);
+    place[2] = PHI_D_BINS * phi_d / PI;
+}
+
+static int bin_at(int i, int j, int k)
+{
     return (i * THETA_D_BINS + j) * PHI_D_BINS + k;
 }
 
-static int merl_eval(const void *data, const double wi[3], const double wo[3], double f[3])
+static int is_valid(const float f[3])
 {
-    const float *bin = ((const merl_table *)data)->f[bin_of(wi, wo)];
+    return f[0] >= 0.0f;
+}
+
+static int eval_nearest(const void *data, const double wi[3], const double wo[3], double f[3])
+{
+    double place[3];
+    locate(wi, wo, place);
+    const float *bin = ((const merl_table *)data)
+                           ->f[bin_at(min_int((int)place[0], THETA_H_BINS - 1),
+                                      min_int((int)place[1], THETA_D_BINS - 1),
+                                      min_int((int)place[2], PHI_D_BINS - 1))];
     for (int c = 0; c < 3; c++)
         f[c] = (double)bin[c];
-    return bin[0] >= 0.0f;
+    return is_valid(bin);
+}
+
+/* Two samples of an axis and the weight of the second. */
+typedef struct neighbours {
+    int index[2];
+    double weight;
+} neighbours;
+
+/* The last sample holds beyond it, as the first before it. */
+static neighbours clamped_neighbours(double place, int count)
+{
+    double low = floor(place);
+    int index = (int)low;
+    return (neighbours){{index < 0 ? 0 : min_int(index, count - 1), min_int(index + 1, count - 1)},
+                        place - low};
+}
+
+static neighbours wrapped_neighbours(double place, int count)
+{
+    double low = floor(place);
+    int index = ((int)low + count) % count;
+    return (neighbours){{index, (index + 1) % count}, place - low};
+}
+
+/* Bins without a measurement are left out, the weights of the others made 1 again. */
+static int eval_trilinear(const void *data, const double wi[3], const double wo[3], double f[3])
+{
+    const merl_table *table = data;
+    double place[3], total = 0.0;
+    locate(wi, wo, place);
+    neighbours i = clamped_neighbours(place[0] - table->node, THETA_H_BINS);
+    neighbours j = clamped_neighbours(place[1] - table->node, THETA_D_BINS);
+    neighbours k = wrapped_neighbours(place[2] - table->node, PHI_D_BINS);
+    f[0] = f[1] = f[2] = 0.0;
+    for (int corner = 0; corner < 8; corner++) {
+        int a = corner >> 2, b = corner >> 1 & 1, c = corner & 1;
+        const float *bin = table->f[bin_at(i.index[a], j.index[b], k.index[c])];
+        double weight = (a ? i.weight : 1 - i.weight) * (b ? j.weight : 1 - j.weight) *
+                        (c ? k.weight : 1 - k.weight);
+        if (!is_valid(bin) || weight == 0.0)
+            continue;
+        total += weight;
+        for (int channel = 0; channel < 3; channel++)
+            f[channel] += weight * (double)bin[channel];
+    }
+    for (int channel = 0; channel < 3 && total > 0.0; channel++)
+        f[channel] /= total;
+    return total > 0.0;
 }
 
 int hnbrdf_merl_recognise(const unsigned char *bytes, size_t size)
@@ -126,20 +190,30 @@ static int fill_table(merl_table *table, const unsigned char *samples)
     return valid;
 }
 
-static void summarise(char summary[256], int valid, size_t size)
+static const char *lookup_name(const hnbrdf_measured_options *options)
+{
+    if (options->merl_lookup == HNBRDF_MERL_NEAREST)
+        return "nearest bin";
+    return options->merl_node == HNBRDF_MERL_CENTRE ? "trilinear between bin centres"
+                                                    : "trilinear between lower edges of bins";
+}
+
+static void summarise(char summary[256], const hnbrdf_measured_options *options, int valid, size_t size)
 {
     int permille = (int)((int64_t)valid * 1000 / BINS);
     int unusual = valid < TYPICAL_VALID / 10 * 9 || valid > TYPICAL_VALID / 10 * 11;
-    int n =
-        snprintf(summary, 256, "MERL 90 x 90 x 180 bins (theta_h, theta_d, phi_d), %d.%d %% valid%s",
-                 permille / 10, permille % 10, unusual ? " (unusual: 76 % is typical)" : "");
+    int n = snprintf(summary, 256,
+                     "MERL 90 x 90 x 180 bins (theta_h, theta_d, phi_d), %d.%d %% valid%s, %s",
+                     permille / 10, permille % 10, unusual ? " (unusual: 76 % is typical)" : "",
+                     lookup_name(options));
     if (size > FILE_SIZE && n > 0 && n < 256)
         snprintf(summary + n, (size_t)(256 - n), ", %zu bytes after the table ignored",
                  size - FILE_SIZE);
 }
 
 hnbrdf_result hnbrdf_merl_open(const unsigned char *bytes, size_t size, const char *label,
-                               measured_body *body, hnbrdf_error *error)
+                               const hnbrdf_measured_options *options, measured_body *body,
+                               hnbrdf_error *error)
 {
     hnbrdf_result result = check_header(bytes, size, label, error);
     if (result)
@@ -156,10 +230,11 @@ hnbrdf_result hnbrdf_merl_open(const unsigned char *bytes, size_t size, const ch
             "%s: all %d MERL bins are negative or not finite, expected about %d valid ones", label,
             BINS, TYPICAL_VALID);
     }
+    table->node = options->merl_node == HNBRDF_MERL_CENTRE ? 0.5 : 0.0;
     body->data = table;
-    body->eval = merl_eval;
+    body->eval = options->merl_lookup == HNBRDF_MERL_NEAREST ? eval_nearest : eval_trilinear;
     body->release = free;
     body->isotropic = 1;
-    summarise(body->summary, valid, size);
+    summarise(body->summary, options, valid, size);
     return HNBRDF_OK;
 }

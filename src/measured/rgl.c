@@ -1,7 +1,8 @@
-/* rgl.c: read RGL .bsdf files (Dupuy and Jakob 2018), RGB editions: check every field, and build the
- * warp tables that rgl_eval.c looks up. */
+/* rgl.c: read RGL .bsdf files (Dupuy and Jakob 2018), RGB and spectral: check every field, and build
+ * the tables that rgl_eval.c looks up. */
 #include "measured/rgl.h"
 #include "measured/bytes.h"
+#include "measured/cie.h"
 #include "measured/format.h"
 #include "measured/tensor_file.h"
 #include "core/error.h"
@@ -12,15 +13,17 @@
 static const double PI = 3.14159265358979323846;
 static const double THETA_SLACK = 1e-4; /* real files end a few float roundings beyond pi/2 */
 
-/* The fields of one file; those after rgb may be missing. */
+/* The fields of one file; the last two may be missing. */
 typedef struct rgl_fields {
-    const tensor *phi_i, *theta_i, *ndf, *sigma, *vndf, *luminance, *rgb;
-    const tensor *jacobian;
+    const tensor *phi_i, *theta_i, *ndf, *sigma, *vndf, *luminance;
+    const tensor *colours; /* "rgb" or "spectra" */
+    const tensor *wavelengths, *jacobian;
 } rgl_fields;
 
 /* What reading one file needs at hand. */
 typedef struct reader {
     const tensor_file *file;
+    const hnbrdf_measured_options *options;
     const char *label;
     hnbrdf_error *error;
 } reader;
@@ -44,10 +47,9 @@ static hnbrdf_result check_kind(const reader *r, const tensor *field, tensor_typ
 
 static hnbrdf_result find_fields(const reader *r, rgl_fields *fields)
 {
-    if (!hnbrdf_tensor_file_find(r->file, "rgb") && hnbrdf_tensor_file_find(r->file, "spectra"))
-        return hnbrdf_fail(
-            r->error, HNBRDF_ERROR_UNSUPPORTED,
-            "%s: spectral RGL file (field \"spectra\"), expected the RGB edition (\"rgb\")", r->label);
+    int has_rgb = hnbrdf_tensor_file_find(r->file, "rgb") != NULL;
+    int has_spectra = hnbrdf_tensor_file_find(r->file, "spectra") != NULL;
+    int spectral = has_spectra && (r->options->rgl_spectra || !has_rgb);
     const struct {
         const char *name;
         const tensor **place;
@@ -60,15 +62,17 @@ static hnbrdf_result find_fields(const reader *r, rgl_fields *fields)
         {"sigma", &fields->sigma, TENSOR_F32, 2, 0},
         {"vndf", &fields->vndf, TENSOR_F32, 4, 0},
         {"luminance", &fields->luminance, TENSOR_F32, 4, 0},
-        {"rgb", &fields->rgb, TENSOR_F32, 5, 0},
+        {spectral ? "spectra" : "rgb", &fields->colours, TENSOR_F32, 5, 0},
+        {spectral ? "wavelengths" : NULL, &fields->wavelengths, TENSOR_F32, 1, !spectral},
         {"jacobian", &fields->jacobian, TENSOR_U8, 1, 1},
     };
     for (size_t i = 0; i < sizeof wanted / sizeof wanted[0]; i++) {
-        const tensor *field = hnbrdf_tensor_file_find(r->file, wanted[i].name);
+        const char *name = wanted[i].name;
+        const tensor *field = name ? hnbrdf_tensor_file_find(r->file, name) : NULL;
         if (!field && !wanted[i].optional)
             return hnbrdf_fail(r->error, HNBRDF_ERROR_FORMAT,
                                "%s: no field \"%s\" among %zu, expected one in an RGL material",
-                               r->label, wanted[i].name, r->file->count);
+                               r->label, name, r->file->count);
         hnbrdf_result result = field ? check_kind(r, field, wanted[i].type, wanted[i].dims) : HNBRDF_OK;
         if (result)
             return result;
@@ -99,8 +103,8 @@ static hnbrdf_result check_sides(const reader *r, const tensor *field)
 
 static hnbrdf_result check_shapes(const reader *r, const rgl_fields *fields)
 {
-    const tensor *grids[] = {fields->ndf, fields->sigma, fields->vndf, fields->luminance, fields->rgb};
-    const tensor *luminance = fields->luminance, *rgb = fields->rgb;
+    const tensor *luminance = fields->luminance, *colours = fields->colours;
+    const tensor *grids[] = {fields->ndf, fields->sigma, fields->vndf, luminance, colours};
     hnbrdf_result result = HNBRDF_OK;
     for (size_t i = 0; !result && i < sizeof grids / sizeof grids[0]; i++)
         result = check_sides(r, grids[i]);
@@ -112,11 +116,13 @@ static hnbrdf_result check_shapes(const reader *r, const rgl_fields *fields)
     if (!result)
         result = check_axis(r, luminance, 3, luminance->shape[2], "square");
     if (!result)
-        result = check_axis(r, rgb, 2, 3, "red, green, blue");
+        result = fields->wavelengths
+                     ? check_axis(r, colours, 2, fields->wavelengths->count, "one a wavelength")
+                     : check_axis(r, colours, 2, 3, "red, green, blue");
     if (!result)
-        result = check_axis(r, rgb, 3, luminance->shape[2], "as luminance");
+        result = check_axis(r, colours, 3, luminance->shape[2], "as luminance");
     if (!result)
-        result = check_axis(r, rgb, 4, luminance->shape[2], "as luminance");
+        result = check_axis(r, colours, 4, luminance->shape[2], "as luminance");
     return result;
 }
 
@@ -152,10 +158,10 @@ static hnbrdf_result check_finite(const reader *r, const tensor *field)
 
 static hnbrdf_result check_values(const reader *r, const rgl_fields *fields)
 {
-    const tensor *finite[] = {fields->phi_i, fields->theta_i, fields->ndf,      fields->sigma,
-                              fields->vndf,  fields->rgb,     fields->luminance};
+    const tensor *finite[] = {fields->phi_i, fields->theta_i, fields->ndf,       fields->sigma,
+                              fields->vndf,  fields->colours, fields->luminance, fields->wavelengths};
     for (size_t k = 0; k < sizeof finite / sizeof finite[0]; k++) {
-        hnbrdf_result result = check_finite(r, finite[k]);
+        hnbrdf_result result = finite[k] ? check_finite(r, finite[k]) : HNBRDF_OK;
         if (result)
             return result;
     }
@@ -288,12 +294,8 @@ static hnbrdf_result build_warp(const reader *r, const tensor *field, rgl *mater
 }
 
 /* From planes [slice][3][y][x] to pixels [slice][y][x][3]; counts the negative values. */
-static hnbrdf_result read_colours(const reader *r, const tensor *field, rgl *material, size_t *negative)
+static void read_rgb(const tensor *field, rgl *material, size_t *negative)
 {
-    material->side = field->shape[3];
-    material->rgb = malloc(field->count * sizeof *material->rgb);
-    if (!material->rgb)
-        return out_of_memory(r, field);
     size_t plane = material->side * material->side;
     for (size_t i = 0; i < field->count; i++) {
         size_t slice = i / (3 * plane), c = i / plane % 3, pixel = i % plane;
@@ -301,6 +303,74 @@ static hnbrdf_result read_colours(const reader *r, const tensor *field, rgl *mat
         material->rgb[(slice * plane + pixel) * 3 + c] = value;
         *negative += value < 0.0f;
     }
+}
+
+/* From planes [slice][wavelength][y][x] to linear sRGB pixels, and to spectra where they are kept. One
+ * slice is summed at a time, in double. */
+static void read_spectra(const tensor *field, rgl *material, double (*weights)[3], double *sum,
+                         size_t *negative)
+{
+    size_t plane = material->side * material->side, channels = material->wavelength_count;
+    for (size_t slice = 0; slice < material->phi_count * material->theta_count; slice++) {
+        memset(sum, 0, 3 * plane * sizeof *sum);
+        for (size_t i = 0; i < channels * plane; i++) {
+            size_t l = i / plane, pixel = i % plane;
+            float value = element(field, slice * channels * plane + i);
+            for (size_t c = 0; c < 3; c++)
+                sum[3 * pixel + c] += weights[l][c] * (double)value;
+            if (material->spectra)
+                material->spectra[(slice * plane + pixel) * channels + l] = value;
+        }
+        for (size_t i = 0; i < 3 * plane; i++) {
+            double limit = (double)HNBRDF_MAX_VALUE;
+            material->rgb[slice * 3 * plane + i] = (float)fmax(-limit, fmin(sum[i], limit));
+            *negative += sum[i] < 0.0;
+        }
+    }
+}
+
+static hnbrdf_result convert_spectra(const reader *r, const rgl_fields *fields, rgl *material,
+                                     size_t *negative)
+{
+    size_t count = fields->wavelengths->count;
+    material->wavelength_count = count;
+    material->wavelengths = malloc(count * sizeof *material->wavelengths);
+    if (!material->wavelengths)
+        return out_of_memory(r, fields->wavelengths);
+    for (size_t l = 0; l < count; l++) {
+        material->wavelengths[l] = element(fields->wavelengths, l);
+        if (l > 0 && !(material->wavelengths[l] > material->wavelengths[l - 1]))
+            return bad_value(r, fields->wavelengths, l, "not larger than the one before",
+                             "increasing wavelengths");
+    }
+    if (r->options->rgl_spectra) {
+        material->spectra = malloc(fields->colours->count * sizeof *material->spectra);
+        if (!material->spectra)
+            return out_of_memory(r, fields->colours);
+    }
+    double(*weights)[3] = calloc(count, sizeof *weights);
+    double *sum = calloc(3 * material->side * material->side, sizeof *sum);
+    if (weights && sum) {
+        hnbrdf_cie_weights(material->wavelengths, count, weights);
+        read_spectra(fields->colours, material, weights, sum, negative);
+    }
+    hnbrdf_result result = weights && sum ? HNBRDF_OK : out_of_memory(r, fields->colours);
+    free(weights);
+    free(sum);
+    return result;
+}
+
+static hnbrdf_result read_colours(const reader *r, const rgl_fields *fields, rgl *material,
+                                  size_t *negative)
+{
+    const tensor *field = fields->colours;
+    material->side = field->shape[3];
+    material->rgb = malloc(field->count / field->shape[2] * 3 * sizeof *material->rgb);
+    if (!material->rgb)
+        return out_of_memory(r, field);
+    if (fields->wavelengths)
+        return convert_spectra(r, fields, material, negative);
+    read_rgb(field, material, negative);
     return HNBRDF_OK;
 }
 
@@ -329,7 +399,7 @@ static hnbrdf_result build(const reader *r, rgl *material, size_t *negative)
     if (!result)
         result = build_warp(r, fields.vndf, material);
     if (!result)
-        result = read_colours(r, fields.rgb, material, negative);
+        result = read_colours(r, &fields, material, negative);
     if (!result) {
         material->jacobian = !fields.jacobian || fields.jacobian->data[0] != 0;
         material->needs_phi_i = material->phi_count > 1 || !rows_equal(&material->sigma);
@@ -349,31 +419,49 @@ static void release(void *data)
     free(material->nodes);
     free(material->rows);
     free(material->rgb);
+    free(material->wavelengths);
+    free(material->spectra);
     free(material);
 }
 
-static void summarise(char summary[256], const rgl *material, size_t negative, unsigned minor)
+/* For people; what is no wavelength at all is cut. */
+static int nearest_nm(float nm)
+{
+    return nm >= 0.0f && nm < 1e6f ? (int)(nm + 0.5f) : -1;
+}
+
+static void summarise(char summary[256], const rgl *material, const hnbrdf_measured_options *options,
+                      size_t negative, unsigned minor)
 {
     size_t values = material->phi_count * material->theta_count * material->side * material->side * 3;
     unsigned permille = (unsigned)((double)negative / (double)values * 1000.0);
+    char kind[96] = "RGB";
+    if (material->wavelengths)
+        snprintf(kind, sizeof kind, "spectral (%zu wavelengths, %d to %d nm, made sRGB)",
+                 material->wavelength_count, nearest_nm(material->wavelengths[0]),
+                 nearest_nm(material->wavelengths[material->wavelength_count - 1]));
     int n =
         snprintf(summary, 256,
-                 "RGL %s RGB, %zu x %zu incident directions (phi_i, theta_i), %zu x %zu colours each, "
-                 "%u.%u %% of them negative (clipped)",
-                 material->isotropic ? "isotropic" : "anisotropic", material->phi_count,
-                 material->theta_count, material->side, material->side, permille / 10, permille % 10);
+                 "RGL %s %s, %zu x %zu incident directions (phi_i, theta_i), %zu x %zu colours each, "
+                 "%u.%u %% of them negative (%s)",
+                 material->isotropic ? "isotropic" : "anisotropic", kind, material->phi_count,
+                 material->theta_count, material->side, material->side, permille / 10, permille % 10,
+                 options->rgl_signed ? "kept" : "clipped");
+    if (material->reduction > 1 && n > 0 && n < 256)
+        n += snprintf(summary + n, (size_t)(256 - n), ", 1/%d of the circle", material->reduction);
     if (minor && n > 0 && n < 256)
         snprintf(summary + n, (size_t)(256 - n), ", file version 1.%u read as 1.0", minor);
 }
 
 hnbrdf_result hnbrdf_rgl_open(const unsigned char *bytes, size_t size, const char *label,
-                              measured_body *body, hnbrdf_error *error)
+                              const hnbrdf_measured_options *options, measured_body *body,
+                              hnbrdf_error *error)
 {
     tensor_file file;
     hnbrdf_result result = hnbrdf_tensor_file_parse(bytes, size, label, &file, error);
     if (result)
         return result;
-    reader r = {&file, label, error};
+    reader r = {&file, options, label, error};
     size_t negative = 0;
     rgl *material = calloc(1, sizeof *material);
     result = material ? build(&r, material, &negative)
@@ -385,7 +473,13 @@ hnbrdf_result hnbrdf_rgl_open(const unsigned char *bytes, size_t size, const cha
         body->eval = hnbrdf_rgl_eval;
         body->release = release;
         body->isotropic = !material->needs_phi_i;
-        summarise(body->summary, material, negative, file.minor);
+        body->is_signed = options->rgl_signed;
+        if (material->spectra) {
+            body->wavelength_count = material->wavelength_count;
+            body->wavelengths = material->wavelengths;
+            body->eval_spectrum = hnbrdf_rgl_eval_spectrum;
+        }
+        summarise(body->summary, material, options, negative, file.minor);
     }
     hnbrdf_tensor_file_free(&file);
     return result;

@@ -37,9 +37,15 @@ typedef struct rgl {
     rgl_row *rows;   /* [slice][y] */
     size_t side;
     float *rgb; /* [slice][y][x][3], signed */
+    size_t wavelength_count;
+    float *wavelengths; /* nm, increasing; NULL without spectra */
+    float *spectra;     /* [slice][y][x][wavelength], signed; NULL if not kept */
 } rgl;
 
 /* As measured_body.eval: f per channel, signed. 0 where the normal is invisible from wi. */
 int hnbrdf_rgl_eval(const void *data, const double wi[3], const double wo[3], double f[3]);
+/* As measured_body.eval_spectrum; the spectra must have been kept. */
+int hnbrdf_rgl_eval_spectrum(const void *data, const double wi[3], const double wo[3], size_t count,
+                             const float *nm, float *f);
 
 #endif

@@ -2,6 +2,7 @@
  * Efficient Material Acquisition and Rendering): the half vector is warped by the cumulative density
  * of visible normals, and the colours lie on a regular grid of the warped square. */
 #include "measured/rgl.h"
+#include "hnbrdf/hnbrdf.h"
 
 #include <math.h>
 
@@ -103,20 +104,42 @@ static int invert_warp(const rgl *material, const slice_weight *slices, int coun
     return 1;
 }
 
-static void colour(const rgl *material, const slice_weight *slices, int count, const double s[2],
-                   double rgb[3])
+/* The nodes of the colour grid to blend, 4 of each slice; the first of slice k is node[k]. */
+typedef struct colour_cell {
+    int slices;
+    size_t node[4], side;
+    double slice_weight[4], weight[4]; /* of the corners: (x, y), (x+1, y), (x, y+1), (x+1, y+1) */
+    double factor;                     /* of the blended colour, to be f */
+} colour_cell;
+
+static void find_colours(const rgl *material, const slice_weight *slices, int count, const double s[2],
+                         colour_cell *cell)
 {
     axis_cell x = locate(s[0], material->side), y = locate(s[1], material->side);
-    double w00 = (1 - x.fraction) * (1 - y.fraction), w01 = x.fraction * (1 - y.fraction);
-    double w10 = (1 - x.fraction) * y.fraction, w11 = x.fraction * y.fraction;
-    rgb[0] = rgb[1] = rgb[2] = 0.0;
+    cell->slices = count;
+    cell->side = material->side;
     for (int k = 0; k < count; k++) {
-        size_t node = (slices[k].slice * material->side + y.node) * material->side + x.node;
-        const float *row0 = material->rgb + 3 * node, *row1 = row0 + 3 * material->side;
-        for (int c = 0; c < 3; c++)
-            rgb[c] += slices[k].weight * (w00 * (double)row0[c] + w01 * (double)row0[3 + c] +
-                                          w10 * (double)row1[c] + w11 * (double)row1[3 + c]);
+        cell->node[k] = (slices[k].slice * material->side + y.node) * material->side + x.node;
+        cell->slice_weight[k] = slices[k].weight;
     }
+    cell->weight[0] = (1 - x.fraction) * (1 - y.fraction);
+    cell->weight[1] = x.fraction * (1 - y.fraction);
+    cell->weight[2] = (1 - x.fraction) * y.fraction;
+    cell->weight[3] = x.fraction * y.fraction;
+}
+
+/* One channel of values[slice][y][x][channels]. */
+static double blend(const colour_cell *cell, const float *values, size_t channels, size_t channel)
+{
+    double sum = 0.0;
+    for (int k = 0; k < cell->slices; k++) {
+        const float *row0 = values + cell->node[k] * channels + channel;
+        const float *row1 = row0 + cell->side * channels;
+        sum += cell->slice_weight[k] *
+               (cell->weight[0] * (double)row0[0] + cell->weight[1] * (double)row0[channels] +
+                cell->weight[2] * (double)row1[0] + cell->weight[3] * (double)row1[channels]);
+    }
+    return sum;
 }
 
 /* Turns both vectors into the part of the circle that an anisotropic file covers: by pi for
@@ -153,9 +176,10 @@ static double half_azimuth(const rgl *material, const double wi[3], const double
     return atan2(wi[0] * m[1] - wi[1] * m[0], wi[0] * m[0] + wi[1] * m[1]);
 }
 
-int hnbrdf_rgl_eval(const void *data, const double wi_given[3], const double wo_given[3], double f[3])
+/* Everything but the colours. 0 where the normal is invisible from wi. */
+static int find(const rgl *material, const double wi_given[3], const double wo_given[3],
+                colour_cell *cell)
 {
-    const rgl *material = data;
     double wi[3] = {wi_given[0], wi_given[1], wi_given[2]};
     double wo[3] = {wo_given[0], wo_given[1], wo_given[2]};
     reduce(material->reduction, wi, wo);
@@ -172,13 +196,60 @@ int hnbrdf_rgl_eval(const void *data, const double wi_given[3], const double wo_
     double s[2];
     if (!invert_warp(material, slices, count, u_m, s))
         return 0;
-    colour(material, slices, count, s, f);
+    find_colours(material, slices, count, s, cell);
 
-    double factor = 1.0 / wo[2]; /* the tables hold f wo.z */
+    cell->factor = 1.0 / wo[2]; /* the tables hold f wo.z */
     if (material->jacobian)
-        factor *= bilinear(&material->ndf, u_m[0], u_m[1]) /
-                  (4.0 * bilinear(&material->sigma, theta_to_u(theta_i), phi_to_u(phi_i)));
-    for (int c = 0; c < 3; c++)
-        f[c] *= factor;
+        cell->factor *= bilinear(&material->ndf, u_m[0], u_m[1]) /
+                        (4.0 * bilinear(&material->sigma, theta_to_u(theta_i), phi_to_u(phi_i)));
+    return 1;
+}
+
+int hnbrdf_rgl_eval(const void *data, const double wi[3], const double wo[3], double f[3])
+{
+    const rgl *material = data;
+    colour_cell cell;
+    if (!find(material, wi, wo, &cell))
+        return 0;
+    for (size_t c = 0; c < 3; c++)
+        f[c] = cell.factor * blend(&cell, material->rgb, 3, c);
+    return 1;
+}
+
+/* Where nm falls among the wavelengths; the ends hold beyond them. */
+static axis_cell bracket_wavelength(const rgl *material, float nm)
+{
+    const float *nodes = material->wavelengths;
+    size_t low = 0, high = material->wavelength_count - 1;
+    if (high == 0)
+        return (axis_cell){0, 0.0};
+    while (high - low > 1) {
+        size_t middle = low + (high - low) / 2;
+        if (nodes[middle] <= nm)
+            low = middle;
+        else
+            high = middle;
+    }
+    double left = (double)nodes[low], right = (double)nodes[low + 1];
+    return (axis_cell){low, clamp01(((double)nm - left) / (right - left))};
+}
+
+int hnbrdf_rgl_eval_spectrum(const void *data, const double wi[3], const double wo[3], size_t count,
+                             const float *nm, float *f)
+{
+    const rgl *material = data;
+    size_t channels = material->wavelength_count;
+    colour_cell cell;
+    if (!find(material, wi, wo, &cell))
+        return 0;
+    for (size_t k = 0; k < count; k++) {
+        axis_cell at = bracket_wavelength(material, nm[k]);
+        double value = blend(&cell, material->spectra, channels, at.node);
+        if (at.fraction > 0.0)
+            value = mix(value, blend(&cell, material->spectra, channels, at.node + 1), at.fraction);
+        value *= cell.factor;
+        double limit = (double)HNBRDF_MAX_VALUE;
+        f[k] = (float)(value > limit ? limit : value > -limit ? value : value <= -limit ? -limit : 0.0);
+    }
     return 1;
 }
