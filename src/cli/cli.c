@@ -218,6 +218,20 @@ static int parse_net(const char *text, int net[2])
     return 1;
 }
 
+/* The number of text among the words of "a|b|c", or -1. */
+static int find_choice(const char *words, const char *text)
+{
+    size_t length = strlen(text);
+    for (int index = 0;; index++) {
+        size_t word = strcspn(words, "|");
+        if (word == length && strncmp(words, text, length) == 0)
+            return index;
+        if (words[word] == '\0')
+            return -1;
+        words += word + 1;
+    }
+}
+
 static int set_number(const cli_command *command, const cli_option *option, const char *text)
 {
     const char *what = option->type == CLI_INT ? "a whole number" : "a finite number";
@@ -251,6 +265,12 @@ static int set_option(const cli_command *command, const cli_option *option, cons
                          "--%s: '%s' is not HxN, as in 32x2: H units from 1 to %d in each of N hidden "
                          "layers from 1 to %d",
                          option->name, text, HNBRDF_MAX_HIDDEN, HNBRDF_MAX_LAYERS);
+    case CLI_CHOICE:
+        if (find_choice(option->argument, text) < 0)
+            return cli_usage(command, "--%s: found '%s', expected %s", option->name, text,
+                             option->argument);
+        *(int *)option->value = find_choice(option->argument, text);
+        return -1;
     case CLI_INT:
     case CLI_REAL:
         break;

@@ -20,6 +20,7 @@ int cmd_render(int argc, char **argv);
 int cmd_sheet(int argc, char **argv);
 int cmd_edit(int argc, char **argv);
 int cmd_mix(int argc, char **argv);
+int cmd_report(int argc, char **argv);
 int cmd_import(int argc, char **argv);
 int cmd_info(int argc, char **argv);
 
@@ -30,7 +31,8 @@ typedef enum cli_type {
     CLI_TEXT,   /* const char **: points into argv */
     CLI_INT,    /* long *: decimal integer */
     CLI_REAL,   /* double *: finite decimal number, '.' whatever the locale */
-    CLI_NET     /* int[2]: HxN, as in 32x2 */
+    CLI_NET,    /* int[2]: HxN, as in 32x2 */
+    CLI_CHOICE  /* int *: which word of `argument`, "a|b|c", from 0 */
 } cli_type;
 
 typedef struct cli_option {
@@ -80,9 +82,40 @@ int cli_parse_real(const char *text, double *value);
 /* What a 0 for --threads stands for: the processors that are online. */
 int cli_processors(void);
 
+/* ---- Reading measured files ------------------------------------------------------------------------
+ * The options of measured.h, as the commands that open measured files offer them. What is set here holds for
+ * every file the process opens; each such command has CLI_READING_OPTIONS in its table. */
+typedef struct cli_reading {
+    int merl, merl_node, utia; /* values of the enums of measured.h */
+    double utia_scale;
+    int utia_no_extrapolate, keep_sign, spectra;
+    int merl_identify; /* no option: for commands that tell about files */
+} cli_reading;
+extern cli_reading cli_read;
+
+/* clang-format off */
+#define CLI_READING_OPTIONS                                                                         \
+    {"merl", 0, CLI_CHOICE, &cli_read.merl, 0, 0, "nearest|trilinear",                              \
+     "lookup in MERL files (default nearest)"},                                                     \
+    {"merl-node", 0, CLI_CHOICE, &cli_read.merl_node, 0, 0, "centre|edge",                          \
+     "where in its bin a MERL sample lies, for trilinear (default centre)"},                        \
+    {"utia", 0, CLI_CHOICE, &cli_read.utia, 0, 0, "djb|raw|srgb",                                   \
+     "what the numbers in UTIA files mean; their scale is uncertain (default djb)"},                \
+    {"utia-scale", 0, CLI_REAL, &cli_read.utia_scale, 1e-6, 1e6, "X",                               \
+     "factor on UTIA values (default 1)"},                                                          \
+    {"utia-no-extrapolate", 0, CLI_FLAG, &cli_read.utia_no_extrapolate, 0, 0, NULL,                 \
+     "hold UTIA values beyond 75 degrees (default: go on linearly)"},                               \
+    {"spectra", 0, CLI_FLAG, &cli_read.spectra, 0, 0, NULL,                                         \
+     "RGL files that have RGB and spectra: use the spectra"}
+/* Not for `fit`: a model is never negative. */
+#define CLI_SIGNED_OPTION                                                                           \
+    {"signed", 0, CLI_FLAG, &cli_read.keep_sign, 0, 0, NULL,                                        \
+     "keep negative values of RGL files: colours outside the gamut (default: clipped to 0)"}
+/* clang-format on */
+
 /* ---- Sources and data ------------------------------------------------------------------------------
  * DATA arguments: "builtin" (all built-in materials), "builtin:NAME", files, or directories (every
- * .bsdf and .binary file in them, in byte order of their names). */
+ * .bsdf, .binary and .bin file in them, in byte order of their names). */
 typedef struct cli_data {
     hnbrdf_measured **items;
     int count;

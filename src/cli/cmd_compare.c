@@ -13,7 +13,7 @@ static const cli_command command = {
     "MODEL DATA... [--sampler grid] [--pairs N] [--csv FILE]",
     "Prints the error of a model, and of its analytic part (GGX) alone, against measured materials of\n"
     "the same names: SMAPE, 0 is perfect and 2 the worst, mean over N pairs of directions and RGB.\n"
-    "DATA is builtin, builtin:NAME, files (MERL .binary, RGL .bsdf) or directories of them.\n"
+    "DATA is builtin, builtin:NAME, files (MERL .binary, RGL .bsdf, UTIA .bin) or directories.\n"
     "\n"
     "Samplers: uniform (wi and wo uniform in solid angle), cosine, grid (theta_h = u^2 pi/2, theta_d "
     "and\n"
@@ -345,6 +345,8 @@ int cmd_compare(int argc, char **argv)
          "leave out data that the model has no material for (default: an error)"},
         {"csv", 0, CLI_TEXT, &csv, 0, 0, "FILE", "write the table as CSV; - is standard output"},
         {"json", 0, CLI_TEXT, &json, 0, 0, "FILE", "write it as JSON, with MAE and MSE; - likewise"},
+        CLI_READING_OPTIONS,
+        CLI_SIGNED_OPTION,
         {0},
     };
     int result = cli_parse(&command, options, argc, argv, &count);

@@ -10,9 +10,9 @@
 static const cli_command command = {
     "eval",
     "SOURCE [--material NAME] [-i FILE] [-o FILE]",
-    "Evaluates a BRDF for pairs of directions. SOURCE is a model file, a measured file (MERL .binary "
-    "or\n"
-    "RGL .bsdf) or builtin:NAME.\n"
+    "Evaluates a BRDF for pairs of directions. SOURCE is a model file, a measured file (MERL "
+    ".binary,\n"
+    "RGL .bsdf, UTIA .bin) or builtin:NAME.\n"
     "\n"
     "In:  CSV with the columns wi_x,wi_y,wi_z,wo_x,wo_y,wo_z: unit vectors in the shading frame "
     "(normal\n"
@@ -205,6 +205,8 @@ int cmd_eval(int argc, char **argv)
          "read the pairs from FILE (default: standard input)"},
         {"output", 'o', CLI_TEXT, &out, 0, 0, "FILE",
          "write the values to FILE (default: standard output)"},
+        CLI_READING_OPTIONS,
+        CLI_SIGNED_OPTION,
         {0},
     };
     int count;

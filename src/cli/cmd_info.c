@@ -8,15 +8,18 @@
 static const cli_command command = {
     "info",
     "SOURCE [--json]",
-    "Tells what SOURCE holds: a model file, a measured file (MERL .binary, RGL .bsdf), builtin:NAME,\n"
-    "builtin, or a directory of measured files.\n"
+    "Tells what SOURCE holds: a model file, a measured file (MERL .binary, RGL .bsdf, UTIA .bin),\n"
+    "builtin:NAME, builtin, or a directory of measured files. The checksum of a single MERL file is compared\n"
+    "with those of the 100 published ones.\n"
     "\n"
     "Weights are the numbers shared by all materials, mults the multiplications of the network for "
     "one\n"
     "evaluation. JSON keys of a model: kind, net, encoding, latent, materials, weights, mults, scale,\n"
-    "shift, floor, parameters; of a measured file: kind, format, name, isotropic, summary.",
+    "shift, floor, parameters; of a measured file: kind, format, name, isotropic, summary,\n"
+    "of a single MERL file also published: the material's name, or null.",
     "hnbrdf info builtin\n"
     "hnbrdf info model.safetensors\n"
+    "hnbrdf info alum-bronze.binary\n"
     "hnbrdf info model.safetensors --json",
 };
 
@@ -145,6 +148,13 @@ static void print_measured(const char *path, const hnbrdf_measured *measured)
     printf("  format     %s\n", format_name(measured));
     printf("  isotropic  %s\n", hnbrdf_measured_is_isotropic(measured) ? "yes" : "no");
     printf("  summary    %s\n", hnbrdf_measured_summary(measured));
+    if (hnbrdf_measured_format_of(measured) != HNBRDF_MEASURED_MERL)
+        return;
+    const char *published = hnbrdf_measured_published(measured);
+    if (published)
+        printf("  checksum   known MERL file %s\n", published);
+    else
+        printf("  checksum   not one of the 100 published files\n");
 }
 
 static void json_measured(const hnbrdf_measured *measured)
@@ -156,6 +166,14 @@ static void json_measured(const hnbrdf_measured *measured)
     printf(", \"isotropic\": %s", hnbrdf_measured_is_isotropic(measured) ? "true" : "false");
     fputs(", \"summary\": ", stdout);
     cli_write_json_text(stdout, hnbrdf_measured_summary(measured));
+    if (cli_read.merl_identify && hnbrdf_measured_format_of(measured) == HNBRDF_MEASURED_MERL) {
+        const char *published = hnbrdf_measured_published(measured);
+        fputs(", \"published\": ", stdout);
+        if (published)
+            cli_write_json_text(stdout, published);
+        else
+            fputs("null", stdout);
+    }
     putchar('}');
 }
 
@@ -212,6 +230,7 @@ static int tell_collection(char **argument, int json)
 static int tell_source(const char *path, int json)
 {
     cli_source source = {0};
+    cli_read.merl_identify = 1;
     if (cli_open_source(path, &source) != CLI_OK)
         return CLI_FAILURE;
     if (source.model && json) {
@@ -233,6 +252,8 @@ int cmd_info(int argc, char **argv)
     int json = 0, count;
     const cli_option options[] = {
         {"json", 0, CLI_FLAG, &json, 0, 0, NULL, "print JSON (default: a table for people)"},
+        CLI_READING_OPTIONS,
+        CLI_SIGNED_OPTION,
         {0},
     };
     int result = cli_parse(&command, options, argc, argv, &count);

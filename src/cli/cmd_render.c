@@ -148,6 +148,8 @@ int cmd_render(int argc, char **argv)
         {"layers", 0, CLI_FLAG, &job.layers, 0, 0, NULL,
          "EXR: also the analytic part, as analytic.R, .G, .B"},
         {"half", 0, CLI_FLAG, &job.half, 0, 0, NULL, "EXR: half instead of float"},
+        CLI_READING_OPTIONS,
+        CLI_SIGNED_OPTION,
         {NULL, 0, CLI_FLAG, NULL, 0, 0, NULL, NULL},
     };
     int positionals, code = cli_parse(&command, options, argc, argv, &positionals);

@@ -15,7 +15,7 @@ static const cli_command command = {
     "mean\n"
     "absolute error in radiance and its PSNR (peak: the reference's largest value) over the sphere's\n"
     "pixels; they are also printed. GGX alone is the analytic part of MODEL, or of --ggx MODEL2.\n"
-    "DATA is builtin, builtin:NAME, files (MERL .binary, RGL .bsdf) or directories of them.",
+    "DATA is builtin, builtin:NAME, files (MERL .binary, RGL .bsdf, UTIA .bin) or directories.",
     "hnbrdf sheet model.safetensors builtin -o sheet.png\n"
     "hnbrdf sheet rgl.safetensors measured/rgl --ggx rgl_ggx.safetensors --difference -o rgl.png\n"
     "hnbrdf sheet model.safetensors builtin --materials gold-two-lobe,retro-tape --size 256 -o two.exr",
@@ -366,6 +366,8 @@ int cmd_sheet(int argc, char **argv)
          "materials beside each other; default: about 3:2"},
         {"size", 0, CLI_INT, &job.size, 32, 2048, "N", "pixels of a sphere's side, default 160"},
         PICTURE_OPTIONS(job.picture, "32"),
+        CLI_READING_OPTIONS,
+        CLI_SIGNED_OPTION,
         {NULL, 0, CLI_FLAG, NULL, 0, 0, NULL, NULL},
     };
     int positionals, code = cli_parse(&command, options, argc, argv, &positionals);

@@ -37,8 +37,8 @@ static void print_overview(FILE *file)
         fprintf(file, "  %-8s  %s\n", subcommands[k].name, subcommands[k].about);
     fputs(
         "\n"
-        "DATA is `builtin` (procedural materials), MERL .binary or RGL .bsdf files, or directories of\n"
-        "them. A material is named after its file. `hnbrdf COMMAND --help` tells more.\n"
+        "DATA is `builtin` (procedural materials), MERL .binary, RGL .bsdf or UTIA .bin files, or\n"
+        "directories of them. A material is named after its file. `hnbrdf COMMAND --help` tells more.\n"
         "\n"
         "examples:\n"
         "  hnbrdf fit builtin -o model.safetensors\n"

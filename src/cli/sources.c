@@ -88,6 +88,23 @@ static int open_builtin(int index, hnbrdf_measured **measured)
     return CLI_OK;
 }
 
+/* ---- Reading options ------------------------------------------------------------------------------
+ */
+
+cli_reading cli_read = {.utia_scale = 1.0};
+
+static hnbrdf_measured_options reading_options(void)
+{
+    return (hnbrdf_measured_options){.merl_lookup = (hnbrdf_merl_lookup)cli_read.merl,
+                                     .merl_node = (hnbrdf_merl_node)cli_read.merl_node,
+                                     .merl_identify = cli_read.merl_identify,
+                                     .rgl_signed = cli_read.keep_sign,
+                                     .rgl_spectra = cli_read.spectra,
+                                     .utia_mode = (hnbrdf_utia_mode)cli_read.utia,
+                                     .utia_scale = cli_read.utia_scale,
+                                     .utia_no_extrapolate = cli_read.utia_no_extrapolate};
+}
+
 /* ---- Recognising files --------------------------------------------------------------------------- */
 
 static int has_extension(const char *path, const char *extension)
@@ -102,9 +119,10 @@ static int is_directory(const char *path)
     return stat(path, &status) == 0 && S_ISDIR(status.st_mode);
 }
 
-/* safetensors: a u64 header length, then a JSON object. No measured format has '{' there: MERL has the
- * number 180 and RGL the letters "tensor_file". Only regular files are looked into, a pipe would lose
- * what was read. */
+/* safetensors: a u64 header length, below 2^32, then a JSON object. No measured format has '{' there:
+ * MERL has the number 180 and RGL the letters "tensor_file"; UTIA may, but its first eight bytes are a
+ * double, with zeros high up only if it is 0, and no header is empty. Only regular files are looked
+ * into, a pipe would lose what was read. */
 static int looks_like_model(const char *path)
 {
     unsigned char head[9];
@@ -116,7 +134,9 @@ static int looks_like_model(const char *path)
         return 0;
     size_t size = fread(head, 1, sizeof head, file);
     fclose(file);
-    return size == sizeof head && head[8] == '{';
+    static const unsigned char zeros[8];
+    return size == sizeof head && head[8] == '{' && memcmp(head + 4, zeros, 4) == 0 &&
+           memcmp(head, zeros, 8) != 0;
 }
 
 /* For a path that does not exist: a built-in material may have been meant. */
@@ -138,7 +158,8 @@ static int open_measured_file(const char *path, hnbrdf_measured **measured)
         return fail_missing(path);
     if (has_extension(path, ".brdf"))
         return cli_fail("%s: a published shader; make a model of it first: hnbrdf import", path);
-    if (hnbrdf_measured_open(path, NULL, measured, &error) == HNBRDF_OK)
+    hnbrdf_measured_options options = reading_options();
+    if (hnbrdf_measured_open(path, &options, measured, &error) == HNBRDF_OK)
         return CLI_OK;
     return cli_fail("%s", error.text);
 }
@@ -195,7 +216,8 @@ static int add_file(data_builder *builder, const char *path)
 {
     hnbrdf_measured *measured = NULL;
     if (looks_like_model(path))
-        return cli_fail("%s: a model file, expected measured data (MERL .binary or RGL .bsdf)", path);
+        return cli_fail("%s: a model file, expected measured data (MERL .binary, RGL .bsdf, UTIA .bin)",
+                        path);
     if (open_measured_file(path, &measured) != CLI_OK)
         return CLI_FAILURE;
     return add_material(builder, measured, path);
@@ -213,7 +235,8 @@ static int add_builtin(data_builder *builder, int index)
 
 static int is_measured_name(const struct dirent *entry)
 {
-    return has_extension(entry->d_name, ".bsdf") || has_extension(entry->d_name, ".binary");
+    return has_extension(entry->d_name, ".bsdf") || has_extension(entry->d_name, ".binary") ||
+           has_extension(entry->d_name, ".bin");
 }
 
 static int compare_bytes(const struct dirent **a, const struct dirent **b)
@@ -229,7 +252,7 @@ static int add_directory(data_builder *builder, const char *path)
         return cli_fail("%s: cannot read the directory: %s", path, strerror(errno));
     int result = CLI_OK;
     if (count == 0)
-        result = cli_fail("%s: the directory has no .bsdf and no .binary file", path);
+        result = cli_fail("%s: the directory has no .bsdf, .binary or .bin file", path);
     const char *slash = has_extension(path, "/") ? "" : "/";
     for (int k = 0; k < count; k++) {
         size_t size = strlen(path) + strlen(entries[k]->d_name) + 2;

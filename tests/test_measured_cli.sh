@@ -1,0 +1,66 @@
+#!/bin/sh
+# test_measured_cli.sh HNBRDF FILES: the options that say how measured files are read, in every command that
+# reads them, and what `info` tells of them.
+set -u
+. "$(dirname "$0")/test_cli_support.sh"
+
+"$FILES" . || exit 1
+mkdir utia
+# 248832 doubles of 0.5, by doubling.
+printf '\000\000\000\000\000\000\340\077' >half
+for step in 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18; do
+    cat half half >more
+    mv more half
+done
+head -c 1990656 half >utia/cloth.bin
+pair='0,0,1,0,0.6,0.8\n'
+
+for command in fit eval compare info render sheet; do
+    run "$HNBRDF" "$command" --help
+    for option in merl merl-node utia utia-scale utia-no-extrapolate spectra; do
+        grep -q -e "--$option" out || fail "$command --help: no --$option"
+    done
+    run "$HNBRDF" "$command" --merl cubic
+    expect_usage "$command --merl cubic" "merl: found 'cubic', expected nearest|trilinear"
+    run "$HNBRDF" "$command" --utia-scale 0
+    expect_usage "$command --utia-scale 0" "utia-scale: 0 is out of range"
+done
+for command in eval compare info render sheet; do
+    run "$HNBRDF" "$command" --help
+    grep -q -e "--signed" out || fail "$command --help: no --signed"
+done
+
+# UTIA: 0.5 as it stands, 100/12.92/140 of it, and through the sRGB curve.
+run_in "$pair" "$HNBRDF" eval utia/cloth.bin --utia raw
+expect_out "utia raw" 'f_r,f_g,f_b\n0.5,0.5,0.5\n'
+run_in "$pair" "$HNBRDF" eval utia/cloth.bin --utia=raw --utia-scale 3
+expect_out "utia scale" 'f_r,f_g,f_b\n1.5,1.5,1.5\n'
+run_in "$pair" "$HNBRDF" eval utia/cloth.bin
+awk -F, 'NR == 2 { exit !($1 > 0.027642 && $1 < 0.027643) }' out || fail "utia djb: $(tail -1 out)"
+run_in "$pair" "$HNBRDF" eval utia/cloth.bin --utia srgb
+awk -F, 'NR == 2 { exit !($1 > 0.21404 && $1 < 0.21405) }' out || fail "utia srgb: $(tail -1 out)"
+run "$HNBRDF" info utia/cloth.bin
+expect_ok "info of UTIA"
+grep -q "mode djb, directional albedo 0.087 at 0 and 0.087 at 45 degrees" out || fail "info of UTIA"
+run "$HNBRDF" info utia --utia raw
+grep -q "^cloth  *UTIA .*WARNING: more than arrives" out || fail "info of a directory with UTIA"
+head -c 1990655 half >utia/cut.bin
+run "$HNBRDF" info utia
+expect_failure "a cut UTIA file" "cut.bin: 1990655 bytes, expected a UTIA .bin of exactly 1990656"
+
+# Bytes 8 to 16 of a UTIA file may look like the beginning of a model; its first double never does.
+{ printf '\000\000\000\000\000\000\340\077{'; tail -c +10 utia/cloth.bin; } >brace.bin
+run "$HNBRDF" info brace.bin
+expect_ok "UTIA with a brace"
+grep -q "format  *UTIA" out || fail "UTIA with a brace is taken for something else"
+
+# MERL: the lookup is told, the checksum compared.
+run "$HNBRDF" info lambert.binary --merl trilinear --merl-node edge
+grep -q "trilinear between lower edges" out || fail "info of MERL does not tell the lookup"
+grep -q "not one of the 100 published files" out || fail "info of MERL does not tell the checksum"
+run "$HNBRDF" info lambert.binary --json
+grep -q '"published": null' out || fail "info --json of MERL: no published"
+run_in "$pair" "$HNBRDF" eval lambert.binary --merl trilinear
+awk -F, 'NR == 2 { exit !($1 > 0.999999 && $1 < 1.000001 && $3 > 1.659999 && $3 < 1.660001) }' out ||
+    fail "merl trilinear: $(tail -1 out)"
+finish
