@@ -63,4 +63,13 @@ grep -q '"published": null' out || fail "info --json of MERL: no published"
 run_in "$pair" "$HNBRDF" eval lambert.binary --merl trilinear
 awk -F, 'NR == 2 { exit !($1 > 0.999999 && $1 < 1.000001 && $3 > 1.659999 && $3 < 1.660001) }' out ||
     fail "merl trilinear: $(tail -1 out)"
+
+# What is not the default is told beside every error and fit.
+run "$HNBRDF" fit lambert.binary --kind ggx --merl trilinear --merl-node edge --utia raw -o lambert.safetensors
+expect_ok "fit with reading options"
+grep -q "read with --merl trilinear --merl-node edge --utia raw$" out || fail "fit does not tell how data are read"
+run "$HNBRDF" compare lambert.safetensors lambert.binary --pairs 1000 --merl trilinear
+grep -q "read with --merl trilinear --merl-node centre$" out || fail "compare does not tell how data are read"
+run "$HNBRDF" compare lambert.safetensors lambert.binary --pairs 1000
+grep -q "read with" out && fail "compare tells of defaults"
 finish

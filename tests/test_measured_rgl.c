@@ -90,6 +90,32 @@ static void negative_colours_are_clipped_to_zero_and_stay_valid(void **state)
     free(file.data);
 }
 
+/* The same factor of opposite sign. */
+static void signed_colours_are_kept_on_request(void **state)
+{
+    const hnbrdf_measured_options keep = {.rgl_signed = 1};
+    const double angles[4] = {0.5, 0.1, 0.7, 2.0};
+    test_bytes file = test_rgl(TEST_ISOTROPIC);
+    float f[3], g[3];
+    (void)state;
+    set_colours(&file, -1.0f);
+    hnbrdf_measured *negative = expect_opens_with(file.data, file.size, "x", &keep);
+    set_colours(&file, 1.0f);
+    hnbrdf_measured *positive = expect_opens_with(file.data, file.size, "x", &keep);
+    assert_int_equal(eval_angles(negative, angles, f), 1);
+    assert_int_equal(eval_angles(positive, angles, g), 1);
+    for (int c = 0; c < 3; c++)
+        assert_true(g[c] > 0.0f && f[c] == -g[c]);
+    hnbrdf_measured_close(negative);
+    set_colours(&file, -3.4e38f);
+    negative = expect_opens_with(file.data, file.size, "x", &keep);
+    assert_int_equal(eval_angles(negative, (double[4]){0.5, 0.1, 1.57, 2.0}, f), 1);
+    assert_true(f[0] == -HNBRDF_MAX_VALUE);
+    hnbrdf_measured_close(negative);
+    hnbrdf_measured_close(positive);
+    free(file.data);
+}
+
 static void huge_colours_are_clamped_to_the_largest_value(void **state)
 {
     test_bytes file = test_rgl(TEST_ISOTROPIC);
@@ -203,6 +229,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(values_are_those_of_the_reference_loader),
         cmocka_unit_test(negative_colours_are_clipped_to_zero_and_stay_valid),
+        cmocka_unit_test(signed_colours_are_kept_on_request),
         cmocka_unit_test(huge_colours_are_clamped_to_the_largest_value),
         cmocka_unit_test(an_invisible_normal_is_no_measurement),
         cmocka_unit_test(without_jacobian_the_colours_stand_alone),

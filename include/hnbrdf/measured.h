@@ -5,8 +5,9 @@
  * unless rgl_signed asks for it.
  *
  * Formats: MERL .binary (Matusik et al. 2003), RGL .bsdf, isotropic and anisotropic, RGB and spectral
- * (Dupuy and Jakob 2018), UTIA .bin (Filip and Vavra 2014; 150 anisotropic materials), and built-in
- * procedural materials. A file is recognised by its content; a UTIA file, which has no header, by its size.
+ * (Dupuy and Jakob 2018), UTIA .bin (Filip and Vavra 2014; the set of 150 anisotropic materials, not the
+ * dense one of 1.5 GB a file), and built-in procedural materials. A file is recognised by its content; a
+ * UTIA file, which has no header, by its size.
  */
 #ifndef HNBRDF_MEASURED_H
 #define HNBRDF_MEASURED_H

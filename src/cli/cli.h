@@ -92,6 +92,8 @@ typedef struct cli_reading {
     int merl_identify; /* no option: for commands that tell about files */
 } cli_reading;
 extern cli_reading cli_read;
+/* A line on stdout with the options that are not the default; nothing if all are. */
+void cli_print_reading(void);
 
 /* clang-format off */
 #define CLI_READING_OPTIONS                                                                         \

@@ -201,6 +201,7 @@ static void print_table(const job *j)
     print_row(j, width, "mean", &j->mean, &j->mean_against);
     printf("\n%s sampler, %ld pairs a material, seed %ld; SMAPE: 0 is perfect, 2 the worst\n",
            hnbrdf_sampler_name(j->sampler), j->pairs, j->seed);
+    cli_print_reading();
     if (j->against)
         print_wins(j);
 }

@@ -99,6 +99,7 @@ static void summarise(const job *j, const hnbrdf_model *model, const hnbrdf_fit_
         printf(", %ld steps, loss %.4f, %.2f M pairs/s", report->steps, report->final_loss,
                report->pairs_per_s * 1e-6);
     printf(", %.1f s\n", report->seconds);
+    cli_print_reading();
     if (report->stopped)
         printf("interrupted; the model so far is saved. Repeat the command with --resume to go on.\n");
 }

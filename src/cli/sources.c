@@ -105,6 +105,24 @@ static hnbrdf_measured_options reading_options(void)
                                      .utia_no_extrapolate = cli_read.utia_no_extrapolate};
 }
 
+void cli_print_reading(void)
+{
+    static const char *const utia_modes[] = {"djb", "raw", "srgb"};
+    const cli_reading *r = &cli_read;
+    if (!r->merl && !r->utia && r->utia_scale == 1.0 && !r->utia_no_extrapolate && !r->spectra &&
+        !r->keep_sign)
+        return;
+    printf("measured files read with");
+    if (r->merl)
+        printf(" --merl trilinear --merl-node %s", r->merl_node ? "edge" : "centre");
+    if (r->utia)
+        printf(" --utia %s", utia_modes[r->utia]);
+    if (r->utia_scale != 1.0)
+        printf(" --utia-scale %.9g", r->utia_scale);
+    printf("%s%s%s\n", r->utia_no_extrapolate ? " --utia-no-extrapolate" : "",
+           r->spectra ? " --spectra" : "", r->keep_sign ? " --signed" : "");
+}
+
 /* ---- Recognising files --------------------------------------------------------------------------- */
 
 static int has_extension(const char *path, const char *extension)

@@ -35,7 +35,7 @@ int hnbrdf_fit_pool_draw(const fit_pool *pool, int material, const hnbrdf_measur
         for (size_t c = 0; c < 3; c++) {
             tile[c * FIT_TILE + b] = wi[c];
             tile[(3 + c) * FIT_TILE + b] = wo[c];
-            tile[(6 + c) * FIT_TILE + b] = f[c];
+            tile[(6 + c) * FIT_TILE + b] = f[c] > 0.0f ? f[c] : 0.0f; /* a model is never negative */
         }
     }
     return 1;
