@@ -19,6 +19,21 @@ typedef enum hnbrdf_fit_analytic {
     HNBRDF_FIT_JOINT         /* GGX first, then trained together with the network */
 } hnbrdf_fit_analytic;
 
+/* What is minimised, per channel. SMAPE judges dark directions and highlights alike but is flat far from
+ * the data; the logarithm leads there. */
+typedef enum hnbrdf_fit_loss {
+    HNBRDF_FIT_LOG_TO_SMAPE = 0, /* |ln(f + 1e-3) - ln(F + 1e-3)|, turning into SMAPE between 30 and 70 % */
+    HNBRDF_FIT_LOG,              /* the first all along */
+    HNBRDF_FIT_SMAPE             /* the second all along */
+} hnbrdf_fit_loss;
+
+/* The learning rate from its peak to the end, after 100 steps of warm-up. */
+typedef enum hnbrdf_fit_schedule {
+    HNBRDF_FIT_COSINE = 0, /* half a cosine down to 1 % */
+    HNBRDF_FIT_LINEAR,     /* a line down to 1 % */
+    HNBRDF_FIT_CONSTANT
+} hnbrdf_fit_schedule;
+
 /* What the progress callback sees, ten times a second and every 100 steps. */
 typedef struct hnbrdf_fit_progress {
     const char *stage;     /* "sampling", "ggx" or "network" */
@@ -47,6 +62,10 @@ typedef struct hnbrdf_fit_options {
     int batch;                      /* pairs a step; 0 stands for 2048; rounded up to a multiple of 1024 */
     int pool;                       /* pairs drawn per material before training; 0: 131072 */
     float learning_rate;            /* Adam's peak rate; 0 stands for 1e-2 */
+    hnbrdf_fit_loss loss;
+    hnbrdf_fit_schedule schedule;
+    float uniform_share;            /* of the pairs, drawn by the uniform sampler, the others by grid; 0 stands
+                                       for 0.5, negative for none */
     uint64_t seed;
     int threads;                    /* 0: all cores */
     hnbrdf_fit_progress_fn progress;

@@ -167,10 +167,14 @@ static int open_and_run(job *j, const char *freeze, const char *log, char *const
 int cmd_fit(int argc, char **argv)
 {
     static const char *const kinds[] = {"hybrid", "neural", "ggx", NULL};
+    static const char *const losses[] = {"log-to-smape", "log", "smape", NULL};
+    static const char *const schedules[] = {"cosine", "linear", "constant", NULL};
     static const char *const analytics[] = {"faithful", "joint", NULL};
     const char *freeze = NULL, *log = NULL;
     int resume = 0;
     const char *kind = "hybrid", *encoding = NULL, *analytic = "faithful", *output = NULL;
+    const char *loss = "log-to-smape", *schedule = "cosine";
+    double uniform_share = 0.5;
     int net[2] = {32, 2};
     long latent = 0, steps = 0, seed = 1, threads = 0, batch = 0, pool = 0;
     double seconds = 0.0, floor = 0.003, rate = 1e-2;
@@ -192,6 +196,12 @@ int cmd_fit(int argc, char **argv)
         {"pool", 0, CLI_INT, &pool, 64, 1 << 26, "N",
          "direction pairs drawn a material (default 131072)"},
         {"rate", 0, CLI_REAL, &rate, 1e-7, 10, "R", "peak learning rate of Adam (default 0.01)"},
+        {"loss", 0, CLI_TEXT, &loss, 0, 0, "NAME",
+         "log-to-smape: log-L1 that turns into SMAPE between 30 and 70 %; log; smape (default the first)"},
+        {"schedule", 0, CLI_TEXT, &schedule, 0, 0, "NAME",
+         "of the rate: cosine or linear down to 1 %, or constant (default cosine)"},
+        {"uniform-share", 0, CLI_REAL, &uniform_share, 0, 1, "S",
+         "of the pairs, drawn uniformly, the others on MERL's grid (default 0.5)"},
         {"seed", 0, CLI_INT, &seed, 0, 9e15, "N", "seed of everything random (default 1)"},
         {"freeze", 0, CLI_TEXT, &freeze, 0, 0, "MODEL",
          "keep this model's network, fit only the new materials (default steps 3000)"},
@@ -212,6 +222,7 @@ int cmd_fit(int argc, char **argv)
         return cli_usage(&command, "no output file given, expected -o MODEL.safetensors");
     int kind_index = choose(kind, kinds), encoding_index = encoding ? choose_encoding(encoding) : 0;
     int analytic_index = choose(analytic, analytics);
+    int loss_index = choose(loss, losses), schedule_index = choose(schedule, schedules);
     if (kind_index < 0)
         return cli_usage(&command, "--kind %s, expected hybrid, neural or ggx", kind);
     if (encoding_index < 0)
@@ -221,6 +232,10 @@ int cmd_fit(int argc, char **argv)
                          encoding);
     if (analytic_index < 0)
         return cli_usage(&command, "--analytic %s, expected faithful or joint", analytic);
+    if (loss_index < 0)
+        return cli_usage(&command, "--loss %s, expected log-to-smape, log or smape", loss);
+    if (schedule_index < 0)
+        return cli_usage(&command, "--schedule %s, expected cosine, linear or constant", schedule);
     if (steps && seconds > 0.0)
         return cli_usage(&command, "--steps and --seconds exclude each other");
 
@@ -239,6 +254,9 @@ int cmd_fit(int argc, char **argv)
     j.fit.batch = (int)batch;
     j.fit.pool = (int)pool;
     j.fit.learning_rate = (float)rate;
+    j.fit.loss = (hnbrdf_fit_loss)loss_index;
+    j.fit.schedule = (hnbrdf_fit_schedule)schedule_index;
+    j.fit.uniform_share = uniform_share > 0.0 ? (float)uniform_share : -1.0f;
     j.fit.seed = (uint64_t)seed;
     j.fit.threads = (int)threads;
     j.fit.resume = resume;

@@ -18,6 +18,7 @@ enum {
 };
 #define DEFAULT_RATE 1e-2f
 #define DEFAULT_FLOOR 0.003f
+#define DEFAULT_UNIFORM_SHARE 0.5f
 #define POOL_LIMIT 1.25e9 /* bytes of training data; beyond, fewer pairs a material */
 
 double hnbrdf_fit_seconds(void)
@@ -61,7 +62,8 @@ static void piece_done(trainer *t, const char *stage, int worker)
 static void draw_one(void *context, int material, int worker)
 {
     trainer *t = context;
-    t->drawn[material] = hnbrdf_fit_pool_draw(&t->pool, material, t->data[material], t->options.seed);
+    t->drawn[material] = hnbrdf_fit_pool_draw(&t->pool, material, t->data[material],
+                                              t->options.uniform_share, t->options.seed);
     piece_done(t, "sampling", worker);
 }
 
@@ -213,6 +215,7 @@ static hnbrdf_result fill_options(hnbrdf_fit_options *o, int count, hnbrdf_error
         o->pool = (int)fmin(DEFAULT_POOL,
                             POOL_LIMIT / ((double)count * FIT_POOL_TILE / FIT_TILE * sizeof(float)));
     o->learning_rate = o->learning_rate == 0.0f ? DEFAULT_RATE : o->learning_rate;
+    o->uniform_share = o->uniform_share == 0.0f ? DEFAULT_UNIFORM_SHARE : fmaxf(o->uniform_share, 0.0f);
     if (o->hidden < 1 || o->hidden > HNBRDF_MAX_HIDDEN || o->layers < 1 ||
         o->layers > HNBRDF_MAX_LAYERS)
         return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT, "network %dx%d, expected 1x1 to %dx%d",
@@ -222,11 +225,13 @@ static hnbrdf_result fill_options(hnbrdf_fit_options *o, int count, hnbrdf_error
                            o->latent, HNBRDF_MAX_LATENT);
     if (o->steps < 1 || o->batch < 1 || o->batch > 1 << 24 || o->pool > 1 << 26 || o->threads < 0 ||
         !(o->seconds >= 0.0) || !(o->learning_rate > 0.0f) || !(o->floor < 1.0f) ||
-        !hnbrdf_kind_name(o->kind) || !hnbrdf_encoding_name(o->encoding))
+        !(o->uniform_share <= 1.0f) || (unsigned)o->loss > HNBRDF_FIT_SMAPE ||
+        (unsigned)o->schedule > HNBRDF_FIT_CONSTANT || !hnbrdf_kind_name(o->kind) ||
+        !hnbrdf_encoding_name(o->encoding))
         return hnbrdf_fail(
             error, HNBRDF_ERROR_ARGUMENT,
             "a fit option is out of its range: steps, batch and pool at least 1, learning "
-            "rate above 0, floor below 1, seconds and threads not negative");
+            "rate above 0, floor below 1, uniform share at most 1, seconds and threads not negative");
     if (o->resume && !o->checkpoint)
         return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT,
                            "nothing to resume from: no checkpoint is named");

@@ -18,7 +18,7 @@ fit_tile hnbrdf_fit_pool_view(const fit_pool *pool, int material, int tile)
 }
 
 int hnbrdf_fit_pool_draw(const fit_pool *pool, int material, const hnbrdf_measured *measured,
-                         uint64_t seed)
+                         float uniform_share, uint64_t seed)
 {
     hnbrdf_rng rng;
     hnbrdf_rng_seed(&rng, seed, (uint64_t)material);
@@ -27,10 +27,13 @@ int hnbrdf_fit_pool_draw(const fit_pool *pool, int material, const hnbrdf_measur
         float *tile = hnbrdf_fit_pool_tile(pool, material, (int)(k / FIT_TILE));
         size_t b = (size_t)(k % FIT_TILE);
         float wi[3], wo[3], f[3];
+        int is_uniform =
+            floor((double)uniform_share * (double)(k + 1)) > floor((double)uniform_share * (double)k);
         do {
             if (budget-- == 0)
                 return 0;
-            hnbrdf_sampler_draw(k % 2 ? HNBRDF_SAMPLER_UNIFORM : HNBRDF_SAMPLER_GRID, &rng, wi, wo);
+            hnbrdf_sampler_draw(is_uniform ? HNBRDF_SAMPLER_UNIFORM : HNBRDF_SAMPLER_GRID, &rng, wi,
+                                wo);
         } while (!hnbrdf_measured_eval(measured, wi, wo, f));
         for (size_t c = 0; c < 3; c++) {
             tile[c * FIT_TILE + b] = wi[c];

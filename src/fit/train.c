@@ -13,7 +13,7 @@ enum {
     SNAPSHOT_EVERY =
         100 /* steps between copies of a state to fall back to, and between entries of a log */
 };
-#define LAST_RATE 0.01 /* the cosine schedule ends at this share of the peak rate */
+#define LAST_RATE 0.01 /* schedules that fall end at this share of the peak rate */
 #define CHECKPOINT_SECONDS 30.0
 
 static float uniform(hnbrdf_rng *rng, double deviation)
@@ -183,6 +183,24 @@ static int all_finite(const float *values, size_t count)
     return 1;
 }
 
+static double rate_now(const trainer *t)
+{
+    double shape = 1.0;
+    if (t->options.schedule == HNBRDF_FIT_COSINE)
+        shape = 0.5 + 0.5 * cos(3.14159265358979 * t->share);
+    else if (t->options.schedule == HNBRDF_FIT_LINEAR)
+        shape = 1.0 - t->share;
+    return t->peak * (LAST_RATE + (1.0 - LAST_RATE) * shape) * fmin(1.0, (double)t->step / WARM_UP);
+}
+
+/* How much of the loss is SMAPE now. */
+static float mix_now(const trainer *t)
+{
+    if (t->options.loss == HNBRDF_FIT_LOG_TO_SMAPE)
+        return (float)fmin(1.0, fmax(0.0, (t->share - 0.3) / 0.4));
+    return t->options.loss == HNBRDF_FIT_SMAPE ? 1.0f : 0.0f;
+}
+
 /* One step of Adam; a state that is not finite goes back to the last good one and on at a lower rate.
  */
 static void advance(trainer *t, double loss)
@@ -196,10 +214,7 @@ static void advance(trainer *t, double loss)
     }
     if (due)
         memcpy(t->snapshot, t->parameters, bytes);
-    double cosine = 0.5 + 0.5 * cos(3.14159265358979 * t->share);
-    double rate =
-        t->peak * (LAST_RATE + (1.0 - LAST_RATE) * cosine) * fmin(1.0, (double)t->step / WARM_UP);
-    hnbrdf_fit_adam(t->parameters, t->gradient, t->moments, t->layout.count, t->step, rate);
+    hnbrdf_fit_adam(t->parameters, t->gradient, t->moments, t->layout.count, t->step, rate_now(t));
     if (t->layout.train_analytic)
         settle_analytic(t);
     t->running = isfinite(t->running) ? 0.98 * t->running + 0.02 * loss : loss;
@@ -234,7 +249,7 @@ hnbrdf_result hnbrdf_fit_train(trainer *t, hnbrdf_fit_report *report, hnbrdf_err
     const double share_before = t->share, each = (double)t->tiles_per_step * FIT_TILE;
     double saved = hnbrdf_fit_seconds(), pairs = 0.0;
     while (t->share < 1.0 && !t->stopped) {
-        t->mix = (float)fmin(1.0, fmax(0.0, (t->share - 0.3) / 0.4));
+        t->mix = mix_now(t);
         schedule(t);
         double loss = step_gradient(t);
         t->step++;
