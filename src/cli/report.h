@@ -1,0 +1,87 @@
+/* report.h: what the parts of `hnbrdf report accuracy` share: the grid of entries and their results. */
+#ifndef HNBRDF_CLI_REPORT_H
+#define HNBRDF_CLI_REPORT_H
+
+#include "cli/cli.h"
+#include "hnbrdf/fit.h"
+#include "hnbrdf/metrics.h"
+
+enum { REPORT_SAMPLERS = HNBRDF_SAMPLER_GRID + 1, REPORT_NETS = 16, REPORT_LATENTS = 8 };
+
+/* A material of a hybrid has kd, eta and alpha beside its latent code; a neural one has as many more
+ * latent floats, so that both store equally much. */
+enum { REPORT_ANALYTIC_NUMBERS = 8 };
+
+typedef enum report_form {
+    REPORT_GGX = 0,
+    REPORT_HYBRID, /* this library's: default encoding and floor */
+    REPORT_PAPER,  /* the paper's: encoding directions, no floor, GGX trained jointly */
+    REPORT_NEURAL, /* default encoding and floor, no analytic part */
+    REPORT_FORMS
+} report_form;
+
+/* One model of the grid and, once done, its errors. */
+typedef struct report_entry {
+    char name[48]; /* "hybrid-32x2-l4": of its file in models/ */
+    report_form form;
+    int net[2], latent; /* 0 for ggx */
+    int done;
+    hnbrdf_kind kind;
+    hnbrdf_encoding encoding;
+    float floor;
+    long steps;
+    double seconds, pairs_per_s; /* of the fit */
+    size_t weights, mults;
+    hnbrdf_comparison *errors; /* [REPORT_SAMPLERS][materials] */
+    hnbrdf_comparison mean[REPORT_SAMPLERS];
+} report_entry;
+
+typedef struct report {
+    const char *directory;
+    const char *command_line;
+    cli_data data;
+    report_entry *entries;
+    int count;
+    int nets[REPORT_NETS][2], net_count;
+    int latents[REPORT_LATENTS], latent_count;
+    int forms[REPORT_FORMS]; /* 1: in the grid */
+    int sampler;             /* an hnbrdf_sampler: of the plots, the wins and the analytic part */
+    int analytic;            /* an hnbrdf_fit_analytic: of the hybrids */
+    long pairs, seed, steps, threads, pool;
+    double budget; /* seconds of training an entry; 0: `steps` */
+    int resume;
+} report;
+
+/* ---- report_grid.c ------------------------------------------------------------------------------- */
+
+/* "ggx", "hybrid", "paper", "neural"; NULL for any other value. */
+const char *report_form_name(report_form form);
+/* Makes the entries: ggx first, then by net, latent size and form. 0, or CLI_FAILURE after a message.
+ */
+int report_make_entries(report *r);
+void report_free_entries(report *r);
+/* The entry of this form at a place of the grid, or NULL. latent is the hybrid's; ggx has neither. */
+const report_entry *report_find(const report *r, report_form form, const int net[2], int latent);
+/* SMAPE of material m with the report's sampler. */
+double report_error(const report *r, const report_entry *e, int m);
+/* For how many materials a has the lower error. */
+int report_wins(const report *r, const report_entry *a, const report_entry *b);
+/* "models/NAME.SUFFIX" in the report's directory; malloc'ed, NULL after a message. */
+char *report_path(const report *r, const char *name, const char *suffix);
+
+/* ---- report_fit.c -------------------------------------------------------------------------------- */
+
+/* Fits or reuses, saves and measures all entries; calls `finished` after each one and stops when it
+ * does not return 0. Ctrl-C ends it after the step. 0, or CLI_FAILURE after a message. */
+int report_run(report *r, int (*finished)(const report *r, const report_entry *e));
+
+/* ---- report_tables.c, report_plot.c: into FILE, whatever is done so far ----------------------------
+ */
+
+void report_write_markdown(const report *r, FILE *file);
+void report_write_accuracy(const report *r, FILE *file);
+void report_write_materials(const report *r, FILE *file);
+/* SVG: the error of every material, in the order of GGX's, for the models of one net. */
+void report_write_plot(const report *r, const int net[2], FILE *file);
+
+#endif

@@ -1,0 +1,314 @@
+/* report_fit.c: trains or reuses the models of a report, one after the other, and measures them. */
+#include "cli/report.h"
+#include "fit/workers.h"
+
+#include <math.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+/* Set by Ctrl-C; the fit looks at it after every step. */
+static volatile sig_atomic_t interrupted;
+
+static void on_interrupt(int number)
+{
+    (void)number;
+    interrupted = 1;
+}
+
+/* What is under way, for the progress line. */
+typedef struct watch {
+    cli_progress line;
+    const report *r;
+    const report_entry *entry;
+    double before, now, all; /* work of the entries done, of this one, of all that must be fitted */
+} watch;
+
+/* ---- What a finished model was made with ---------------------------------------------------------
+ * models/NAME.txt: the settings in one line, then what the fit took. Written last: it says that the
+ * model beside it is complete. */
+
+static uint64_t hash_text(uint64_t h, const char *text) /* FNV-1a */
+{
+    do
+        h = (h ^ (unsigned char)*text) * UINT64_C(1099511628211);
+    while (*text++);
+    return h;
+}
+
+static void describe_settings(const report *r, const report_entry *e, char *text, size_t size)
+{
+    uint64_t h = UINT64_C(14695981039346656037);
+    for (int m = 0; m < r->data.count; m++) {
+        h = hash_text(h, hnbrdf_measured_name(r->data.items[m]));
+        h = hash_text(h, hnbrdf_measured_summary(r->data.items[m]));
+    }
+    snprintf(text, size, "hnbrdf %s, %d materials (%016llx), seed %ld, %ld steps, %g s, pool %ld, %s\n",
+             hnbrdf_version(), r->data.count, (unsigned long long)h, r->seed, r->steps, r->budget,
+             r->pool,
+             e->form == REPORT_HYBRID && r->analytic == HNBRDF_FIT_JOINT ? "joint" : "default");
+}
+
+static int write_record(const report *r, const report_entry *e)
+{
+    char settings[512];
+    cli_output output;
+    char *path = report_path(r, e->name, "txt");
+    int result = path ? cli_output_open(path, &output) : CLI_FAILURE;
+    free(path);
+    if (result != CLI_OK)
+        return result;
+    describe_settings(r, e, settings, sizeof settings);
+    fprintf(output.file, "%ssteps %ld\nseconds %.3f\npairs_per_s %.0f\n", settings, e->steps,
+            e->seconds, e->pairs_per_s);
+    return cli_output_close(&output);
+}
+
+/* 1 if there is a record of a model made with these very settings. */
+static int read_record(const report *r, report_entry *e)
+{
+    char settings[512], found[512] = "";
+    char *path = report_path(r, e->name, "txt");
+    FILE *file = path ? fopen(path, "r") : NULL;
+    free(path);
+    if (!file)
+        return 0;
+    describe_settings(r, e, settings, sizeof settings);
+    int same = fgets(found, sizeof found, file) && strcmp(found, settings) == 0 &&
+               fscanf(file, "steps %ld seconds %lf pairs_per_s %lf", &e->steps, &e->seconds,
+                      &e->pairs_per_s) == 3;
+    fclose(file);
+    return same;
+}
+
+static void forget(const report *r, const report_entry *e, const char *suffix)
+{
+    char *path = report_path(r, e->name, suffix);
+    if (path)
+        remove(path);
+    free(path);
+}
+
+/* ---- Fitting ------------------------------------------------------------------------------------- */
+
+/* How long a fit takes in comparison: the budget, or what the network multiplies and what comes on top.
+ */
+static double work_of(const report *r, const report_entry *e)
+{
+    if (e->form == REPORT_GGX)
+        return r->budget > 0.0 ? 2.0 : 500.0;
+    return r->budget > 0.0 ? r->budget + 2.0
+                           : 1500.0 + e->net[0] * (e->net[0] * (e->net[1] - 1) + 16.0);
+}
+
+static int show(void *user, const hnbrdf_fit_progress *p)
+{
+    watch *w = user;
+    char detail[96], loss[32] = "";
+    double done = strcmp(p->stage, "network") == 0 ? p->done : 0.0;
+    if (isfinite(p->loss))
+        snprintf(loss, sizeof loss, ", loss %.4f", p->loss);
+    snprintf(detail, sizeof detail, "%d of %d %s%s", (int)(w->entry - w->r->entries) + 1, w->r->count,
+             w->entry->name, loss);
+    cli_progress_update(&w->line, (w->before + w->now * done) / w->all, detail);
+    return interrupted != 0;
+}
+
+static void set_options(const report *r, const report_entry *e, hnbrdf_fit_options *o)
+{
+    static const hnbrdf_kind kinds[REPORT_FORMS] = {
+        [REPORT_GGX] = HNBRDF_KIND_GGX,
+        [REPORT_HYBRID] = HNBRDF_KIND_HYBRID,
+        [REPORT_PAPER] = HNBRDF_KIND_HYBRID,
+        [REPORT_NEURAL] = HNBRDF_KIND_NEURAL,
+    };
+    memset(o, 0, sizeof *o);
+    o->kind = kinds[e->form];
+    o->hidden = e->net[0];
+    o->layers = e->net[1];
+    o->latent = e->latent;
+    o->analytic = (hnbrdf_fit_analytic)r->analytic;
+    if (e->form == REPORT_PAPER) {
+        o->encoding_set = 1;
+        o->encoding = HNBRDF_ENCODING_DIRECTIONS;
+        o->floor = -1.0f;
+        o->analytic = HNBRDF_FIT_JOINT;
+    }
+    o->steps = r->steps;
+    o->seconds = r->budget;
+    o->pool = (int)r->pool;
+    o->seed = (uint64_t)r->seed;
+    o->threads = (int)r->threads;
+}
+
+/* Fits and saves; goes on from a checkpoint that --resume finds. */
+static int fit_entry(const report *r, report_entry *e, watch *w, hnbrdf_model **model)
+{
+    hnbrdf_fit_options options;
+    hnbrdf_fit_report made;
+    hnbrdf_error error;
+    char *checkpoint = report_path(r, e->name, "checkpoint"),
+         *path = report_path(r, e->name, "safetensors");
+    if (!checkpoint || !path) {
+        free(checkpoint);
+        free(path);
+        return CLI_FAILURE;
+    }
+    forget(r, e, "txt");
+    set_options(r, e, &options);
+    options.progress = show;
+    options.progress_user = w;
+    if (e->form != REPORT_GGX) {
+        options.checkpoint = checkpoint;
+        options.resume = r->resume && access(checkpoint, R_OK) == 0;
+    }
+    int code = CLI_OK;
+    hnbrdf_model *fitted = NULL;
+    hnbrdf_result result = hnbrdf_fit((const hnbrdf_measured *const *)r->data.items, r->data.count,
+                                      &options, &fitted, &made, &error);
+    if (result == HNBRDF_OK && (interrupted || made.stopped))
+        code = cli_fail("%s: interrupted; what is finished is there, --resume goes on", r->directory);
+    else if (result == HNBRDF_OK)
+        result = hnbrdf_model_save(fitted, path, &error);
+    if (result != HNBRDF_OK)
+        code = cli_fail("%s: %s", e->name, error.text);
+    if (code == CLI_OK) {
+        e->steps = made.steps;
+        e->seconds = made.seconds;
+        e->pairs_per_s = made.pairs_per_s;
+        remove(checkpoint);
+        code = write_record(r, e);
+    }
+    if (code == CLI_OK)
+        *model = fitted;
+    else
+        hnbrdf_model_free(fitted);
+    free(checkpoint);
+    free(path);
+    return code;
+}
+
+/* The model of an earlier run, if --resume allows it and it is complete. */
+static hnbrdf_model *reuse(const report *r, report_entry *e)
+{
+    hnbrdf_model *model = NULL;
+    if (!r->resume || !read_record(r, e))
+        return NULL;
+    char *path = report_path(r, e->name, "safetensors");
+    if (path && hnbrdf_model_load(path, NULL, &model, NULL) != HNBRDF_OK)
+        model = NULL;
+    free(path);
+    return model;
+}
+
+/* ---- Measuring ----------------------------------------------------------------------------------- */
+
+typedef struct measuring {
+    const report *r;
+    report_entry *e;
+    const hnbrdf_model *model;
+    hnbrdf_result *results; /* [REPORT_SAMPLERS][materials] */
+} measuring;
+
+static void measure_one(void *context, int index, int worker)
+{
+    measuring *job = context;
+    const report *r = job->r;
+    const hnbrdf_measured *measured = r->data.items[index % r->data.count];
+    const char *name = hnbrdf_measured_name(measured);
+    (void)worker;
+    job->results[index] = hnbrdf_compare(
+        job->model, hnbrdf_model_material(job->model, hnbrdf_model_find(job->model, name)), measured,
+        (hnbrdf_sampler)(index / r->data.count), (size_t)r->pairs, (uint64_t)r->seed,
+        &job->e->errors[index], NULL);
+}
+
+static void average(report_entry *e, int materials)
+{
+    memset(e->mean, 0, sizeof e->mean);
+    for (int k = 0; k < REPORT_SAMPLERS * materials; k++) {
+        hnbrdf_comparison *mean = &e->mean[k / materials];
+        mean->smape += e->errors[k].smape / materials;
+        mean->smape_analytic += e->errors[k].smape_analytic / materials;
+        mean->pairs += e->errors[k].pairs;
+    }
+}
+
+static int measure(const report *r, report_entry *e, const hnbrdf_model *model)
+{
+    int items = REPORT_SAMPLERS * r->data.count, code = CLI_OK;
+    measuring job = {r, e, model, calloc((size_t)items, sizeof(hnbrdf_result))};
+    fit_workers *workers = hnbrdf_fit_workers_start((int)r->threads);
+    if (job.results && workers) {
+        hnbrdf_fit_workers_run(workers, items, measure_one, &job);
+        for (int k = 0; k < items && code == CLI_OK; k++)
+            if (job.results[k] != HNBRDF_OK)
+                code = cli_fail("%s: %s", hnbrdf_measured_name(r->data.items[k % r->data.count]),
+                                hnbrdf_strerror(job.results[k]));
+        average(e, r->data.count);
+    } else {
+        code = cli_fail("out of memory");
+    }
+    hnbrdf_fit_workers_stop(workers);
+    free(job.results);
+    return code;
+}
+
+/* ---- The whole grid ------------------------------------------------------------------------------ */
+
+static int finish_entry(const report *r, report_entry *e, const hnbrdf_model *model)
+{
+    hnbrdf_model_desc desc;
+    hnbrdf_model_describe(model, &desc);
+    e->kind = desc.kind;
+    e->encoding = desc.encoding;
+    e->floor = desc.floor;
+    e->weights = hnbrdf_model_weight_count(model);
+    e->mults = hnbrdf_model_multiplications(model);
+    if (measure(r, e, model) != CLI_OK)
+        return CLI_FAILURE;
+    e->done = 1;
+    return CLI_OK;
+}
+
+static int run_entry(const report *r, report_entry *e, watch *w)
+{
+    hnbrdf_model *model = reuse(r, e);
+    w->entry = e;
+    w->now = model ? 0.0 : work_of(r, e);
+    int result = model ? CLI_OK : fit_entry(r, e, w, &model);
+    if (result == CLI_OK)
+        result = finish_entry(r, e, model);
+    hnbrdf_model_free(model);
+    w->before += w->now;
+    return result;
+}
+
+int report_run(report *r, int (*finished)(const report *r, const report_entry *e))
+{
+    watch w = {.r = r};
+    int result = CLI_OK;
+    for (int k = 0; k < r->count; k++) {
+        report_entry probe = r->entries[k];
+        w.all += r->resume && read_record(r, &probe) ? 0.0 : work_of(r, &probe);
+    }
+    interrupted = 0;
+    signal(SIGINT, on_interrupt);
+    signal(SIGTERM, on_interrupt);
+    cli_progress_begin(&w.line, "report");
+    for (int k = 0; k < r->count && result == CLI_OK; k++) {
+        result = run_entry(r, &r->entries[k], &w);
+        if (result == CLI_OK) {
+            cli_progress_end(&w.line);
+            result = finished(r, &r->entries[k]);
+        }
+        if (result == CLI_OK && interrupted && k + 1 < r->count)
+            result =
+                cli_fail("%s: interrupted; what is finished is there, --resume goes on", r->directory);
+    }
+    cli_progress_end(&w.line);
+    signal(SIGINT, SIG_DFL);
+    signal(SIGTERM, SIG_DFL);
+    return result;
+}

@@ -1,0 +1,95 @@
+/* report_grid.c: which models a report trains, and how to find them. */
+#include "cli/report.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+const char *report_form_name(report_form form)
+{
+    static const char *const names[REPORT_FORMS] = {"ggx", "hybrid", "paper", "neural"};
+    return (unsigned)form < REPORT_FORMS ? names[form] : NULL;
+}
+
+static int entry_latent(report_form form, int latent)
+{
+    return form == REPORT_NEURAL ? latent + REPORT_ANALYTIC_NUMBERS : latent;
+}
+
+static void add_entry(report *r, report_form form, const int net[2], int latent)
+{
+    report_entry *e = &r->entries[r->count++];
+    e->form = form;
+    if (form == REPORT_GGX) {
+        snprintf(e->name, sizeof e->name, "ggx");
+        return;
+    }
+    memcpy(e->net, net, sizeof e->net);
+    e->latent = entry_latent(form, latent);
+    snprintf(e->name, sizeof e->name, "%s-%dx%d-l%d", report_form_name(form), net[0], net[1],
+             e->latent);
+}
+
+int report_make_entries(report *r)
+{
+    size_t most = 1 + (size_t)r->net_count * (size_t)r->latent_count * REPORT_FORMS;
+    r->entries = calloc(most, sizeof *r->entries);
+    if (!r->entries)
+        return cli_fail("out of memory");
+    add_entry(r, REPORT_GGX, NULL, 0);
+    for (int n = 0; n < r->net_count; n++)
+        for (int l = 0; l < r->latent_count; l++)
+            for (report_form form = REPORT_HYBRID; form < REPORT_FORMS; form++)
+                if (r->forms[form])
+                    add_entry(r, form, r->nets[n], r->latents[l]);
+    for (int k = 0; k < r->count; k++) {
+        r->entries[k].errors =
+            calloc((size_t)r->data.count * REPORT_SAMPLERS, sizeof(hnbrdf_comparison));
+        if (!r->entries[k].errors)
+            return cli_fail("out of memory");
+    }
+    return CLI_OK;
+}
+
+void report_free_entries(report *r)
+{
+    for (int k = 0; k < r->count; k++)
+        free(r->entries[k].errors);
+    free(r->entries);
+}
+
+const report_entry *report_find(const report *r, report_form form, const int net[2], int latent)
+{
+    for (int k = 0; k < r->count; k++) {
+        const report_entry *e = &r->entries[k];
+        if (e->form != form)
+            continue;
+        if (form == REPORT_GGX ||
+            (e->net[0] == net[0] && e->net[1] == net[1] && e->latent == entry_latent(form, latent)))
+            return e;
+    }
+    return NULL;
+}
+
+double report_error(const report *r, const report_entry *e, int m)
+{
+    return e->errors[r->sampler * r->data.count + m].smape;
+}
+
+int report_wins(const report *r, const report_entry *a, const report_entry *b)
+{
+    int wins = 0;
+    for (int m = 0; m < r->data.count; m++)
+        wins += report_error(r, a, m) < report_error(r, b, m);
+    return wins;
+}
+
+char *report_path(const report *r, const char *name, const char *suffix)
+{
+    size_t size = strlen(r->directory) + strlen(name) + strlen(suffix) + sizeof "/models/.";
+    char *path = malloc(size);
+    if (path)
+        snprintf(path, size, "%s/models/%s.%s", r->directory, name, suffix);
+    else
+        cli_fail("out of memory");
+    return path;
+}
