@@ -53,8 +53,9 @@ typedef struct hnbrdf_fit_options {
     int hidden, layers;             /* HxN; 0 stands for 32 and 2 */
     int latent;                     /* l; 0 stands for 4 (hybrid) or 12 (neural) */
     hnbrdf_encoding encoding;
-    int encoding_set;               /* 0: angles, or angles-anisotropic if any material is anisotropic;
-                                       1: use `encoding` */
+    int encoding_set;               /* 1: use `encoding`; 0: angles, or angles-directed where swapping wi and
+                                       wo changes the data by more than 2 % (RGL: 3 to 20 %), or
+                                       angles-anisotropic if any material is anisotropic */
     float floor;                    /* b; 0 stands for the default of 0.003, negative for none */
     hnbrdf_fit_analytic analytic;
     long steps;                     /* network steps; 0 stands for 32000 */

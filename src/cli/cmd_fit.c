@@ -14,7 +14,8 @@ static const cli_command command = {
     "or directories.\n"
     "The result depends on the data, the options and the seed, not on the number of threads; a fit\n"
     "limited by --seconds prints the steps it made, to be repeated with --steps. Ctrl-C ends a fit\n"
-    "after the step, saves the model so far, and leaves OUTPUT.checkpoint, from which --resume goes on.",
+    "after the step, saves the model so far, and leaves OUTPUT.checkpoint, from which --resume goes "
+    "on.",
     "  hnbrdf fit builtin -o builtin.safetensors\n"
     "  hnbrdf fit rgl/ --net 32x2 --latent 4 --seconds 120 -o rgl.safetensors\n"
     "  hnbrdf fit rgl/ --kind ggx -o ggx.safetensors\n"
@@ -185,8 +186,9 @@ int cmd_fit(int argc, char **argv)
         {"latent", 0, CLI_INT, &latent, 1, HNBRDF_MAX_LATENT, "L",
          "floats of latent code a material (default 4; neural: 12)"},
         {"encoding", 0, CLI_TEXT, &encoding, 0, 0, "NAME",
-         "angles, angles-anisotropic, angles-directed, half-difference or directions (default angles; "
-         "angles-anisotropic if a material is)"},
+         "angles (reciprocal), angles-directed, angles-anisotropic, half-difference or directions "
+         "(default: "
+         "angles for reciprocal data, else angles-directed; angles-anisotropic if a material is)"},
         {"analytic", 0, CLI_TEXT, &analytic, 0, 0, "HOW",
          "faithful: keep the GGX fit; joint: train it along (default faithful)"},
         {"floor", 0, CLI_REAL, &floor, 0, 0.999, "B", "the floor b, 1/sr; 0 for none (default 0.003)"},
@@ -197,7 +199,8 @@ int cmd_fit(int argc, char **argv)
          "direction pairs drawn a material (default 131072)"},
         {"rate", 0, CLI_REAL, &rate, 1e-7, 10, "R", "peak learning rate of Adam (default 0.01)"},
         {"loss", 0, CLI_TEXT, &loss, 0, 0, "NAME",
-         "log-to-smape: log-L1 that turns into SMAPE between 30 and 70 %; log; smape (default the first)"},
+         "log-to-smape: log-L1 that turns into SMAPE between 30 and 70 %; log; smape (default the "
+         "first)"},
         {"schedule", 0, CLI_TEXT, &schedule, 0, 0, "NAME",
          "of the rate: cosine or linear down to 1 %, or constant (default cosine)"},
         {"uniform-share", 0, CLI_REAL, &uniform_share, 0, 1, "S",

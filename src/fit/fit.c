@@ -16,6 +16,8 @@ enum {
     DEFAULT_BATCH = 2048,
     DEFAULT_POOL = 131072
 };
+enum { ASYMMETRY_PAIRS = 4096 };
+#define RECIPROCAL 0.02 /* data whose asymmetry is less count as reciprocal */
 #define DEFAULT_RATE 1e-2f
 #define DEFAULT_FLOOR 0.003f
 #define DEFAULT_UNIFORM_SHARE 0.5f
@@ -189,13 +191,37 @@ static hnbrdf_result take_frozen(hnbrdf_fit_options *o, hnbrdf_error *error)
     return HNBRDF_OK;
 }
 
-/* The most accurate reciprocal one (examples/encodings.md). */
+/* Mean SMAPE between f(wi, wo) and f(wo, wi) of one material over uniform pairs. */
+static double asymmetry(const hnbrdf_measured *measured)
+{
+    hnbrdf_rng rng;
+    double sum = 0.0;
+    int used = 0;
+    hnbrdf_rng_seed(&rng, 0, UINT64_C(3) << 40);
+    for (int k = 0; k < ASYMMETRY_PAIRS; k++) {
+        float wi[3], wo[3], f[3], g[3];
+        hnbrdf_sampler_draw(HNBRDF_SAMPLER_UNIFORM, &rng, wi, wo);
+        if (!hnbrdf_measured_eval(measured, wi, wo, f) || !hnbrdf_measured_eval(measured, wo, wi, g))
+            continue;
+        for (int c = 0; c < 3; c++)
+            if (f[c] != g[c])
+                sum +=
+                    2.0 * fabs((double)f[c] - (double)g[c]) / (fabs((double)f[c]) + fabs((double)g[c]));
+        used += 3;
+    }
+    return used ? sum / used : 0.0;
+}
+
+/* The most accurate for these data (examples/encodings.md): a reciprocal one where the data are. */
 static hnbrdf_encoding default_encoding(const hnbrdf_measured *const *data, int count)
 {
-    for (int m = 0; m < count; m++)
+    double sum = 0.0;
+    for (int m = 0; m < count; m++) {
         if (!hnbrdf_measured_is_isotropic(data[m]))
             return HNBRDF_ENCODING_ANGLES_ANISOTROPIC;
-    return HNBRDF_ENCODING_ANGLES;
+        sum += asymmetry(data[m]);
+    }
+    return sum <= RECIPROCAL * count ? HNBRDF_ENCODING_ANGLES : HNBRDF_ENCODING_ANGLES_DIRECTED;
 }
 
 static hnbrdf_result fill_options(hnbrdf_fit_options *o, int count, hnbrdf_error *error)
