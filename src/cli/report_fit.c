@@ -17,12 +17,15 @@ static void on_interrupt(int number)
     interrupted = 1;
 }
 
-/* What is under way, for the progress line. */
+/* What is under way, for the progress line; all in seconds. */
 typedef struct watch {
     cli_progress line;
     const report *r;
     const report_entry *entry;
-    double before, now, all; /* work of the entries done, of this one, of all that must be fitted */
+    double started;
+    double before;      /* the network: data and GGX of one entry, as the entry ggx took */
+    double work_second; /* units of work a second, as the last network did */
+    double later;       /* expected for the entries after this one */
 } watch;
 
 /* ---- What a finished model was made with ---------------------------------------------------------
@@ -92,26 +95,54 @@ static void forget(const report *r, const report_entry *e, const char *suffix)
 
 /* ---- Fitting ------------------------------------------------------------------------------------- */
 
-/* How long a fit takes in comparison: the budget, or what the network multiplies and what comes on top.
- */
+/* Multiplications; only ratios matter. */
 static double work_of(const report *r, const report_entry *e)
 {
+    double hidden = e->net[0], inputs = 6.0 + e->latent;
+    double mults = hidden * (inputs + hidden * (e->net[1] - 1) + 6.0);
+    return e->form == REPORT_GGX ? 0.0 : mults * (double)(r->steps ? r->steps : 32000);
+}
+
+static double network_seconds(const watch *w, const report_entry *e)
+{
+    return e->form != REPORT_GGX && w->r->budget > 0.0 ? w->r->budget
+                                                       : work_of(w->r, e) / w->work_second;
+}
+
+static void watch_entry(watch *w, const report_entry *e)
+{
+    const report *r = w->r;
+    w->entry = e;
+    w->later = 0.0;
+    for (int k = (int)(e - r->entries) + 1; k < r->count; k++) {
+        report_entry probe = r->entries[k];
+        if (!r->resume || !read_record(r, &probe))
+            w->later += w->before + network_seconds(w, &probe);
+    }
+}
+
+static void learn_from(watch *w, const report_entry *e)
+{
     if (e->form == REPORT_GGX)
-        return r->budget > 0.0 ? 2.0 : 500.0;
-    return r->budget > 0.0 ? r->budget + 2.0
-                           : 1500.0 + e->net[0] * (e->net[0] * (e->net[1] - 1) + 16.0);
+        w->before = e->seconds;
+    else if (e->seconds > w->before)
+        w->work_second = work_of(w->r, e) / (e->seconds - w->before);
 }
 
 static int show(void *user, const hnbrdf_fit_progress *p)
 {
     watch *w = user;
     char detail[96], loss[32] = "";
-    double done = strcmp(p->stage, "network") == 0 ? p->done : 0.0;
+    int in_network = strcmp(p->stage, "network") == 0;
+    double left = w->later + network_seconds(w, w->entry) * (in_network ? 1.0 - p->done : 1.0);
+    double spent = cli_seconds() - w->started;
+    if (!in_network)
+        left += w->before * (strcmp(p->stage, "ggx") == 0 ? 1.0 - p->done : 1.0);
     if (isfinite(p->loss))
         snprintf(loss, sizeof loss, ", loss %.4f", p->loss);
     snprintf(detail, sizeof detail, "%d of %d %s%s", (int)(w->entry - w->r->entries) + 1, w->r->count,
              w->entry->name, loss);
-    cli_progress_update(&w->line, (w->before + w->now * done) / w->all, detail);
+    cli_progress_update(&w->line, spent / (spent + left), detail);
     return interrupted != 0;
 }
 
@@ -275,39 +306,34 @@ static int finish_entry(const report *r, report_entry *e, const hnbrdf_model *mo
 static int run_entry(const report *r, report_entry *e, watch *w)
 {
     hnbrdf_model *model = reuse(r, e);
-    w->entry = e;
-    w->now = model ? 0.0 : work_of(r, e);
+    watch_entry(w, e);
     int result = model ? CLI_OK : fit_entry(r, e, w, &model);
     if (result == CLI_OK)
         result = finish_entry(r, e, model);
+    if (result == CLI_OK)
+        learn_from(w, e);
     hnbrdf_model_free(model);
-    w->before += w->now;
     return result;
 }
 
 int report_run(report *r, int (*finished)(const report *r, const report_entry *e))
 {
-    watch w = {.r = r};
+    /* First guesses, until the first entries tell. */
+    watch w = {.r = r, .started = cli_seconds(), .before = 0.3 * r->data.count, .work_second = 2e6};
     int result = CLI_OK;
-    for (int k = 0; k < r->count; k++) {
-        report_entry probe = r->entries[k];
-        w.all += r->resume && read_record(r, &probe) ? 0.0 : work_of(r, &probe);
-    }
     interrupted = 0;
     signal(SIGINT, on_interrupt);
     signal(SIGTERM, on_interrupt);
     cli_progress_begin(&w.line, "report");
     for (int k = 0; k < r->count && result == CLI_OK; k++) {
         result = run_entry(r, &r->entries[k], &w);
-        if (result == CLI_OK) {
-            cli_progress_end(&w.line);
+        cli_progress_end(&w.line);
+        if (result == CLI_OK)
             result = finished(r, &r->entries[k]);
-        }
         if (result == CLI_OK && interrupted && k + 1 < r->count)
             result =
                 cli_fail("%s: interrupted; what is finished is there, --resume goes on", r->directory);
     }
-    cli_progress_end(&w.line);
     signal(SIGINT, SIG_DFL);
     signal(SIGTERM, SIG_DFL);
     return result;
