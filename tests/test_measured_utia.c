@@ -131,7 +131,47 @@ static void azimuths_wrap_around(void **state)
     assert_true(fabs((double)(last[0] - first[0])) > 0.1);
     assert_true(fabs(0.5 * (double)(last[0] + first[0]) - (double)between[0]) < 1e-6);
     assert_true(fabs((double)(below[0] - first[0])) < 1e-5);
+    /* so little below 0 that 360 degrees are added to it and nothing is left */
+    const float wi[3] = {0.5f, -1e-30f, 0.8f}, on_axis[3] = {0.5f, 0.0f, 0.8f};
+    hnbrdf_measured_eval(measured, wi, wi, below);
+    hnbrdf_measured_eval(measured, on_axis, on_axis, first);
+    assert_memory_equal(below, first, sizeof first);
     hnbrdf_measured_close(measured);
+}
+
+/* 5.4/140 lies between djb's threshold 0.0375 and that of sRGB: 100 ((0.0385714+0.055)/1.055)^2.4. */
+static void djb_decodes_from_its_own_threshold_on(void **state)
+{
+    test_bytes file = constant_table(5.4);
+    hnbrdf_measured *measured = expect_opens(file.data, file.size, "x");
+    float f[3];
+    (void)state;
+    eval_degrees(measured, (double[4]){40, 10, 50, 20}, f);
+    assert_true(fabs((double)f[0] / 0.298495591 - 1) < 5e-6);
+    hnbrdf_measured_close(measured);
+    free(file.data);
+}
+
+/* Half way between samples of -1 and 1 djb sees half of 1/140, raw their mean 0. Directions are floats.
+ */
+static void djb_clamps_samples_before_it_blends_them(void **state)
+{
+    test_bytes file = constant_table(1.0);
+    float f[3];
+    (void)state;
+    for (int k = 0; k < SAMPLES; k++)
+        if (k % 2)
+            put_double(file.data + 8 * (size_t)k, -1.0);
+    hnbrdf_measured *measured = expect_opens(file.data, file.size, "x");
+    eval_degrees(measured, (double[4]){40, 10, 50, 18.75}, f);
+    assert_true(fabs((double)f[0] / 0.027642636 - 1) < 5e-6);
+    hnbrdf_measured_close(measured);
+    measured = expect_opens_with(file.data, file.size, "x",
+                                 &(hnbrdf_measured_options){.utia_mode = HNBRDF_UTIA_RAW});
+    eval_degrees(measured, (double[4]){40, 10, 50, 18.75}, f);
+    assert_true((double)f[0] < 1e-5);
+    hnbrdf_measured_close(measured);
+    free(file.data);
 }
 
 static void the_material_is_anisotropic_and_its_format_named(void **state)
@@ -221,6 +261,7 @@ static void the_summary_tells_mode_and_albedo(void **state)
         {HNBRDF_UTIA_DJB, 1.0, "mode djb, directional albedo 0.174 at 0 and 0.174 at 45"},
         {HNBRDF_UTIA_RAW, 0.5, "1.571 at 45 degrees (WARNING: more than arrives); 0 of 248832"},
         {HNBRDF_UTIA_RAW, 1e30, "directional albedo over 9999 at 0"},
+        {HNBRDF_UTIA_RAW, 0.0, "0.000 at 45 degrees; 0 of 248832 samples negative"},
         {HNBRDF_UTIA_RAW, -1.0, "0.000 at 45 degrees; 248832 of 248832 samples negative"}};
     (void)state;
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
@@ -340,6 +381,8 @@ int main(void)
         cmocka_unit_test(values_are_those_of_the_description),
         cmocka_unit_test(nodes_give_their_samples),
         cmocka_unit_test(azimuths_wrap_around),
+        cmocka_unit_test(djb_decodes_from_its_own_threshold_on),
+        cmocka_unit_test(djb_clamps_samples_before_it_blends_them),
         cmocka_unit_test(the_material_is_anisotropic_and_its_format_named),
         cmocka_unit_test(the_scale_multiplies_the_final_value),
         cmocka_unit_test(beyond_75_degrees_values_go_on_or_are_held),
