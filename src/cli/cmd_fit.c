@@ -1,5 +1,6 @@
 /* cmd_fit.c: hnbrdf fit: measured materials in, one model file out. */
 #include "cli/cli.h"
+#include "cli/loss_plot.h"
 #include "hnbrdf/fit.h"
 
 #include <math.h>
@@ -26,6 +27,7 @@ typedef struct display {
     cli_progress line;
     const char *stage;
     FILE *log;
+    loss_curve curve;
 } display;
 
 /* Set by Ctrl-C; the fit looks at it after every step. */
@@ -55,8 +57,11 @@ static int show(void *user, const hnbrdf_fit_progress *p)
     else
         detail[0] = '\0';
     cli_progress_update(&d->line, p->done, detail);
-    if (d->log && p->step > 0 && p->step % 100 == 0)
-        fprintf(d->log, "%ld,%.6f,%.6f,%.0f\n", p->step, p->done, p->loss, p->pairs_per_s);
+    if (p->step > 0 && p->step % 100 == 0) {
+        loss_curve_add(&d->curve, p->step, p->loss);
+        if (d->log)
+            fprintf(d->log, "%ld,%.6f,%.6f,%.0f\n", p->step, p->done, p->loss, p->pairs_per_s);
+    }
     return interrupted != 0;
 }
 
@@ -80,7 +85,7 @@ static int choose_encoding(const char *text)
 
 typedef struct job {
     hnbrdf_fit_options fit;
-    const char *output;
+    const char *output, *plot;
     cli_data data;
 } job;
 
@@ -108,7 +113,7 @@ static void summarise(const job *j, const hnbrdf_model *model, const hnbrdf_fit_
 /* Fit and save. The checkpoint stays only after an interruption. */
 static int run(job *j, FILE *log)
 {
-    display d = {{0}, NULL, log};
+    display d = {{0}, NULL, log, {NULL, 0, 0}};
     hnbrdf_model *model = NULL;
     hnbrdf_fit_report report;
     hnbrdf_error error;
@@ -131,7 +136,10 @@ static int run(job *j, FILE *log)
         summarise(j, model, &report);
         if (!report.stopped)
             remove(j->fit.checkpoint);
+        if (j->plot)
+            code = loss_curve_plot(&d.curve, "training loss, running mean", j->plot);
     }
+    loss_curve_free(&d.curve);
     hnbrdf_model_free(model);
     return code;
 }
@@ -171,7 +179,7 @@ int cmd_fit(int argc, char **argv)
     static const char *const losses[] = {"log-to-smape", "log", "smape", NULL};
     static const char *const schedules[] = {"cosine", "linear", "constant", NULL};
     static const char *const analytics[] = {"faithful", "joint", NULL};
-    const char *freeze = NULL, *log = NULL;
+    const char *freeze = NULL, *log = NULL, *plot = NULL;
     int resume = 0;
     const char *kind = "hybrid", *encoding = NULL, *analytic = "faithful", *output = NULL;
     const char *loss = "log-to-smape", *schedule = "cosine";
@@ -212,6 +220,7 @@ int cmd_fit(int argc, char **argv)
          "go on from OUTPUT.checkpoint of an interrupted fit"},
         {"log", 0, CLI_TEXT, &log, 0, 0, "FILE",
          "write step,share,loss,pairs_per_s as CSV, a row every 100 steps"},
+        {"plot", 0, CLI_TEXT, &plot, 0, 0, "FILE", "write the course of the loss as an SVG"},
         {"threads", 0, CLI_INT, &threads, 1, 256, "N", "threads (default one a core)"},
         CLI_READING_OPTIONS,
         {NULL, 0, CLI_FLAG, NULL, 0, 0, NULL, NULL}};
@@ -244,6 +253,7 @@ int cmd_fit(int argc, char **argv)
 
     job j = {0};
     j.output = output;
+    j.plot = plot;
     j.fit.kind = (hnbrdf_kind)kind_index;
     j.fit.hidden = net[0];
     j.fit.layers = net[1];

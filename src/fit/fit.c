@@ -73,10 +73,16 @@ static void fit_one(void *context, int material, int worker)
 {
     trainer *t = context;
     hnbrdf_material_init(&t->materials[material]);
-    if (t->options.kind != HNBRDF_KIND_NEURAL) {
+    int neural = t->options.kind == HNBRDF_KIND_NEURAL;
+    if (!neural || !t->isotropic[material]) {
         float *p = t->parameters + t->layout.analytic + (size_t)material * FIT_ANALYTIC;
+        hnbrdf_material fitted = t->materials[material];
         hnbrdf_fit_ggx(t->kernel, &t->pool, material, t->isotropic[material], p);
-        hnbrdf_fit_ggx_material(p, &t->materials[material]);
+        hnbrdf_fit_ggx_material(p, &fitted);
+        if (neural) /* of GGX it takes the tangent frame alone */
+            t->materials[material].rotation = fitted.rotation;
+        else
+            t->materials[material] = fitted;
     }
     if (t->options.kind != HNBRDF_KIND_GGX)
         hnbrdf_fit_pool_encode(&t->pool, material, t->options.encoding, &t->materials[material]);

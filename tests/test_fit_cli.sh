@@ -1,0 +1,55 @@
+#!/bin/sh
+# test_fit_cli.sh HNBRDF: the files that `hnbrdf fit` writes, an interrupt and --resume, a frozen network.
+set -eu
+hnbrdf=$1
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work"
+fail() {
+    echo "FAILED: $1" >&2
+    exit 1
+}
+fit() {
+    "$hnbrdf" fit "$@" 2> err > out || { cat err; fail "fit $*"; }
+}
+small="builtin:retro-tape builtin:rough-clay --net 16x2 --pool 4096 --batch 1024"
+
+# shellcheck disable=SC2086 # words
+fit $small --steps 500 --log log.csv --plot loss.svg -o whole.safetensors
+head -n 1 log.csv | grep -qx 'step,share,loss,pairs_per_s' || fail "the log's header"
+[ "$(wc -l < log.csv)" = 6 ] || fail "the log has not a row every 100 steps"
+tail -n 1 log.csv | grep -q '^500,1.000000,' || fail "the log's last row"
+grep -q '<polyline' loss.svg && tail -n 1 loss.svg | grep -qx '</svg>' || fail "the plot"
+[ ! -e whole.safetensors.checkpoint ] || fail "a finished fit leaves its checkpoint"
+
+# An interrupted fit saves its model and goes on to the same bits.
+# shellcheck disable=SC2086
+"$hnbrdf" fit $small --steps 20000 -o cut.safetensors > out 2> err &
+process=$!
+sleep 1.5
+kill -INT $process 2> /dev/null || fail "the fit to interrupt had ended"
+wait $process || fail "an interrupted fit does not end well: $(cat err)"
+grep -q 'interrupted' out || fail "an interrupted fit does not say so"
+"$hnbrdf" info cut.safetensors > /dev/null || fail "the model of an interrupted fit"
+[ -s cut.safetensors.checkpoint ] || fail "no checkpoint after an interrupt"
+# shellcheck disable=SC2086
+fit $small --steps 20000 --resume -o cut.safetensors
+[ ! -e cut.safetensors.checkpoint ] || fail "a resumed fit leaves its checkpoint"
+# shellcheck disable=SC2086
+fit $small --steps 20000 --threads 1 -o straight.safetensors
+cmp cut.safetensors straight.safetensors || fail "resumed and uninterrupted fits differ"
+
+# shellcheck disable=SC2086
+if "$hnbrdf" fit $small --resume -o never.safetensors > out 2> err; then
+    fail "--resume without a checkpoint"
+fi
+grep -q 'never.safetensors.checkpoint' err || fail "the message of --resume names no file"
+[ ! -e never.safetensors ] || fail "a failed fit writes a model"
+
+fit builtin:gold-two-lobe --freeze whole.safetensors --steps 200 --pool 4096 -o more.safetensors
+"$hnbrdf" info more.safetensors --json | tr -d ' \n' |
+    grep -q '"materials":\["gold-two-lobe","retro-tape","rough-clay"\]' || fail "materials on a frozen network"
+if "$hnbrdf" fit builtin:gold-two-lobe --freeze builtin:retro-tape -o none.safetensors > out 2> err; then
+    fail "--freeze takes a measurement"
+fi
+echo "all held"
