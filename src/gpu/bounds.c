@@ -115,7 +115,7 @@ static num logarithm(const gpu_rules *rules, num a)
         r.e = (double)INFINITY;
         return r;
     }
-    double spread = log(x / least), c_error = 0x1p-23 * size + 6e-8; /* hnbrdf_log */
+    double spread = log(x / least), c_error = 1.05 * 0x1p-23 * size + 5e-8; /* hnbrdf_log */
     double near_1 = gpu_log_error(rules, 1.0, size + spread),
            far = gpu_log_error(rules, 4.0, size + spread);
     double device = least <= 2.0 && x + a.e >= 0.5 ? fmax(near_1, far) : far;
