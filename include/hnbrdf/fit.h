@@ -19,12 +19,13 @@ typedef enum hnbrdf_fit_analytic {
     HNBRDF_FIT_JOINT         /* GGX first, then trained together with the network */
 } hnbrdf_fit_analytic;
 
-/* What is minimised, per channel. SMAPE judges dark directions and highlights alike but is flat far from
- * the data; the logarithm leads there. */
+/* What is minimised, per channel. SMAPE judges dark directions and highlights alike but is flat far
+ * from the data; the logarithm leads there. */
 typedef enum hnbrdf_fit_loss {
-    HNBRDF_FIT_LOG_TO_SMAPE = 0, /* |ln(f + 1e-3) - ln(F + 1e-3)|, turning into SMAPE between 30 and 70 % */
-    HNBRDF_FIT_LOG,              /* the first all along */
-    HNBRDF_FIT_SMAPE             /* the second all along */
+    HNBRDF_FIT_LOG_TO_SMAPE =
+        0,           /* |ln(f + 1e-3) - ln(F + 1e-3)|, turning into SMAPE between 30 and 70 % */
+    HNBRDF_FIT_LOG,  /* the first all along */
+    HNBRDF_FIT_SMAPE /* the second all along */
 } hnbrdf_fit_loss;
 
 /* The learning rate from its peak to the end, after 100 steps of warm-up. */
@@ -36,11 +37,11 @@ typedef enum hnbrdf_fit_schedule {
 
 /* What the progress callback sees, ten times a second and every 100 steps. */
 typedef struct hnbrdf_fit_progress {
-    const char *stage;     /* "sampling", "ggx" or "network" */
-    double done;           /* share of this stage, 0 to 1 */
-    double loss;           /* running mean of the training loss; NaN while there is none */
-    double pairs_per_s;    /* direction pairs trained on per second in this stage */
-    double seconds_left;   /* estimate for this stage; NaN while there is none */
+    const char *stage;   /* "sampling", "ggx" or "network" */
+    double done;         /* share of this stage, 0 to 1 */
+    double loss;         /* running mean of the training loss; NaN while there is none */
+    double pairs_per_s;  /* direction pairs trained on per second in this stage */
+    double seconds_left; /* estimate for this stage; NaN while there is none */
     long step;
 } hnbrdf_fit_progress;
 
@@ -49,45 +50,46 @@ typedef int (*hnbrdf_fit_progress_fn)(void *user, const hnbrdf_fit_progress *pro
 
 /* Zero-initialise for defaults; then set hybrid 32x2 etc. as wanted. */
 typedef struct hnbrdf_fit_options {
-    hnbrdf_kind kind;               /* default hybrid */
-    int hidden, layers;             /* HxN; 0 stands for 32 and 2 */
-    int latent;                     /* l; 0 stands for 4 (hybrid) or 12 (neural) */
+    hnbrdf_kind kind;   /* default hybrid */
+    int hidden, layers; /* HxN; 0 stands for 32 and 2 */
+    int latent;         /* l; 0 stands for 4 (hybrid) or 12 (neural) */
     hnbrdf_encoding encoding;
-    int encoding_set;               /* 1: use `encoding`; 0: angles, or angles-directed where swapping wi and
-                                       wo changes the data by more than 2 % (RGL: 3 to 20 %), or
-                                       angles-anisotropic if any material is anisotropic */
-    float floor;                    /* b; 0 stands for the default of 0.003, negative for none */
+    int encoding_set; /* 1: use `encoding`; 0: angles, or angles-directed where swapping wi and
+                         wo changes the data by more than 2 % (RGL: 3 to 20 %), or
+                         angles-anisotropic if any material is anisotropic */
+    float floor;      /* b; 0 stands for the default of 0.003, negative for none */
     hnbrdf_fit_analytic analytic;
-    long steps;                     /* network steps; 0 stands for 32000 */
-    double seconds;                 /* time budget for the network stage instead of steps */
-    int batch;                      /* pairs a step; 0 stands for 2048; rounded up to a multiple of 1024 */
-    int pool;                       /* pairs drawn per material before training; 0: 131072 */
-    float learning_rate;            /* Adam's peak rate; 0 stands for 1e-2 */
+    long steps;          /* network steps; 0 stands for 32000 */
+    double seconds;      /* time budget for the network stage instead of steps */
+    int batch;           /* pairs a step; 0 stands for 2048; rounded up to a multiple of 1024 */
+    int pool;            /* pairs drawn per material before training; 0: 131072 */
+    float learning_rate; /* Adam's peak rate; 0 stands for 1e-2 */
     hnbrdf_fit_loss loss;
     hnbrdf_fit_schedule schedule;
-    float uniform_share;            /* of the pairs, drawn by the uniform sampler, the others by grid; 0 stands
-                                       for 0.5, negative for none */
+    float uniform_share; /* of the pairs, drawn by the uniform sampler, the others by grid; 0 stands
+                            for 0.5, negative for none */
     uint64_t seed;
-    int threads;                    /* 0: all cores */
+    int threads; /* 0: all cores */
     hnbrdf_fit_progress_fn progress;
     void *progress_user;
-    /* Keep this model's network: only kd, eta, alpha and the latent codes of the new materials are fitted
-     * (steps default to 3000). The result holds them first, then the model's own materials; one of the
-     * same name is replaced. Kind, sizes, encoding and floor are the model's. */
+    /* Keep this model's network: only kd, eta, alpha and the latent codes of the new materials are
+     * fitted (steps default to 3000). The result holds them first, then the model's own materials; one
+     * of the same name is replaced. Kind, sizes, encoding and floor are the model's. */
     const hnbrdf_model *freeze;
     /* Where the state of training is kept, written twice a minute and when the callback stops the fit;
      * NULL for none. With resume = 1 training goes on from there, and ends with the very model that an
-     * uninterrupted fit of the same steps gives. The caller removes the file when it is done with it. */
+     * uninterrupted fit of the same steps gives. The caller removes the file when it is done with it.
+     */
     const char *checkpoint;
     int resume;
 } hnbrdf_fit_options;
 
 typedef struct hnbrdf_fit_report {
     double final_loss;
-    double seconds;        /* whole fit */
-    double pairs_per_s;    /* network stage */
-    long steps;            /* network steps done */
-    int stopped;           /* 1: the progress callback asked to stop */
+    double seconds;     /* whole fit */
+    double pairs_per_s; /* network stage */
+    long steps;         /* network steps done */
+    int stopped;        /* 1: the progress callback asked to stop */
 } hnbrdf_fit_report;
 
 /* Fit one model to count materials. report may be NULL. */
