@@ -1,6 +1,6 @@
 // sphere.frag: a sphere of one exported material under one light, in a single fragment shader.
 //
-//   build/hnbrdf export model.safetensors --materials gold -o scene.glsl
+//   build/hnbrdf export examples/models/rgl_32x2.safetensors --materials vch_silk_blue -o scene.glsl
 //   glslangValidator -V -Ishaders -I. examples/sphere.frag -o sphere.spv
 //
 // Draw one triangle that covers the screen; uv runs over the picture from -1 to 1, y up.

@@ -125,7 +125,7 @@ static void other_files_are_refused_in_words(void **state)
     }
     bytes text = {NULL, 0};
     write_bytes(&text, "P6 512 512 255 and so on, an image", 34);
-    expect(&text, HNBRDF_ERROR_FORMAT, "as in a safetensors file");
+    expect(&text, HNBRDF_ERROR_FORMAT, "not a safetensors file");
     free_bytes(&text);
 }
 

@@ -157,6 +157,7 @@ typedef struct cli_output {
 } cli_output;
 int cli_output_open(const char *path, cli_output *output);  /* 0, or CLI_FAILURE after a message */
 int cli_output_close(cli_output *output);                   /* flush, check, rename; likewise */
+int cli_output_check(const char *path);                     /* can it be written? before long work; likewise */
 void cli_output_discard(cli_output *output);                /* drop what was written */
 
 /* Text as a JSON string with its quotes. */

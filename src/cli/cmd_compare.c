@@ -357,6 +357,10 @@ int cmd_compare(int argc, char **argv)
         return result;
     if (count < 2)
         return cli_usage(&command, "%s", count ? "no DATA to compare with" : "no MODEL and no DATA");
+    if (csv && json && is_stdout(csv) && is_stdout(json))
+        return cli_usage(&command, "--csv and --json both to standard output");
+    if ((csv && (result = cli_output_check(csv))) || (json && (result = cli_output_check(json))))
+        return result;
     j.path = argv[1];
     return run(&j, argv + 2, count - 1, skip_missing, threads ? (int)threads : cli_processors(), csv,
                json);

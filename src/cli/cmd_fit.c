@@ -98,9 +98,14 @@ static void summarise(const job *j, const hnbrdf_model *model, const hnbrdf_fit_
         printf(" %dx%d, %s, l = %d", desc.hidden, desc.layers, hnbrdf_encoding_name(desc.encoding),
                desc.latent);
     printf(", %d material%s", desc.material_count, desc.material_count == 1 ? "" : "s");
-    if (j->fit.freeze)
-        printf(" (%d new on a frozen network, %.2f s each)", j->data.count,
+    if (j->fit.freeze) {
+        int replaced = hnbrdf_model_material_count(j->fit.freeze) + j->data.count - desc.material_count;
+        printf(" (%d fitted on a frozen network, %.2f s each", j->data.count,
                report->seconds / j->data.count);
+        if (replaced > 0)
+            printf(", %d of the same name replaced", replaced);
+        printf(")");
+    }
     if (desc.kind != HNBRDF_KIND_GGX)
         printf(", %ld steps, loss %.4f, %.2f M pairs/s", report->steps, report->final_loss,
                report->pairs_per_s * 1e-6);
@@ -148,7 +153,9 @@ static int open_and_run(job *j, const char *freeze, const char *log, char *const
 {
     cli_source source = {NULL, NULL};
     cli_output output = {NULL, NULL, NULL};
-    int code = CLI_OK;
+    int code = cli_output_check(j->output);
+    if (code || (j->plot && (code = cli_output_check(j->plot))))
+        return code;
     size_t length = strlen(j->output);
     char *checkpoint = malloc(length + sizeof ".checkpoint");
     if (!checkpoint)
@@ -184,7 +191,7 @@ int cmd_fit(int argc, char **argv)
     const char *kind = "hybrid", *encoding = NULL, *analytic = "faithful", *output = NULL;
     const char *loss = "log-to-smape", *schedule = "cosine";
     double uniform_share = 0.5;
-    int net[2] = {32, 2};
+    int net[2] = {0, 0};
     long latent = 0, steps = 0, seed = 1, threads = 0, batch = 0, pool = 0;
     double seconds = 0.0, floor = 0.003, rate = 1e-2;
     const cli_option options[] = {
@@ -248,6 +255,8 @@ int cmd_fit(int argc, char **argv)
         return cli_usage(&command, "--loss %s, expected log-to-smape, log or smape", loss);
     if (schedule_index < 0)
         return cli_usage(&command, "--schedule %s, expected cosine, linear or constant", schedule);
+    if (freeze && (net[0] || latent || encoding))
+        return cli_usage(&command, "--net, --latent and --encoding are those of the model to --freeze");
     if (steps && seconds > 0.0)
         return cli_usage(&command, "--steps and --seconds exclude each other");
 

@@ -46,6 +46,15 @@ int cli_output_open(const char *path, cli_output *output)
     return output->file ? CLI_OK : fail_output(output, "cannot write");
 }
 
+int cli_output_check(const char *path)
+{
+    cli_output output;
+    int code = cli_output_open(path, &output);
+    if (!code)
+        cli_output_discard(&output);
+    return code;
+}
+
 int cli_output_close(cli_output *output)
 {
     int written = fflush(output->file) == 0 && !ferror(output->file);

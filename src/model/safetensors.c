@@ -356,8 +356,8 @@ static hnbrdf_result read_length(const char *path, const unsigned char *bytes, s
         const uint64_t limit = size - 8 < MAX_HEADER ? size - 8 : MAX_HEADER;
         return hnbrdf_fail(
             error, HNBRDF_ERROR_FORMAT,
-            "%s: the first 8 bytes give a header of %llu bytes, expected 2 to %llu as in a "
-            "safetensors file of %zu bytes",
+            "%s: not a safetensors file: its first 8 bytes give a header of %llu bytes, expected 2 to "
+            "%llu in %zu bytes",
             path, (unsigned long long)value, (unsigned long long)limit, size);
     }
     if (bytes[8] != '{') {
