@@ -356,6 +356,27 @@ static void frozen_network_takes_a_new_material(void **state)
     hnbrdf_model_free(three);
 }
 
+static int stop_at_once(void *user, const hnbrdf_fit_progress *p)
+{
+    (void)user;
+    (void)p;
+    return 1;
+}
+
+/* An untrained network is not a model: it must not take the place of a good one. */
+static void stopped_before_the_first_step_there_is_no_model(void **state)
+{
+    (void)state;
+    hnbrdf_fit_options o = small(HNBRDF_KIND_HYBRID);
+    o.progress = stop_at_once;
+    hnbrdf_model *model = NULL;
+    hnbrdf_error error = {{0}};
+    assert_int_equal(hnbrdf_fit((const hnbrdf_measured *const *)data, COUNT, &o, &model, NULL, &error),
+                     HNBRDF_ERROR_CANCELLED);
+    assert_null(model);
+    assert_true(error.text[0] != '\0');
+}
+
 static void bad_options_are_refused_with_a_message(void **state)
 {
     (void)state;
@@ -410,6 +431,7 @@ int main(void)
         cmocka_unit_test(progress_can_stop_and_the_model_so_far_is_returned),
         cmocka_unit_test(resumed_fit_gives_the_same_model),
         cmocka_unit_test(frozen_network_takes_a_new_material),
+        cmocka_unit_test(stopped_before_the_first_step_there_is_no_model),
         cmocka_unit_test(bad_options_are_refused_with_a_message),
     };
     return cmocka_run_group_tests(tests, open_data, close_data);

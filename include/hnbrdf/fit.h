@@ -45,7 +45,8 @@ typedef struct hnbrdf_fit_progress {
     long step;
 } hnbrdf_fit_progress;
 
-/* Return non-zero to stop: training ends after the step and the model so far is returned. */
+/* Return non-zero to stop: training ends after the step and the model so far is returned. Before the
+ * network's first step there is none: a new fit then returns HNBRDF_ERROR_CANCELLED. */
 typedef int (*hnbrdf_fit_progress_fn)(void *user, const hnbrdf_fit_progress *progress);
 
 /* Zero-initialise for defaults; then set hybrid 32x2 etc. as wanted. */

@@ -324,6 +324,8 @@ static hnbrdf_result run(trainer *t, hnbrdf_model **model, hnbrdf_fit_report *re
                                hnbrdf_measured_name(t->data[m]));
     hnbrdf_fit_stage_begin(t);
     hnbrdf_fit_workers_run(t->workers, t->count, fit_one, t);
+    if (t->stopped && t->options.kind != HNBRDF_KIND_GGX && !t->options.resume)
+        return hnbrdf_fail(error, HNBRDF_ERROR_CANCELLED, "stopped before the network's first step");
     hnbrdf_result status =
         t->options.kind != HNBRDF_KIND_GGX ? hnbrdf_fit_train(t, result, error) : HNBRDF_OK;
     result->stopped = t->stopped;

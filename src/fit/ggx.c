@@ -20,33 +20,28 @@ enum {
  * different colours. A share of log-L1, which never does, decides. */
 #define FINAL_MIX 0.7f
 
-static float clampf(float x, float low, float high)
-{
-    return x > low ? (x < high ? x : high) : low;
-}
-
 void hnbrdf_fit_ggx_project(float *p, int isotropic)
 {
     for (int c = 0; c < 3; c++) {
-        p[FIT_KD + c] = clampf(p[FIT_KD + c], 0.0f, 1.0f);
-        p[FIT_ETA + c] = clampf(p[FIT_ETA + c], -6.9f, 4.595f); /* ln 0.001, ln 99 */
+        p[FIT_KD + c] = hnbrdf_clamp(p[FIT_KD + c], 0.0f, 1.0f);
+        p[FIT_ETA + c] = hnbrdf_clamp(p[FIT_ETA + c], -6.9f, 4.595f); /* ln 0.001, ln 99 */
     }
     if (isotropic) {
         p[FIT_ALPHA] = p[FIT_ALPHA + 1] = 0.5f * (p[FIT_ALPHA] + p[FIT_ALPHA + 1]);
         p[FIT_ROTATION] = 0.0f;
     }
     for (int a = 0; a < 2; a++)
-        p[FIT_ALPHA + a] = clampf(p[FIT_ALPHA + a], -9.2103f, 0.0f); /* ln 1.0001e-4 */
+        p[FIT_ALPHA + a] = hnbrdf_clamp(p[FIT_ALPHA + a], -9.2103f, 0.0f); /* ln 1.0001e-4 */
 }
 
 void hnbrdf_fit_ggx_material(const float *p, hnbrdf_material *material)
 {
     for (int c = 0; c < 3; c++) {
-        material->kd[c] = clampf(p[FIT_KD + c], 0.0f, 1.0f);
-        material->eta[c] = clampf(1.0f + expf(p[FIT_ETA + c]), 1.001f, 100.0f);
+        material->kd[c] = hnbrdf_clamp(p[FIT_KD + c], 0.0f, 1.0f);
+        material->eta[c] = hnbrdf_clamp(1.0f + expf(p[FIT_ETA + c]), 1.001f, 100.0f);
     }
     for (int a = 0; a < 2; a++)
-        material->alpha[a] = clampf(expf(p[FIT_ALPHA + a]), HNBRDF_MIN_ALPHA, HNBRDF_MAX_ALPHA);
+        material->alpha[a] = hnbrdf_clamp(expf(p[FIT_ALPHA + a]), HNBRDF_MIN_ALPHA, HNBRDF_MAX_ALPHA);
     /* A turn by pi is none; keep the angle in [-pi/2, pi/2]. */
     material->rotation = (float)remainder((double)p[FIT_ROTATION], 3.14159265358979);
 }
@@ -184,7 +179,7 @@ static int start(int k, int isotropic, const float mean[3], float *p)
     float alpha = alphas[k % 4], eta = etas[k / 4 % 2];
     int axis = k / 8 % axes;
     for (int c = 0; c < 3; c++) {
-        p[FIT_KD + c] = clampf(mean[c], 0.001f, 0.99f);
+        p[FIT_KD + c] = hnbrdf_clamp(mean[c], 0.001f, 0.99f);
         p[FIT_ETA + c] = logf(eta - 1.0f);
     }
     p[FIT_ALPHA] = logf(axis == 1 ? 3.0f * alpha : alpha);
