@@ -104,9 +104,7 @@ while [ ! -s i/accuracy.csv ] && [ "$tries" -lt 200 ]; do
     sleep 0.1
     tries=$((tries + 1))
 done
-kill -INT "$process" 2>/dev/null || kill -TERM "$process"
-sleep 0.2
-kill -TERM "$process" 2>/dev/null # a shell may start what is in the background with INT ignored
+kill -INT "$process"
 wait "$process"
 rc=$?
 [ "$rc" -eq 1 ] && grep -q 'interrupted' err || fail "interrupt: exit $rc"

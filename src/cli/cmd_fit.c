@@ -135,7 +135,9 @@ static int run(job *j, FILE *log)
         cli_progress_end(&d.line);
     if (!result)
         result = hnbrdf_model_save(model, j->output, &error);
-    if (result) {
+    if (result == HNBRDF_ERROR_CANCELLED) {
+        code = cli_fail("interrupted before the network's first step; %s is as it was", j->output);
+    } else if (result) {
         code = cli_fail("%s", error.text);
     } else {
         summarise(j, model, &report);

@@ -198,11 +198,11 @@ static int fit_entry(const report *r, report_entry *e, watch *w, hnbrdf_model **
     hnbrdf_model *fitted = NULL;
     hnbrdf_result result = hnbrdf_fit((const hnbrdf_measured *const *)r->data.items, r->data.count,
                                       &options, &fitted, &made, &error);
-    if (result == HNBRDF_OK && (interrupted || made.stopped))
+    if (result == HNBRDF_ERROR_CANCELLED || (result == HNBRDF_OK && (interrupted || made.stopped)))
         code = cli_fail("%s: interrupted; what is finished is there, --resume goes on", r->directory);
     else if (result == HNBRDF_OK)
         result = hnbrdf_model_save(fitted, path, &error);
-    if (result != HNBRDF_OK)
+    if (result != HNBRDF_OK && code == CLI_OK)
         code = cli_fail("%s: %s", e->name, error.text);
     if (code == CLI_OK) {
         e->steps = made.steps;
