@@ -1,9 +1,8 @@
-/* export_glsl.c: writes a model and the materials of a scene as one GLSL include, weights as constants.
+/* export_glsl.c: writes a model and the materials of a scene as one GLSL include.
  * What the scene does not need is not written: anisotropy, rotation, what the kind does not use. */
 #include "core/error.h"
 #include "core/frame.h"
-#include "core/model.h"
-#include "model/text.h"
+#include "model/export_network.h"
 
 #include <stdint.h>
 #include <string.h>
@@ -11,122 +10,42 @@
 /* The text of shaders/hybrid_brdf.glsl; the build makes it from that file. */
 extern const char hnbrdf_hybrid_brdf_glsl[];
 
-/* ---- Printing: buffered, the first failure sticks -------------------------------------------- */
-
-typedef struct printer {
-    hnbrdf_write_fn write;
-    void *user;
-    int failed;
-    size_t used;
-    char buffer[4096];
-} printer;
-
-static void flush(printer *out)
-{
-    if (!out->failed && out->used > 0)
-        out->failed = out->write(out->user, out->buffer, out->used) != 0;
-    out->used = 0;
-}
-
-static void put_bytes(printer *out, const char *text, size_t size)
-{
-    while (size > 0) {
-        size_t room = sizeof out->buffer - out->used;
-        size_t part = size < room ? size : room;
-        memcpy(out->buffer + out->used, text, part);
-        out->used += part;
-        text += part;
-        size -= part;
-        if (out->used == sizeof out->buffer)
-            flush(out);
-    }
-}
-
-/* Whole numbers and text only: a %g would follow the locale. */
-#if defined(__GNUC__)
-__attribute__((format(printf, 2, 3)))
-#endif
-static void
-put(printer *out, const char *format, ...)
-{
-    char text[512];
-    va_list arguments;
-    va_start(arguments, format);
-    int length = vsnprintf(text, sizeof text, format, arguments);
-    va_end(arguments);
-    if (length > 0)
-        put_bytes(out, text, (size_t)length < sizeof text ? (size_t)length : sizeof text - 1);
-}
-
-/* A literal that GLSL takes for a float and that reads back as the same bits. */
-static void put_float(printer *out, float value)
-{
-    char text[HNBRDF_NUMBER_TEXT];
-    int length = hnbrdf_format_float(text, sizeof text, value);
-    put_bytes(out, text, (size_t)length);
-    if (!strpbrk(text, ".e"))
-        put_bytes(out, ".0", 2);
-}
-
-/* vec2, vec3 or vec4 of the first `given` values, then zeros. */
-static void put_vector(printer *out, int size, const float *values, int given)
-{
-    put(out, "vec%d(", size);
-    for (int i = 0; i < size; i++) {
-        put_bytes(out, ", ", i > 0 ? 2 : 0);
-        put_float(out, i < given ? values[i] : 0.0f);
-    }
-    put(out, ")");
-}
-
 /* ---- The scene ------------------------------------------------------------------------------- */
 
-enum { NAME_SIZE = HNBRDF_MAX_NAME + 32 };
-typedef char macro_name[NAME_SIZE]; /* what follows HNBRDF_MATERIAL_ */
-
-typedef struct scene {
-    const hnbrdf_model_desc *desc;
-    const int *indices; /* NULL: all materials in order */
-    int count;
-    int anisotropic, rotated; /* 1 if any of these materials is */
-    size_t weights, multiplications;
-    macro_name *names;
-} scene;
-
-static int material_index(const scene *s, int k)
+static int material_index(const hnbrdf_scene *s, int k)
 {
     return s->indices ? s->indices[k] : k;
 }
 
-static const hnbrdf_material *material_of(const scene *s, int k)
+static const hnbrdf_material *material_of(const hnbrdf_scene *s, int k)
 {
     return &s->desc->materials[material_index(s, k)];
 }
 
-static int has_analytic(const scene *s)
+static int has_analytic(const hnbrdf_scene *s)
 {
     return s->desc->kind != HNBRDF_KIND_NEURAL;
 }
 
-static int has_network(const scene *s)
+static int has_network(const hnbrdf_scene *s)
 {
     return s->desc->kind != HNBRDF_KIND_GGX;
 }
 
 /* Latent codes are kept in as few vec4 as hold them. */
-static int latent_vectors(const scene *s)
+static int latent_vectors(const hnbrdf_scene *s)
 {
     return has_network(s) ? (s->desc->latent + 3) / 4 : 0;
 }
 
 /* Also where the struct would be empty, which GLSL does not allow. */
-static int has_rotation(const scene *s)
+static int has_rotation(const hnbrdf_scene *s)
 {
     return s->rotated || !(has_analytic(s) || latent_vectors(s));
 }
 
 /* Letters, digits and single underscores, which GLSL does not reserve; at least one character. */
-static void sanitise(const char *name, macro_name text)
+static void sanitise(const char *name, hnbrdf_macro_name text)
 {
     size_t length = 0;
     for (; *name; name++) {
@@ -144,7 +63,7 @@ static void sanitise(const char *name, macro_name text)
 }
 
 /* A hash set of names by their numbers; free slots hold -1, `slots` is a power of two. */
-static int claim(const scene *s, int *table, size_t slots, int k)
+static int claim(const hnbrdf_scene *s, int *table, size_t slots, int k)
 {
     uint32_t hash = 2166136261u; /* FNV-1a */
     for (const char *c = s->names[k]; *c; c++)
@@ -158,7 +77,7 @@ static int claim(const scene *s, int *table, size_t slots, int k)
 }
 
 /* Names of their own for all materials, and none for the last, which HNBRDF_MATERIAL_COUNT takes. */
-static void name_materials(const scene *s, int *table, size_t slots)
+static void name_materials(const hnbrdf_scene *s, int *table, size_t slots)
 {
     for (size_t i = 0; i < slots; i++)
         table[i] = -1;
@@ -168,13 +87,13 @@ static void name_materials(const scene *s, int *table, size_t slots)
         sanitise(s->desc->names[material_index(s, k)], s->names[k]);
         size_t length = strlen(s->names[k]);
         for (int attempt = 0; !claim(s, table, slots, k); attempt++)
-            snprintf(s->names[k] + length, NAME_SIZE - length, attempt > 0 ? "_%d_%d" : "_%d", k,
-                     attempt);
+            snprintf(s->names[k] + length, HNBRDF_MACRO_NAME_SIZE - length,
+                     attempt > 0 ? "_%d_%d" : "_%d", k, attempt);
     }
 }
 
-static hnbrdf_result scene_make(const hnbrdf_model *model, const hnbrdf_glsl_options *options, scene *s,
-                                hnbrdf_error *error)
+static hnbrdf_result scene_make(const hnbrdf_model *model, const hnbrdf_glsl_options *options,
+                                hnbrdf_scene *s, hnbrdf_error *error)
 {
     memset(s, 0, sizeof *s);
     s->desc = &model->desc;
@@ -199,7 +118,7 @@ static hnbrdf_result scene_make(const hnbrdf_model *model, const hnbrdf_glsl_opt
     while (slots < 2 * ((size_t)s->count + 1))
         slots *= 2;
     const hnbrdf_allocator *memory = &model->allocator;
-    s->names = memory->allocate(memory->user, ((size_t)s->count + 1) * sizeof(macro_name));
+    s->names = memory->allocate(memory->user, ((size_t)s->count + 1) * sizeof(hnbrdf_macro_name));
     int *table = memory->allocate(memory->user, slots * sizeof *table);
     if (s->names && table)
         name_materials(s, table, slots);
@@ -215,189 +134,119 @@ static hnbrdf_result scene_make(const hnbrdf_model *model, const hnbrdf_glsl_opt
 
 /* ---- Sections -------------------------------------------------------------------------------- */
 
-static void put_heading(printer *out, const scene *s)
+static void put_heading(hnbrdf_printer *out, const hnbrdf_scene *s)
 {
     const hnbrdf_model_desc *desc = s->desc;
-    put(out, "// Written by hnbrdf " HNBRDF_VERSION_STRING "; export again rather than edit.\n//\n");
-    put(out, "//   kind       %s\n", hnbrdf_kind_name(desc->kind));
+    hnbrdf_put(out,
+               "// Written by hnbrdf " HNBRDF_VERSION_STRING "; export again rather than edit.\n//\n");
+    hnbrdf_put(out, "//   kind       %s\n", hnbrdf_kind_name(desc->kind));
     if (has_network(s)) {
-        put(out, "//   network    %d", HNBRDF_ENCODING_SIZE + desc->latent);
+        hnbrdf_put(out, "//   network    %d", HNBRDF_ENCODING_SIZE + desc->latent);
         for (int k = 0; k < desc->layers; k++)
-            put(out, " -> %d", desc->hidden);
-        put(out, " -> %d (%dx%d)\n", desc->kind == HNBRDF_KIND_HYBRID ? 6 : 3, desc->hidden,
-            desc->layers);
-        put(out, "//   encoding   %s, then %d latent\n", hnbrdf_encoding_name(desc->encoding),
-            desc->latent);
-        put(out, "//   weights    %zu, %zu bytes\n", s->weights, s->weights * sizeof(float));
-        put(out, "//   cost       %zu multiplications per evaluation\n", s->multiplications);
+            hnbrdf_put(out, " -> %d", desc->hidden);
+        hnbrdf_put(out, " -> %d (%dx%d)\n", desc->kind == HNBRDF_KIND_HYBRID ? 6 : 3, desc->hidden,
+                   desc->layers);
+        hnbrdf_put(out, "//   encoding   %s, then %d latent\n", hnbrdf_encoding_name(desc->encoding),
+                   desc->latent);
+        hnbrdf_put(out, "//   weights    %zu, %zu bytes\n", s->weights, s->weights * sizeof(float));
+        hnbrdf_put(out, "//   cost       %zu multiplications per evaluation\n", s->multiplications);
     }
-    put(out, "//   materials  %d%s%s\n", s->count, s->anisotropic ? ", anisotropic" : ", isotropic",
-        s->rotated ? ", rotated" : "");
-    put(out,
-        "//\n// f = hnbrdf_eval(hnbrdf_scene_material(HNBRDF_MATERIAL_%s), wi, wo), without the "
-        "cosine.\n",
-        s->names[0]);
-    put(out, "#ifndef HNBRDF_HYBRID_BRDF_GLSL\n#error \"include hybrid_brdf.glsl before this "
-             "file\"\n#endif\n\n");
+    hnbrdf_put(out, "//   materials  %d%s%s\n", s->count,
+               s->anisotropic ? ", anisotropic" : ", isotropic", s->rotated ? ", rotated" : "");
+    hnbrdf_put(out,
+               "//\n// f = hnbrdf_eval(hnbrdf_scene_material(HNBRDF_MATERIAL_%s), wi, wo), without the "
+               "cosine.\n",
+               s->names[0]);
+    hnbrdf_put(out, "#ifndef HNBRDF_HYBRID_BRDF_GLSL\n#error \"include hybrid_brdf.glsl before this "
+                    "file\"\n#endif\n\n");
 }
 
 /* For code that serves scenes of every kind. */
-static void put_switches(printer *out, const scene *s)
+static void put_switches(hnbrdf_printer *out, const hnbrdf_scene *s)
 {
     static const char *const kinds[] = {"HYBRID", "NEURAL", "GGX"};
-    put(out, "#define HNBRDF_SCENE_%s\n", kinds[s->desc->kind]);
+    hnbrdf_put(out, "#define HNBRDF_SCENE_%s\n", kinds[s->desc->kind]);
     if (has_network(s)) {
         char function[32];
         snprintf(function, sizeof function, "%s", hnbrdf_encoding_name(s->desc->encoding));
         for (char *c = function; *c; c++)
             *c = *c == '-' ? '_' : *c;
-        put(out, "#define HNBRDF_SCENE_ENCODE hnbrdf_encode_%s\n", function);
+        hnbrdf_put(out, "#define HNBRDF_SCENE_ENCODE hnbrdf_encode_%s\n", function);
     }
-    put(out, "\n");
+    hnbrdf_put(out, "\n");
 }
 
-static void put_material_struct(printer *out, const scene *s)
+static void put_material_struct(hnbrdf_printer *out, const hnbrdf_scene *s)
 {
-    put(out, "struct hnbrdf_material {\n");
+    hnbrdf_put(out, "struct hnbrdf_material {\n");
     if (has_analytic(s)) {
-        put(out, "    vec3 kd;       // diffuse albedo\n");
-        put(out, "    vec3 eta;      // index of refraction, above 1\n");
-        put(out, s->anisotropic ? "    vec2 alpha;    // GGX roughness along x and y, at least 1e-4\n"
-                                : "    float alpha;   // GGX roughness, at least 1e-4\n");
+        hnbrdf_put(out, "    vec3 kd;       // diffuse albedo\n");
+        hnbrdf_put(out, "    vec3 eta;      // index of refraction, above 1\n");
+        hnbrdf_put(out, s->anisotropic
+                            ? "    vec2 alpha;    // GGX roughness along x and y, at least 1e-4\n"
+                            : "    float alpha;   // GGX roughness, at least 1e-4\n");
     }
     if (has_rotation(s))
-        put(out, "    vec2 rotation; // cosine and sine of the tangent frame's angle\n");
+        hnbrdf_put(out, "    vec2 rotation; // cosine and sine of the tangent frame's angle\n");
     for (int v = 0; v < latent_vectors(s); v++)
-        put(out, "    vec4 latent%d;\n", v);
-    put(out, "};\n\n");
+        hnbrdf_put(out, "    vec4 latent%d;\n", v);
+    hnbrdf_put(out, "};\n\n");
 }
 
-static void put_material(printer *out, const scene *s, const hnbrdf_material *material)
+static void put_material(hnbrdf_printer *out, const hnbrdf_scene *s, const hnbrdf_material *material)
 {
     const char *comma = "";
-    put(out, "hnbrdf_material(");
+    hnbrdf_put(out, "hnbrdf_material(");
     if (has_analytic(s)) {
-        put_vector(out, 3, material->kd, 3);
-        put(out, ", ");
-        put_vector(out, 3, material->eta, 3);
-        put(out, ", ");
+        hnbrdf_put_vector(out, 3, material->kd, 3);
+        hnbrdf_put(out, ", ");
+        hnbrdf_put_vector(out, 3, material->eta, 3);
+        hnbrdf_put(out, ", ");
         if (s->anisotropic)
-            put_vector(out, 2, material->alpha, 2);
+            hnbrdf_put_vector(out, 2, material->alpha, 2);
         else
-            put_float(out, material->alpha[0]);
+            hnbrdf_put_float(out, material->alpha[0]);
         comma = ", ";
     }
     if (has_rotation(s)) {
         hnbrdf_frame frame = hnbrdf_frame_of(material);
-        put(out, "%s", comma);
-        put_vector(out, 2, (const float[2]){frame.cosine, frame.sine}, 2);
+        hnbrdf_put(out, "%s", comma);
+        hnbrdf_put_vector(out, 2, (const float[2]){frame.cosine, frame.sine}, 2);
         comma = ", ";
     }
     for (int v = 0; v < latent_vectors(s); v++) {
-        put(out, "%s", comma);
-        put_vector(out, 4, material->latent + 4 * v, s->desc->latent - 4 * v);
+        hnbrdf_put(out, "%s", comma);
+        hnbrdf_put_vector(out, 4, material->latent + 4 * v, s->desc->latent - 4 * v);
         comma = ", ";
     }
-    put(out, ")");
+    hnbrdf_put(out, ")");
 }
 
-static void put_materials(printer *out, const scene *s)
+static void put_materials(hnbrdf_printer *out, const hnbrdf_scene *s)
 {
     for (int k = 0; k < s->count; k++)
-        put(out, "#define HNBRDF_MATERIAL_%s %d // \"%s\"\n", s->names[k], k,
-            s->desc->names[material_index(s, k)]);
-    put(out, "#define HNBRDF_MATERIAL_COUNT %d\n\n", s->count);
-    put(out, "// Any number outside of [0, HNBRDF_MATERIAL_COUNT) stands for the last one.\n");
-    put(out, "hnbrdf_material hnbrdf_scene_material(int index)\n{\n");
+        hnbrdf_put(out, "#define HNBRDF_MATERIAL_%s %d // \"%s\"\n", s->names[k], k,
+                   s->desc->names[material_index(s, k)]);
+    hnbrdf_put(out, "#define HNBRDF_MATERIAL_COUNT %d\n\n", s->count);
+    hnbrdf_put(out, "// Any number outside of [0, HNBRDF_MATERIAL_COUNT) stands for the last one.\n");
+    hnbrdf_put(out, "hnbrdf_material hnbrdf_scene_material(int index)\n{\n");
     for (int k = 0; k < s->count; k++) {
         if (k + 1 < s->count)
-            put(out, "    if (index == %d)\n    ", k);
-        put(out, "    return ");
+            hnbrdf_put(out, "    if (index == %d)\n    ", k);
+        hnbrdf_put(out, "    return ");
         put_material(out, s, material_of(s, k));
-        put(out, ";\n");
+        hnbrdf_put(out, ";\n");
     }
-    put(out, "}\n\n");
-}
-
-/* The values of layer k are a0, a1, ... of the first hidden layer, b0, ... of the second. */
-static void put_unit(printer *out, int layer, int unit)
-{
-    put(out, "%c%d", 'a' + layer, unit);
-}
-
-/* " + weight * input"; a weight of zero has no term. Breaks the line after every fourth. */
-typedef struct sum {
-    printer *out;
-    int terms;
-} sum;
-
-static int begin_term(sum *s, float weight)
-{
-    if (weight == 0.0f)
-        return 0;
-    put(s->out, "%s%s", s->terms % 4 == 0 ? "\n        " : " ", weight < 0.0f ? "- " : "+ ");
-    put_float(s->out, weight < 0.0f ? -weight : weight);
-    put(s->out, " * ");
-    s->terms++;
-    return 1;
-}
-
-/* Sum of one row in the canonical order: bias, latent inputs, encoded directions or units. */
-static void put_sum(printer *out, const scene *s, int layer, int row)
-{
-    static const char *const input[HNBRDF_ENCODING_SIZE] = {"x0.x", "x0.y", "x0.z",
-                                                            "x1.x", "x1.y", "x1.z"};
-    const hnbrdf_model_desc *desc = s->desc;
-    int columns = hnbrdf_layer_inputs(desc, layer);
-    const float *w = desc->weights[layer] + (size_t)row * (size_t)columns;
-    sum terms = {out, 0};
-    put_float(out, desc->biases[layer][row]);
-    if (layer > 0) {
-        for (int i = 0; i < columns; i++)
-            if (begin_term(&terms, w[i]))
-                put_unit(out, layer - 1, i);
-        return;
-    }
-    for (int i = 0; i < desc->latent; i++)
-        if (begin_term(&terms, w[HNBRDF_ENCODING_SIZE + i]))
-            put(out, "m.latent%d.%c", i / 4, "xyzw"[i % 4]);
-    for (int i = 0; i < HNBRDF_ENCODING_SIZE; i++)
-        if (begin_term(&terms, w[i]))
-            put(out, "%s", input[i]);
-}
-
-static void put_network(printer *out, const scene *s)
-{
-    const hnbrdf_model_desc *desc = s->desc;
-    int hybrid = desc->kind == HNBRDF_KIND_HYBRID;
-    put(out, "// The network's outputs from the encoded directions x0, x1 and the latent code.\n");
-    put(out, "void hnbrdf_network(hnbrdf_material m, vec3 x0, vec3 x1, out vec3 c%s)\n{\n",
-        hybrid ? ", out vec3 g" : "");
-    for (int layer = 0; layer < desc->layers; layer++)
-        for (int row = 0; row < desc->hidden; row++) {
-            put(out, "    HNBRDF_PRECISE float ");
-            put_unit(out, layer, row);
-            put(out, " = hnbrdf_hard_gelu(");
-            put_sum(out, s, layer, row);
-            put(out, ");\n");
-        }
-    for (int row = 0; row < hnbrdf_layer_outputs(desc, desc->layers); row++) {
-        put(out, "    HNBRDF_PRECISE float out%d = ", row);
-        put_sum(out, s, desc->layers, row);
-        put(out, ";\n");
-    }
-    put(out, "    c = vec3(out0, out1, out2);\n");
-    if (hybrid)
-        put(out, "    g = vec3(out3, out4, out5);\n");
-    put(out, "}\n\n");
+    hnbrdf_put(out, "}\n\n");
 }
 
 /* Both directions into the tangent frame, as far as any material is turned. */
-static void put_pair(printer *out, const scene *s)
+static void put_pair(hnbrdf_printer *out, const hnbrdf_scene *s)
 {
-    put(out, "// Both directions in the tangent frame of the material.\n");
-    put(out, "hnbrdf_pair hnbrdf_scene_pair(hnbrdf_material m, vec3 wi, vec3 wo)\n{\n");
-    put(out, s->rotated ? "    return hnbrdf_pair_make(hnbrdf_to_tangent(m.rotation, wi),\n"
+    hnbrdf_put(out, "// Both directions in the tangent frame of the material.\n");
+    hnbrdf_put(out, "hnbrdf_pair hnbrdf_scene_pair(hnbrdf_material m, vec3 wi, vec3 wo)\n{\n");
+    hnbrdf_put(out, s->rotated
+                        ? "    return hnbrdf_pair_make(hnbrdf_to_tangent(m.rotation, wi),\n"
                           "                            hnbrdf_to_tangent(m.rotation, wo));\n}\n\n"
                         : "    return hnbrdf_pair_make(wi, wo);\n}\n\n");
 }
@@ -406,72 +255,72 @@ static const char HORIZON[] = "    if (!(wi.z > 0.0 && wo.z > 0.0))\n        ret
                               "    hnbrdf_pair p = hnbrdf_scene_pair(m, wi, wo);\n";
 
 /* The exponent s c + m; a scale of 1 and a shift of 0 change no bit and are left out. */
-static void put_exponent(printer *out, const scene *s)
+static void put_exponent(hnbrdf_printer *out, const hnbrdf_scene *s)
 {
-    put(out, "    HNBRDF_PRECISE vec3 exponent = ");
+    hnbrdf_put(out, "    HNBRDF_PRECISE vec3 exponent = ");
     if (s->desc->scale != 1.0f) {
-        put_float(out, s->desc->scale);
-        put(out, " * ");
+        hnbrdf_put_float(out, s->desc->scale);
+        hnbrdf_put(out, " * ");
     }
-    put(out, "c");
+    hnbrdf_put(out, "c");
     if (s->desc->shift != 0.0f) {
-        put(out, " + ");
-        put_float(out, s->desc->shift);
+        hnbrdf_put(out, " + ");
+        hnbrdf_put_float(out, s->desc->shift);
     }
-    put(out, ";\n");
+    hnbrdf_put(out, ";\n");
 }
 
-static void put_analytic(printer *out, const scene *s)
+static void put_analytic(hnbrdf_printer *out, const hnbrdf_scene *s)
 {
     if (has_analytic(s)) {
-        put(out, "// f_a before it is clamped to what f may be.\n");
-        put(out, "vec3 hnbrdf_analytic(hnbrdf_material m, hnbrdf_pair p)\n{\n");
-        put(out, "    float specular = hnbrdf_specular(p, %s);\n",
-            s->anisotropic ? "m.alpha" : "vec2(m.alpha)");
-        put(out, "    return hnbrdf_microfacet(m.kd, m.eta, p.c, specular);\n}\n\n");
+        hnbrdf_put(out, "// f_a before it is clamped to what f may be.\n");
+        hnbrdf_put(out, "vec3 hnbrdf_analytic(hnbrdf_material m, hnbrdf_pair p)\n{\n");
+        hnbrdf_put(out, "    float specular = hnbrdf_specular(p, %s);\n",
+                   s->anisotropic ? "m.alpha" : "vec2(m.alpha)");
+        hnbrdf_put(out, "    return hnbrdf_microfacet(m.kd, m.eta, p.c, specular);\n}\n\n");
     }
-    put(out, "// f_a alone: Lambert + GGX, the cheapest level of detail%s.\n",
-        has_analytic(s) ? "" : "; this kind of model has none");
-    put(out, "vec3 hnbrdf_eval_analytic(hnbrdf_material m, vec3 wi, vec3 wo)\n{\n");
+    hnbrdf_put(out, "// f_a alone: Lambert + GGX, the cheapest level of detail%s.\n",
+               has_analytic(s) ? "" : "; this kind of model has none");
+    hnbrdf_put(out, "vec3 hnbrdf_eval_analytic(hnbrdf_material m, vec3 wi, vec3 wo)\n{\n");
     if (has_analytic(s)) {
-        put(out, "%s", HORIZON);
-        put(out, "    return hnbrdf_finish(hnbrdf_analytic(m, p));\n}\n\n");
+        hnbrdf_put(out, "%s", HORIZON);
+        hnbrdf_put(out, "    return hnbrdf_finish(hnbrdf_analytic(m, p));\n}\n\n");
     } else {
-        put(out, "    return vec3(0.0);\n}\n\n");
+        hnbrdf_put(out, "    return vec3(0.0);\n}\n\n");
     }
 }
 
-static void put_eval(printer *out, const scene *s)
+static void put_eval(hnbrdf_printer *out, const hnbrdf_scene *s)
 {
-    put(out, "// f(wi, wo) in 1/sr without the cosine; 0 below the horizon.\n");
-    put(out, "vec3 hnbrdf_eval(hnbrdf_material m, vec3 wi, vec3 wo)\n{\n");
+    hnbrdf_put(out, "// f(wi, wo) in 1/sr without the cosine; 0 below the horizon.\n");
+    hnbrdf_put(out, "vec3 hnbrdf_eval(hnbrdf_material m, vec3 wi, vec3 wo)\n{\n");
     if (!has_network(s)) {
-        put(out, "    return hnbrdf_eval_analytic(m, wi, wo);\n}\n");
+        hnbrdf_put(out, "    return hnbrdf_eval_analytic(m, wi, wo);\n}\n");
         return;
     }
     int hybrid = s->desc->kind == HNBRDF_KIND_HYBRID;
-    put(out, "%s", HORIZON);
-    put(out, "    vec3 x0, x1, c%s;\n", hybrid ? ", g" : "");
-    put(out, "    HNBRDF_SCENE_ENCODE(p, x0, x1);\n");
-    put(out, "    hnbrdf_network(m, x0, x1, c%s);\n", hybrid ? ", g" : "");
+    hnbrdf_put(out, "%s", HORIZON);
+    hnbrdf_put(out, "    vec3 x0, x1, c%s;\n", hybrid ? ", g" : "");
+    hnbrdf_put(out, "    HNBRDF_SCENE_ENCODE(p, x0, x1);\n");
+    hnbrdf_put(out, "    hnbrdf_network(m, x0, x1, c%s);\n", hybrid ? ", g" : "");
     put_exponent(out, s);
-    put(out, hybrid ? "    return hnbrdf_compose_hybrid(exponent, g, hnbrdf_analytic(m, p), "
-                    : "    return hnbrdf_compose_neural(exponent, ");
-    put_float(out, s->desc->floor);
-    put(out, ");\n}\n");
+    hnbrdf_put(out, hybrid ? "    return hnbrdf_compose_hybrid(exponent, g, hnbrdf_analytic(m, p), "
+                           : "    return hnbrdf_compose_neural(exponent, ");
+    hnbrdf_put_float(out, s->desc->floor);
+    hnbrdf_put(out, ");\n}\n");
 }
 
 hnbrdf_result hnbrdf_export_glsl(const hnbrdf_model *model, const hnbrdf_glsl_options *options,
                                  hnbrdf_write_fn write, void *user, hnbrdf_error *error)
 {
-    scene s;
+    hnbrdf_scene s;
     hnbrdf_result result = scene_make(model, options, &s, error);
     if (result)
         return result;
-    printer out = {.write = write, .user = user};
+    hnbrdf_printer out = {.write = write, .user = user};
     if (options && options->standalone) {
-        put_bytes(&out, hnbrdf_hybrid_brdf_glsl, strlen(hnbrdf_hybrid_brdf_glsl));
-        put(&out, "\n");
+        hnbrdf_put_bytes(&out, hnbrdf_hybrid_brdf_glsl, strlen(hnbrdf_hybrid_brdf_glsl));
+        hnbrdf_put(&out, "\n");
     }
     put_heading(&out, &s);
     put_switches(&out, &s);
@@ -479,10 +328,10 @@ hnbrdf_result hnbrdf_export_glsl(const hnbrdf_model *model, const hnbrdf_glsl_op
     put_materials(&out, &s);
     put_pair(&out, &s);
     if (has_network(&s))
-        put_network(&out, &s);
+        hnbrdf_put_network(&out, &s);
     put_analytic(&out, &s);
     put_eval(&out, &s);
-    flush(&out);
+    hnbrdf_put_flush(&out);
     model->allocator.release(model->allocator.user, s.names);
     if (out.failed)
         return hnbrdf_fail(error, HNBRDF_ERROR_IO, "export: writing the shader failed");

@@ -1,0 +1,12 @@
+/* export_network.h: the network of a scene as GLSL. */
+#ifndef HNBRDF_MODEL_EXPORT_NETWORK_H
+#define HNBRDF_MODEL_EXPORT_NETWORK_H
+
+#include "model/export_scene.h"
+#include "model/printer.h"
+
+/* void hnbrdf_network(hnbrdf_material m, vec3 x0, vec3 x1, out vec3 c[, out vec3 g]); the latent code
+ * is m.latent0, m.latent1, ... Only for kinds with a network. */
+void hnbrdf_put_network(hnbrdf_printer *out, const hnbrdf_scene *s);
+
+#endif
