@@ -148,25 +148,6 @@ static void make_surfaces(const sheet_job *job, const sheet_material *m, render_
         render_surface_guide(&surfaces[kind], &guide);
 }
 
-/* Error over the pixels that the sphere covers at least in part. */
-static int measure(const render_image *image, const render_image *reference, hnbrdf_image_error *error)
-{
-    size_t pixels = (size_t)image->width * (size_t)image->height, count = 0;
-    float *values = malloc(6 * sizeof(float) * pixels),
-          *references = values ? values + 3 * pixels : NULL;
-    if (!values)
-        return cli_fail("out of memory");
-    for (size_t i = 0; i < pixels; i++)
-        if (reference->alpha[i] > 0.0f) {
-            memcpy(values + count, image->rgb + 3 * i, 3 * sizeof(float));
-            memcpy(references + count, reference->rgb + 3 * i, 3 * sizeof(float));
-            count += 3;
-        }
-    hnbrdf_image_compare(values, references, count, error);
-    free(values);
-    return CLI_OK;
-}
-
 static void write_captions(const hnbrdf_image_error *error, render_sheet_cell *cell)
 {
     if (isinf(error->psnr))
@@ -213,7 +194,7 @@ static int fill_cell(sheet_job *job, sheet_material *m, const render_surface *su
                                &cell->image);
     int code = render_cell(job, &surfaces[kind], &cell->image);
     if (code == CLI_OK && kind != REFERENCE) {
-        code = measure(&cell->image, &cells[REFERENCE]->image, &m->errors[kind]);
+        code = picture_compare(&cell->image, &cells[REFERENCE]->image, &m->errors[kind]);
         write_captions(&m->errors[kind], cell);
     }
     return code;

@@ -68,6 +68,24 @@ int picture_write(const render_image *image, const char *path, const render_writ
     return result == HNBRDF_OK ? CLI_OK : cli_fail("%s", error.text);
 }
 
+int picture_compare(const render_image *image, const render_image *reference, hnbrdf_image_error *error)
+{
+    size_t pixels = (size_t)image->width * (size_t)image->height, count = 0;
+    float *values = malloc(6 * sizeof(float) * pixels),
+          *references = values ? values + 3 * pixels : NULL;
+    if (!values)
+        return cli_fail("out of memory");
+    for (size_t i = 0; i < pixels; i++)
+        if (reference->alpha[i] > 0.0f) {
+            memcpy(values + count, image->rgb + 3 * i, 3 * sizeof(float));
+            memcpy(references + count, reference->rgb + 3 * i, 3 * sizeof(float));
+            count += 3;
+        }
+    hnbrdf_image_compare(values, references, count, error);
+    free(values);
+    return CLI_OK;
+}
+
 int picture_report(void *progress, double share)
 {
     picture_progress *p = progress;
