@@ -54,7 +54,7 @@ int loss_curve_plot(const loss_curve *curve, const char *title, const char *path
     svg_panel_draw(output.file, &panel);
     svg_path_begin(output.file, svg_colors[1], 1.5, 0);
     for (int i = 0; i < curve->count; i++)
-        svg_path_point(output.file, i == 0, svg_x(&panel, (double)curve->points[i].step),
+        svg_path_point(output.file, svg_x(&panel, (double)curve->points[i].step),
                        svg_y(&panel, curve->points[i].loss));
     svg_path_end(output.file);
     svg_end(output.file);

@@ -102,17 +102,17 @@ void svg_line(FILE *file, double x0, double y0, double x1, double y1, const char
 
 void svg_path_begin(FILE *file, const char *color, double width, int dashed)
 {
-    fputs("<path fill='none'", file);
+    fputs("<polyline fill='none'", file);
     put_stroke(file, color, width, dashed);
-    fputs(" d='", file);
+    fputs(" points='", file);
 }
 
-void svg_path_point(FILE *file, int first, double x, double y)
+void svg_path_point(FILE *file, double x, double y)
 {
-    putc(first ? 'M' : 'L', file);
     put_tenths(file, x);
-    putc(' ', file);
+    putc(',', file);
     put_tenths(file, y);
+    putc(' ', file);
 }
 
 void svg_path_end(FILE *file)
@@ -129,7 +129,7 @@ void svg_mark(FILE *file, svg_shape shape, double x, double y, double radius, co
         [SVG_DIAMOND] = {{0.0, -1.25}, {1.25, 0.0}, {0.0, 1.25}, {-1.25, 0.0}},
         [SVG_TRIANGLE] = {{0.0, -1.45}, {1.35, 0.9}, {-1.35, 0.9}, {0.0, -1.45}},
     };
-    fputs(shape == SVG_CIRCLE ? "<circle" : "<path", file);
+    fputs(shape == SVG_CIRCLE ? "<circle" : "<polygon", file);
     fprintf(file, " class='mark' fill='%s'", hollow ? "#fff" : color);
     put_stroke(file, color, 1.5, 0);
     if (shape == SVG_CIRCLE) {
@@ -137,11 +137,10 @@ void svg_mark(FILE *file, svg_shape shape, double x, double y, double radius, co
         put_attribute(file, "cy", y);
         put_attribute(file, "r", radius);
     } else {
-        fputs(" d='", file);
+        fputs(" points='", file);
         for (int k = 0; k < 4; k++)
-            svg_path_point(file, k == 0, x + radius * corners[shape][k][0],
-                           y + radius * corners[shape][k][1]);
-        fputs("Z'", file);
+            svg_path_point(file, x + radius * corners[shape][k][0], y + radius * corners[shape][k][1]);
+        putc('\'', file);
     }
     fputs("/>\n", file);
 }
@@ -217,7 +216,7 @@ static int linear_ticks(const svg_axis *axis, double ticks[MOST_TICKS])
     int count = 0;
     for (double k = ceil(axis->low / step - 1e-9); k * step <= axis->high + 1e-9 * step; k += 1.0)
         if (count < MOST_TICKS)
-            ticks[count++] = k * step;
+            ticks[count++] = k * step + 0.0; /* no -0 */
     return count;
 }
 

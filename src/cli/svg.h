@@ -40,7 +40,7 @@ void svg_line(FILE *file, double x0, double y0, double x1, double y1, const char
               int dashed);
 /* A path through points given in pixels: begin, any number of points, end. */
 void svg_path_begin(FILE *file, const char *color, double width, int dashed);
-void svg_path_point(FILE *file, int first, double x, double y);
+void svg_path_point(FILE *file, double x, double y);
 void svg_path_end(FILE *file);
 /* hollow: only the outline. */
 void svg_mark(FILE *file, svg_shape shape, double x, double y, double radius, const char *color,
