@@ -4,3 +4,4 @@ foreach(name test_pairs test_measured_files test_measured_merl test_measured_tri
     test_measured_shared)
   hnbrdf_test(${name} ${name}.c measured_support.c)
 endforeach()
+hnbrdf_test(test_measured_custom test_measured_custom.c)

@@ -377,6 +377,56 @@ static void stopped_before_the_first_step_there_is_no_model(void **state)
     assert_true(error.text[0] != '\0');
 }
 
+static void a_given_analytic_part_is_kept_and_one_material_needs_no_latent_code(void **state)
+{
+    (void)state;
+    hnbrdf_fit_options o = small(HNBRDF_KIND_HYBRID);
+    hnbrdf_model *model = NULL;
+    hnbrdf_material given;
+    hnbrdf_model_desc desc;
+    hnbrdf_error error;
+    hnbrdf_material_init(&given);
+    given.alpha[0] = given.alpha[1] = 0.37f;
+    given.kd[1] = 0.123f;
+    given.eta[2] = 2.5f;
+    given.latent[0] = 7.0f; /* is not taken */
+    o.materials = &given;
+    o.latent = -1;
+    o.steps = 200;
+    assert_int_equal(hnbrdf_fit((const hnbrdf_measured *const *)data, 1, &o, &model, NULL, &error),
+                     HNBRDF_OK);
+    hnbrdf_model_describe(model, &desc);
+    assert_int_equal(desc.latent, 0);
+    given.latent[0] = 0.0f;
+    assert_memory_equal(hnbrdf_model_material(model, 0), &given, sizeof given);
+
+    /* Such a network can be frozen as any other. */
+    hnbrdf_model *more = NULL;
+    hnbrdf_fit_options frozen = {.freeze = model, .steps = 10, .pool = 1024};
+    assert_int_equal(
+        hnbrdf_fit((const hnbrdf_measured *const *)data + 1, 1, &frozen, &more, NULL, &error),
+        HNBRDF_OK);
+    hnbrdf_model_describe(more, &desc);
+    assert_int_equal(desc.latent, 0);
+    hnbrdf_model_free(more);
+    hnbrdf_model_free(model);
+
+    /* Where GGX is trained along, the given part is where it starts. */
+    o.analytic = HNBRDF_FIT_JOINT;
+    o.steps = 1;
+    o.learning_rate = 1e-6f;
+    assert_int_equal(hnbrdf_fit((const hnbrdf_measured *const *)data, 1, &o, &model, NULL, &error),
+                     HNBRDF_OK);
+    assert_float_equal(hnbrdf_model_material(model, 0)->alpha[0], 0.37f, 1e-4f);
+    assert_float_equal(hnbrdf_model_material(model, 0)->eta[2], 2.5f, 1e-4f);
+    hnbrdf_model_free(model);
+
+    given.alpha[0] = 2.0f;
+    assert_int_equal(hnbrdf_fit((const hnbrdf_measured *const *)data, 1, &o, &model, NULL, &error),
+                     HNBRDF_ERROR_ARGUMENT);
+    assert_non_null(strstr(error.text, "alpha"));
+}
+
 static void bad_options_are_refused_with_a_message(void **state)
 {
     (void)state;
@@ -432,6 +482,7 @@ int main(void)
         cmocka_unit_test(resumed_fit_gives_the_same_model),
         cmocka_unit_test(frozen_network_takes_a_new_material),
         cmocka_unit_test(stopped_before_the_first_step_there_is_no_model),
+        cmocka_unit_test(a_given_analytic_part_is_kept_and_one_material_needs_no_latent_code),
         cmocka_unit_test(bad_options_are_refused_with_a_message),
     };
     return cmocka_run_group_tests(tests, open_data, close_data);

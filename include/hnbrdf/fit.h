@@ -53,13 +53,17 @@ typedef int (*hnbrdf_fit_progress_fn)(void *user, const hnbrdf_fit_progress *pro
 typedef struct hnbrdf_fit_options {
     hnbrdf_kind kind;   /* default hybrid */
     int hidden, layers; /* HxN; 0 stands for 32 and 2 */
-    int latent;         /* l; 0 stands for 4 (hybrid) or 12 (neural) */
+    int latent;         /* l; 0 stands for 4 (hybrid) or 12 (neural), negative for none: enough for one
+                           material */
     hnbrdf_encoding encoding;
     int encoding_set; /* 1: use `encoding`; 0: angles, or angles-directed where swapping wi and
                          wo changes the data by more than 2 % (RGL: 3 to 20 %), or
                          angles-anisotropic if any material is anisotropic */
     float floor;      /* b; 0 stands for the default of 0.003, negative for none */
     hnbrdf_fit_analytic analytic;
+    /* [count], each passes hnbrdf_material_check(), or NULL. Their kd, eta, alpha and rotation are
+     * taken instead of a GGX fit: kept as they are (faithful) or where training starts (joint). */
+    const hnbrdf_material *materials;
     long steps;          /* network steps; 0 stands for 32000 */
     double seconds;      /* time budget for the network stage instead of steps */
     int batch;           /* pairs a step; 0 stands for 2048; rounded up to a multiple of 1024 */

@@ -24,10 +24,11 @@ typedef enum hnbrdf_measured_format {
     HNBRDF_MEASURED_BUILTIN = 0,
     HNBRDF_MEASURED_MERL,
     HNBRDF_MEASURED_RGL,
-    HNBRDF_MEASURED_UTIA
+    HNBRDF_MEASURED_UTIA,
+    HNBRDF_MEASURED_CUSTOM
 } hnbrdf_measured_format;
 
-/* "builtin", "MERL", "RGL", "UTIA"; NULL for any other value. */
+/* "builtin", "MERL", "RGL", "UTIA", "custom"; NULL for any other value. */
 HNBRDF_API const char *hnbrdf_measured_format_name(hnbrdf_measured_format format);
 
 /* One measured material. Immutable after opening, may be shared between threads. */
@@ -89,6 +90,23 @@ HNBRDF_API int hnbrdf_measured_builtin_count(void);
 HNBRDF_API const char *hnbrdf_measured_builtin_name(int index);
 HNBRDF_API hnbrdf_result hnbrdf_measured_open_builtin(int index, hnbrdf_measured **measured,
                                                       hnbrdf_error *error);
+
+/* A BRDF of your own, to be fitted and compared like a measurement: a formula, another renderer's table, a
+ * larger model that a smaller one shall learn from. */
+typedef struct hnbrdf_measured_custom {
+    const char *name;    /* of the material, UTF-8, 1 to HNBRDF_MAX_NAME bytes; copied */
+    const char *summary; /* one line for hnbrdf_measured_summary(), cut to 255 bytes; NULL: "custom"; copied */
+    int isotropic;       /* 1: turning wi and wo together about n never changes the value */
+    /* f of unit vectors above the horizon, convention as above. Returns 1, or 0 where there is no value. f is
+     * clamped to [0, HNBRDF_MAX_VALUE], NaN to 0. Called from several threads at once. Never NULL. */
+    int (*eval)(const void *user, const float wi[3], const float wo[3], float f[3]);
+    void (*release)(void *user); /* called once by hnbrdf_measured_close(); may be NULL */
+    void *user;
+} hnbrdf_measured_custom;
+
+/* On failure `user` stays the caller's. */
+HNBRDF_API hnbrdf_result hnbrdf_measured_create_custom(const hnbrdf_measured_custom *custom,
+                                                       hnbrdf_measured **measured, hnbrdf_error *error);
 
 /* Free; NULL is allowed. */
 HNBRDF_API void hnbrdf_measured_close(hnbrdf_measured *measured);

@@ -43,7 +43,8 @@ static uint64_t fingerprint(const trainer *t)
                               o->analytic,       (double)o->steps, o->seconds,
                               t->tiles_per_step, t->pool.tiles,    (double)o->learning_rate,
                               (double)o->seed,   t->count,         o->freeze != NULL,
-                              o->loss,           o->schedule,      (double)o->uniform_share};
+                              o->loss,           o->schedule,      (double)o->uniform_share,
+                              o->materials != NULL};
     uint64_t h = UINT64_C(14695981039346656037);
     for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++)
         h = hash_number(h, numbers[i]);

@@ -69,6 +69,14 @@ static void draw_one(void *context, int material, int worker)
     piece_done(t, "sampling", worker);
 }
 
+/* The analytic part as it is given, and as the parameters it would be trained by. */
+static void take_analytic(const hnbrdf_material *given, float *parameters, hnbrdf_material *taken)
+{
+    hnbrdf_fit_ggx_parameters(given, parameters);
+    *taken = *given;
+    memset(taken->latent, 0, sizeof taken->latent);
+}
+
 static void fit_one(void *context, int material, int worker)
 {
     trainer *t = context;
@@ -77,8 +85,12 @@ static void fit_one(void *context, int material, int worker)
     if (!neural || !t->isotropic[material]) {
         float *p = t->parameters + t->layout.analytic + (size_t)material * FIT_ANALYTIC;
         hnbrdf_material fitted = t->materials[material];
-        hnbrdf_fit_ggx(t->kernel, &t->pool, material, t->isotropic[material], p);
-        hnbrdf_fit_ggx_material(p, &fitted);
+        if (t->options.materials) {
+            take_analytic(&t->options.materials[material], p, &fitted);
+        } else {
+            hnbrdf_fit_ggx(t->kernel, &t->pool, material, t->isotropic[material], p);
+            hnbrdf_fit_ggx_material(p, &fitted);
+        }
         if (neural) /* of GGX it takes the tangent frame alone */
             t->materials[material].rotation = fitted.rotation;
         else
@@ -190,7 +202,7 @@ static hnbrdf_result take_frozen(hnbrdf_fit_options *o, hnbrdf_error *error)
     o->kind = desc.kind;
     o->hidden = desc.hidden;
     o->layers = desc.layers;
-    o->latent = desc.latent;
+    o->latent = desc.latent ? desc.latent : -1;
     o->encoding = desc.encoding;
     o->encoding_set = 1;
     o->floor = desc.floor > 0.0f ? desc.floor : -1.0f;
@@ -240,6 +252,7 @@ static hnbrdf_result fill_options(hnbrdf_fit_options *o, int count, hnbrdf_error
     o->hidden = o->hidden ? o->hidden : 32;
     o->layers = o->layers ? o->layers : 2;
     o->latent = o->latent ? o->latent : (o->kind == HNBRDF_KIND_NEURAL ? 12 : 4);
+    o->latent = o->latent < 0 ? 0 : o->latent;
     o->floor = o->floor == 0.0f ? DEFAULT_FLOOR : fmaxf(o->floor, 0.0f);
     o->steps = o->steps ? o->steps : (o->freeze ? DEFAULT_FROZEN_STEPS : DEFAULT_STEPS);
     o->batch = o->batch ? o->batch : DEFAULT_BATCH;
@@ -252,8 +265,8 @@ static hnbrdf_result fill_options(hnbrdf_fit_options *o, int count, hnbrdf_error
         o->layers > HNBRDF_MAX_LAYERS)
         return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT, "network %dx%d, expected 1x1 to %dx%d",
                            o->hidden, o->layers, HNBRDF_MAX_HIDDEN, HNBRDF_MAX_LAYERS);
-    if (o->latent < 1 || o->latent > HNBRDF_MAX_LATENT)
-        return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT, "latent code of %d floats, expected 1 to %d",
+    if (o->latent > HNBRDF_MAX_LATENT)
+        return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT, "latent code of %d floats, expected 0 to %d",
                            o->latent, HNBRDF_MAX_LATENT);
     if (o->steps < 1 || o->batch < 1 || o->batch > 1 << 24 || o->pool > 1 << 26 || o->threads < 0 ||
         !(o->seconds >= 0.0) || !(o->learning_rate > 0.0f) || !(o->floor < 1.0f) ||
@@ -347,6 +360,8 @@ hnbrdf_result hnbrdf_fit(const hnbrdf_measured *const *data, int count,
     if (options)
         t.options = *options;
     hnbrdf_result result = fill_options(&t.options, count, error);
+    for (int m = 0; t.options.materials && m < count && !result; m++)
+        result = hnbrdf_material_check(&t.options.materials[m], error);
     if (result)
         return result;
     if (!t.options.encoding_set)

@@ -34,6 +34,18 @@ void hnbrdf_fit_ggx_project(float *p, int isotropic)
         p[FIT_ALPHA + a] = hnbrdf_clamp(p[FIT_ALPHA + a], -9.2103f, 0.0f); /* ln 1.0001e-4 */
 }
 
+void hnbrdf_fit_ggx_parameters(const hnbrdf_material *material, float *p)
+{
+    for (int c = 0; c < 3; c++) {
+        p[FIT_KD + c] = material->kd[c];
+        p[FIT_ETA + c] = logf(material->eta[c] - 1.0f);
+    }
+    for (int a = 0; a < 2; a++)
+        p[FIT_ALPHA + a] = logf(material->alpha[a]);
+    p[FIT_ROTATION] = material->rotation;
+    hnbrdf_fit_ggx_project(p, 0);
+}
+
 void hnbrdf_fit_ggx_material(const float *p, hnbrdf_material *material)
 {
     for (int c = 0; c < 3; c++) {

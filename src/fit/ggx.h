@@ -12,6 +12,9 @@ double hnbrdf_fit_ggx(const fit_kernel *kernel, const fit_pool *pool, int materi
 /* Moves parameters into their ranges: kd [0, 1], eta [1.001, 100], alpha [HNBRDF_MIN_ALPHA, 1]. */
 void hnbrdf_fit_ggx_project(float *parameters, int isotropic);
 
+/* The parameters whose material has this kd, eta, alpha and rotation, but for their ranges. */
+void hnbrdf_fit_ggx_parameters(const hnbrdf_material *material, float *parameters);
+
 /* parameters to kd, eta, alpha and rotation of a material. */
 void hnbrdf_fit_ggx_material(const float *parameters, hnbrdf_material *material);
 

@@ -34,11 +34,16 @@ hnbrdf_result hnbrdf_rgl_open(const unsigned char *bytes, size_t size, const cha
                               const hnbrdf_measured_options *options, measured_body *body,
                               hnbrdf_error *error);
 
-/* A file without a header: recognised by its size, and as a failed one by a label that ends in ".bin". */
+/* A file without a header: recognised by its size, and as a failed one by a label that ends in ".bin".
+ */
 int hnbrdf_utia_recognise(size_t size, const char *label);
 hnbrdf_result hnbrdf_utia_open(const unsigned char *bytes, size_t size, const char *label,
                                const hnbrdf_measured_options *options, measured_body *body,
                                hnbrdf_error *error);
+
+/* The caller has checked the description. On failure `user` is not released. */
+hnbrdf_result hnbrdf_custom_open(const hnbrdf_measured_custom *custom, measured_body *body,
+                                 hnbrdf_error *error);
 
 /* index is in range. */
 hnbrdf_result hnbrdf_builtin_open(int index, measured_body *body, hnbrdf_error *error);

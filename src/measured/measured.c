@@ -287,6 +287,34 @@ hnbrdf_result hnbrdf_measured_open_builtin(int index, hnbrdf_measured **measured
     return HNBRDF_OK;
 }
 
+hnbrdf_result hnbrdf_measured_create_custom(const hnbrdf_measured_custom *custom,
+                                            hnbrdf_measured **measured, hnbrdf_error *error)
+{
+    if (!custom || !measured || !custom->eval || !custom->name)
+        return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT,
+                           "hnbrdf_measured_create_custom: description, name, eval or result is NULL");
+    hnbrdf_measured *made = calloc(1, sizeof *made);
+    if (!made)
+        return hnbrdf_fail(error, HNBRDF_ERROR_MEMORY, "out of memory for a custom material");
+    size_t length = strlen(custom->name);
+    copy_clean(made->name, sizeof made->name, custom->name, length);
+    made->format = HNBRDF_MEASURED_CUSTOM;
+    hnbrdf_result result = HNBRDF_OK;
+    if (length == 0 || strcmp(made->name, custom->name) != 0)
+        result = hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT,
+                             "custom material '%s': expected a name of 1 to %d bytes of UTF-8 without "
+                             "control characters",
+                             made->name, HNBRDF_MAX_NAME);
+    if (!result)
+        result = hnbrdf_custom_open(custom, &made->body, error);
+    if (result) {
+        free(made);
+        return result;
+    }
+    *measured = made;
+    return HNBRDF_OK;
+}
+
 void hnbrdf_measured_close(hnbrdf_measured *measured)
 {
     if (!measured)
@@ -308,6 +336,8 @@ const char *hnbrdf_measured_format_name(hnbrdf_measured_format format)
         return "RGL";
     case HNBRDF_MEASURED_UTIA:
         return "UTIA";
+    case HNBRDF_MEASURED_CUSTOM:
+        return "custom";
     }
     return NULL;
 }
