@@ -172,7 +172,9 @@ static void block_has_the_bits_of_single_evaluations(void **state)
         for (int l = 0; l < HNBRDF_LANES; l++)
             for (int i = 0; i < 6; i++)
                 x[i][l] = rng_range(&r, -1.0f, 1.0f);
-        hnbrdf_network_block(&desc, m.latent, x, out);
+        hnbrdf_prepared prepared;
+        hnbrdf_prepare(model, &m, &prepared);
+        hnbrdf_network_block(&prepared, x, out);
         for (int l = 0; l < HNBRDF_LANES; l++) {
             float single_x[6], single[6], lane[6];
             for (int i = 0; i < 6; i++)

@@ -33,11 +33,23 @@ static inline hnbrdf_pair hnbrdf_pair_make(const float wi[3], const float wo[3])
 }
 
 /* GGX normal density D(h), 1/sr (Walter 2007 Eq. 33, anisotropic: Heitz 2014 Eq. 86), in the
- * tangent-frame form: 1 - (n.h)^2 would lose every digit of a narrow lobe. */
-static inline float hnbrdf_ggx_d(float sx, float sy, float sz, float length2, float ax, float ay)
+ * tangent-frame form: 1 - (n.h)^2 would lose every digit of a narrow lobe. What depends on the material
+ * alone, area = pi ax ay here and e = eta^2 - 1 below, has a function of its own. */
+static inline float hnbrdf_ggx_area(float ax, float ay)
+{
+    return (HNBRDF_PI * ax) * ay;
+}
+
+static inline float hnbrdf_ggx_d_of_area(float sx, float sy, float sz, float length2, float ax, float ay,
+                                         float area)
 {
     float t = hnbrdf_dot3(sx / ax, sy / ay, sz) / length2;
-    return 1.0f / (((HNBRDF_PI * ax) * ay) * (t * t));
+    return 1.0f / (area * (t * t));
+}
+
+static inline float hnbrdf_ggx_d(float sx, float sy, float sz, float length2, float ax, float ay)
+{
+    return hnbrdf_ggx_d_of_area(sx, sy, sz, length2, ax, ay, hnbrdf_ggx_area(ax, ay));
 }
 
 /* Smith masking of one direction over its share of the denominator, V(w) = G1(w) / (2 w.z), so that
@@ -49,9 +61,13 @@ static inline float hnbrdf_smith_v(float x, float y, float z, float ax, float ay
 
 /* Unpolarised Fresnel reflectance of a dielectric with index eta > 1 at cosine c = wi.h (Walter 2007
  * Eq. 22). g - c is taken as (eta^2 - 1)/(g + c): the difference itself loses digits as eta nears 1. */
-static inline float hnbrdf_fresnel_dielectric(float eta, float c)
+static inline float hnbrdf_fresnel_e(float eta)
 {
-    float e = (eta - 1.0f) * (eta + 1.0f);
+    return (eta - 1.0f) * (eta + 1.0f);
+}
+
+static inline float hnbrdf_fresnel_of_e(float e, float c)
+{
     float sum = sqrtf(e + c * c) + c;   /* g + c */
     float difference = e / sum;         /* g - c */
     float a = difference / sum;
@@ -59,18 +75,33 @@ static inline float hnbrdf_fresnel_dielectric(float eta, float c)
     return (0.5f * (a * a)) * (1.0f + b * b);
 }
 
-/* D V V, what the Fresnel factor of every channel multiplies; 1/sr. */
-static inline float hnbrdf_specular(const hnbrdf_pair *p, float ax, float ay)
+static inline float hnbrdf_fresnel_dielectric(float eta, float c)
 {
-    return hnbrdf_ggx_d(p->sx, p->sy, p->sz, p->length2, ax, ay) *
+    return hnbrdf_fresnel_of_e(hnbrdf_fresnel_e(eta), c);
+}
+
+/* D V V, what the Fresnel factor of every channel multiplies; 1/sr. */
+static inline float hnbrdf_specular_of_area(const hnbrdf_pair *p, float ax, float ay, float area)
+{
+    return hnbrdf_ggx_d_of_area(p->sx, p->sy, p->sz, p->length2, ax, ay, area) *
            (hnbrdf_smith_v(p->wi[0], p->wi[1], p->wi[2], ax, ay) *
             hnbrdf_smith_v(p->wo[0], p->wo[1], p->wo[2], ax, ay));
 }
 
-/* One channel of f_a, 1/sr. */
+static inline float hnbrdf_specular(const hnbrdf_pair *p, float ax, float ay)
+{
+    return hnbrdf_specular_of_area(p, ax, ay, hnbrdf_ggx_area(ax, ay));
+}
+
+/* One channel of f_a, 1/sr. diffuse is kd/pi, e is eta^2 - 1. */
+static inline float hnbrdf_microfacet_of(float diffuse, float e, float c, float specular)
+{
+    return diffuse + hnbrdf_fresnel_of_e(e, c) * specular;
+}
+
 static inline float hnbrdf_microfacet(float kd, float eta, float c, float specular)
 {
-    return kd * HNBRDF_INV_PI + hnbrdf_fresnel_dielectric(eta, c) * specular;
+    return hnbrdf_microfacet_of(kd * HNBRDF_INV_PI, hnbrdf_fresnel_e(eta), c, specular);
 }
 
 #endif

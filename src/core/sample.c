@@ -1,12 +1,8 @@
 /* sample.c: draw wi given wo from a cosine lobe and GGX visible normals, and the density of that. */
 #include "core/compose.h"
-#include "core/frame.h"
-#include "core/microfacet.h"
-#include "core/model.h"
+#include "core/prepared.h"
 
-/* Share of samples that go to the GGX lobe: reflectance at normal incidence, raised a little for what
- * Fresnel adds towards grazing, against the diffuse albedo. 0 where there is no analytic part. */
-static float specular_share(const hnbrdf_model *model, const hnbrdf_material *material)
+float hnbrdf_specular_share(const hnbrdf_model *model, const hnbrdf_material *material)
 {
     if (model->desc.kind == HNBRDF_KIND_NEURAL)
         return 0.0f;
@@ -21,30 +17,33 @@ static float specular_share(const hnbrdf_model *model, const hnbrdf_material *ma
 
 /* The one density that sample and pdf share; directions in the tangent frame, both above the horizon.
  * Visible normals: D G1(wo) / (4 wo.z) = D V(wo) / 2 (Heitz 2018 Eq. 17). */
-static float density(const hnbrdf_material *material, float share, const float wi[3], const float wo[3])
+static float density(const hnbrdf_prepared *m, const float wi[3], const float wo[3])
 {
-    float ax = material->alpha[0], ay = material->alpha[1];
+    float ax = m->alpha[0], ay = m->alpha[1];
     hnbrdf_pair p = hnbrdf_pair_make(wi, wo);
-    float visible = hnbrdf_ggx_d(p.sx, p.sy, p.sz, p.length2, ax, ay) *
+    float visible = hnbrdf_ggx_d_of_area(p.sx, p.sy, p.sz, p.length2, ax, ay, m->area) *
                     (0.5f * hnbrdf_smith_v(wo[0], wo[1], wo[2], ax, ay));
-    return hnbrdf_finish(share * visible + (1.0f - share) * (wi[2] * HNBRDF_INV_PI));
+    return hnbrdf_finish(m->share * visible + (1.0f - m->share) * (wi[2] * HNBRDF_INV_PI));
 }
 
-static float pdf_in_frame(const hnbrdf_model *model, const hnbrdf_material *material, hnbrdf_frame frame,
-                          const float wi[3], const float wo[3])
+float hnbrdf_prepared_pdf(const hnbrdf_prepared *prepared, const float wi[3], const float wo[3])
 {
     if (!(wi[2] > 0.0f && wo[2] > 0.0f))
         return 0.0f;
+    const hnbrdf_frame frame = {prepared->cosine, prepared->sine};
     float i[3], o[3];
     hnbrdf_to_tangent(frame, wi, i);
     hnbrdf_to_tangent(frame, wo, o);
-    return density(material, specular_share(model, material), i, o);
+    return density(prepared, i, o);
 }
 
 float hnbrdf_pdf(const hnbrdf_model *model, const hnbrdf_material *material, const float wi[3],
                  const float wo[3])
 {
-    return pdf_in_frame(model, material, hnbrdf_frame_of(material), wi, wo);
+    hnbrdf_prepared prepared;
+    hnbrdf_prepare_analytic(model, material, &prepared);
+    prepared.share = hnbrdf_specular_share(model, material);
+    return hnbrdf_prepared_pdf(&prepared, wi, wo);
 }
 
 /* Cosine-distributed direction; u2 < 1 keeps z above 0. */
@@ -83,30 +82,38 @@ static int draw_ggx(float ax, float ay, const float wo[3], float u1, float u2, f
     return 1;
 }
 
-void hnbrdf_sample(const hnbrdf_model *model, const hnbrdf_material *material, const float wo[3],
-                   const float u[3], hnbrdf_sample_result *result)
+void hnbrdf_prepared_sample(const hnbrdf_prepared *prepared, const float wo[3], const float u[3],
+                            hnbrdf_sample_result *result)
 {
     static const hnbrdf_sample_result nothing = {{0.0f, 0.0f, 1.0f}, 0.0f, {0.0f, 0.0f, 0.0f}};
     *result = nothing;
     if (!(wo[2] > 0.0f))
         return;
-    hnbrdf_frame frame = hnbrdf_frame_of(material);
+    const hnbrdf_frame frame = {prepared->cosine, prepared->sine};
     float o[3], i[3], wi[3], f[3];
     hnbrdf_to_tangent(frame, wo, o);
-    if (u[0] < specular_share(model, material)) {
-        if (!draw_ggx(material->alpha[0], material->alpha[1], o, u[1], u[2], i))
+    if (u[0] < prepared->share) {
+        if (!draw_ggx(prepared->alpha[0], prepared->alpha[1], o, u[1], u[2], i))
             return;
     } else {
         draw_cosine(u[1], u[2], i);
     }
     hnbrdf_from_tangent(frame, i, wi);
-    float pdf = pdf_in_frame(model, material, frame, wi, wo);
+    float pdf = hnbrdf_prepared_pdf(prepared, wi, wo);
     if (!(pdf > 0.0f))
         return;
-    hnbrdf_eval(model, material, wi, wo, f);
+    hnbrdf_prepared_eval(prepared, wi, wo, f);
     for (int c = 0; c < 3; c++) {
         result->wi[c] = wi[c];
         result->weight[c] = hnbrdf_finish(f[c] * wi[2] / pdf);
     }
     result->pdf = pdf;
+}
+
+void hnbrdf_sample(const hnbrdf_model *model, const hnbrdf_material *material, const float wo[3],
+                   const float u[3], hnbrdf_sample_result *result)
+{
+    hnbrdf_prepared prepared;
+    hnbrdf_prepare(model, material, &prepared);
+    hnbrdf_prepared_sample(&prepared, wo, u, result);
 }

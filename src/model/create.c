@@ -1,10 +1,11 @@
 /* create.c: build a model from a description, look into it, free it.
  * Every model, loaded, imported or fitted, passes the checks made here. */
 #include "core/error.h"
-#include "core/model.h"
+#include "core/kernel.h"
 #include "model/memory.h"
 #include "model/sort.h"
 #include "model/text.h"
+#include "model/choose_kernel.h"
 
 #include <math.h>
 #include <stdint.h>
@@ -15,6 +16,11 @@ enum { ALIGNMENT = 64 };
 static int matrix_count(const hnbrdf_model_desc *desc)
 {
     return desc->kind == HNBRDF_KIND_GGX ? 0 : desc->layers + 1;
+}
+
+static size_t packed_size(const hnbrdf_model_desc *desc, int layer)
+{
+    return (size_t)hnbrdf_layer_inputs(desc, layer) * (size_t)hnbrdf_packed_outputs(desc, layer);
 }
 
 static size_t weight_size(const hnbrdf_model_desc *desc, int layer)
@@ -192,6 +198,8 @@ static size_t model_size(const hnbrdf_model_desc *desc)
     for (int k = 0; k < matrix_count(desc); ++k) {
         size += padded(weight_size(desc, k) * sizeof(float));
         size += padded((size_t)hnbrdf_layer_outputs(desc, k) * sizeof(float));
+        size += padded(packed_size(desc, k) * sizeof(float));
+        size += padded((size_t)hnbrdf_packed_outputs(desc, k) * sizeof(float));
     }
     size += padded(count * sizeof(hnbrdf_material)) + count * sizeof(char *);
     for (size_t i = 0; i < count; ++i) {
@@ -206,6 +214,31 @@ static const float *take_floats(unsigned char **at, const float *source, size_t 
     memcpy(copy, source, count * sizeof *copy);
     *at += padded(count * sizeof *copy);
     return copy;
+}
+
+/* `outputs` rows of `inputs` weights, input-major and padded; the first `last` inputs go last. */
+static const float *take_packed(unsigned char **at, const float *source, int outputs, int inputs, int last,
+                                int stride)
+{
+    float *packed = (float *)(void *)*at;
+    const size_t count = (size_t)inputs * (size_t)stride;
+    for (int i = 0; i < inputs; ++i) {
+        const int from = i < inputs - last ? i + last : i - (inputs - last);
+        for (int o = 0; o < stride; ++o) {
+            packed[i * stride + o] = o < outputs ? source[o * inputs + from] : 0.0f;
+        }
+    }
+    *at += padded(count * sizeof *packed);
+    return packed;
+}
+
+static void pack_layer(unsigned char **at, int layer, hnbrdf_model *model)
+{
+    const hnbrdf_model_desc *own = &model->desc;
+    const int inputs = hnbrdf_layer_inputs(own, layer), outputs = hnbrdf_layer_outputs(own, layer);
+    const int stride = hnbrdf_packed_outputs(own, layer), directions = layer == 0 ? HNBRDF_ENCODING_SIZE : 0;
+    model->packed[layer] = take_packed(at, own->weights[layer], outputs, inputs, directions, stride);
+    model->packed_biases[layer] = take_packed(at, own->biases[layer], outputs, 1, 0, stride);
 }
 
 static const hnbrdf_material *take_materials(unsigned char **at, const hnbrdf_model_desc *desc)
@@ -249,6 +282,10 @@ static hnbrdf_result fill(hnbrdf_model *model, const hnbrdf_model_desc *desc, hn
         own->weights[k] = used ? take_floats(&at, desc->weights[k], weight_size(desc, k)) : NULL;
         own->biases[k] =
             used ? take_floats(&at, desc->biases[k], (size_t)hnbrdf_layer_outputs(desc, k)) : NULL;
+        model->packed[k] = model->packed_biases[k] = NULL;
+        if (used) {
+            pack_layer(&at, k, model);
+        }
     }
     own->materials = take_materials(&at, desc);
     const char **names = (const char **)(void *)at;
@@ -265,6 +302,7 @@ static hnbrdf_result fill(hnbrdf_model *model, const hnbrdf_model_desc *desc, hn
 hnbrdf_result hnbrdf_model_create(const hnbrdf_model_desc *desc, const hnbrdf_allocator *allocator,
                                   hnbrdf_model **model, hnbrdf_error *error)
 {
+    const hnbrdf_kernel *kernel;
     hnbrdf_allocator memory;
     hnbrdf_result result;
     if (!desc || !model) {
@@ -272,7 +310,8 @@ hnbrdf_result hnbrdf_model_create(const hnbrdf_model_desc *desc, const hnbrdf_al
     }
     if ((result = hnbrdf_choose_allocator(allocator, &memory, error)) ||
         (result = check_shape(desc, error)) || (result = check_constants(desc, error)) ||
-        (result = check_network(desc, error)) || (result = check_materials(desc, error))) {
+        (result = check_network(desc, error)) || (result = check_materials(desc, error)) ||
+        (result = hnbrdf_choose_kernel(desc->variant, &kernel, error))) {
         return result;
     }
     const size_t size = model_size(desc);
@@ -285,6 +324,8 @@ hnbrdf_result hnbrdf_model_create(const hnbrdf_model_desc *desc, const hnbrdf_al
         hnbrdf_release(&memory, made);
         return result;
     }
+    made->kernel = kernel;
+    made->desc.variant = kernel->variant;
     *model = made;
     return HNBRDF_OK;
 }

@@ -389,13 +389,14 @@ static hnbrdf_result read_model(loading *l)
 }
 
 hnbrdf_result hnbrdf_safetensors_decode(const char *path, const hnbrdf_safetensors *file,
-                                        const hnbrdf_allocator *allocator, hnbrdf_model **model,
-                                        hnbrdf_error *error)
+                                        const hnbrdf_allocator *allocator, hnbrdf_variant variant,
+                                        hnbrdf_model **model, hnbrdf_error *error)
 {
     loading l = {.path = path, .memory = *allocator, .error = error, .file = file};
     hnbrdf_result result = read_model(&l);
     if (!result) {
         hnbrdf_error inner;
+        l.desc.variant = variant;
         result = hnbrdf_model_create(&l.desc, allocator, model, &inner);
         if (result) {
             /* What a caller must not pass is here what the file must not hold. */

@@ -2,6 +2,7 @@
 #include "core/error.h"
 #include "model/memory.h"
 #include "model/safetensors.h"
+#include "model/choose_kernel.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -14,6 +15,7 @@ enum { FIRST_CHUNK = 1 << 16 };
 typedef struct source {
     const char *path;
     hnbrdf_allocator memory;
+    hnbrdf_variant variant;
     size_t max_bytes;
     hnbrdf_read_fn read;
     void *read_user;
@@ -83,14 +85,16 @@ static hnbrdf_result load_bytes(const source *s, const unsigned char *bytes, siz
     hnbrdf_safetensors file;
     const hnbrdf_result result =
         hnbrdf_safetensors_read(s->path, bytes, size, &s->memory, &file, s->error);
-    return result ? result : hnbrdf_safetensors_decode(s->path, &file, &s->memory, model, s->error);
+    return result ? result : hnbrdf_safetensors_decode(s->path, &file, &s->memory, s->variant, model, s->error);
 }
 
 static hnbrdf_result begin(const char *path, const hnbrdf_load_options *options, hnbrdf_model **model,
                            hnbrdf_error *error, source *s)
 {
-    const hnbrdf_load_options defaults = {{NULL, NULL, NULL}, 0, NULL, NULL};
+    const hnbrdf_load_options defaults = {{NULL, NULL, NULL}, 0, NULL, NULL, HNBRDF_VARIANT_AUTO};
     const hnbrdf_load_options *chosen = options ? options : &defaults;
+    const hnbrdf_kernel *kernel;
+    hnbrdf_result result;
     s->path = path;
     s->max_bytes = chosen->max_bytes ? chosen->max_bytes : DEFAULT_MAX_BYTES;
     s->read = chosen->read;
@@ -100,6 +104,10 @@ static hnbrdf_result begin(const char *path, const hnbrdf_load_options *options,
         return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT, "%s: model is NULL, expected a place for it",
                            path);
     }
+    if ((result = hnbrdf_choose_kernel(chosen->variant, &kernel, error))) {
+        return result; /* before anything is read */
+    }
+    s->variant = kernel->variant;
     return hnbrdf_choose_allocator(&chosen->allocator, &s->memory, error);
 }
 

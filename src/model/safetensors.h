@@ -60,7 +60,7 @@ hnbrdf_result hnbrdf_safetensors_read(const char *path, const unsigned char *byt
 
 /* Makes a model of it; all numbers are decoded and checked. */
 hnbrdf_result hnbrdf_safetensors_decode(const char *path, const hnbrdf_safetensors *file,
-                                        const hnbrdf_allocator *allocator, hnbrdf_model **model,
-                                        hnbrdf_error *error);
+                                        const hnbrdf_allocator *allocator, hnbrdf_variant variant,
+                                        hnbrdf_model **model, hnbrdf_error *error);
 
 #endif

@@ -1,0 +1,532 @@
+/* kernel_body.h: the text of the evaluation kernels, included once per instruction set.
+ *
+ * The includer defines KERNEL_TABLE and KERNEL_VARIANT, the table to fill and what it is called;
+ * KERNEL_WIDTH, the floats in a vector (1: plain loops, no compiler extension), KERNEL_ROWS x KERNEL_WIDE
+ * vectors, the register tile of the network, and KERNEL_SINGLE, the floats in a vector of the network of
+ * one evaluation. Everything but the network is loops over lanes of the same inline functions that define
+ * it, which compilers vectorise. */
+#include "core/compose.h"
+#include "core/encoding.h"
+#include "core/kernel.h"
+#include "core/prepared.h"
+
+#include <string.h>
+
+enum { LANES = HNBRDF_LANES };
+
+#if KERNEL_WIDTH > 1
+#define KERNEL_VECTOR(width) __attribute__((vector_size((width) * sizeof(float)), aligned(4), may_alias))
+#define KERNEL_INLINE static inline __attribute__((always_inline))
+typedef float tile_vector KERNEL_VECTOR(KERNEL_WIDTH);
+typedef float unit_vector KERNEL_VECTOR(KERNEL_SINGLE);
+typedef int32_t unit_mask __attribute__((vector_size(KERNEL_SINGLE * sizeof(int32_t))));
+#endif
+
+/* ---- The network of one evaluation, vectors over units ----------------------------------------- */
+
+#if KERNEL_WIDTH > 1
+
+/* hnbrdf_hard_gelu() of every unit. */
+KERNEL_INLINE unit_vector activate_units(unit_vector x)
+{
+    const unit_vector zero = {0}, one = zero + 1.0f;
+    unit_vector t = x * 0.333333333f + 0.5f;
+    unit_mask below = (unit_mask)(t < zero);
+    t = (unit_vector)(~below & (unit_mask)t);
+    unit_mask over = (unit_mask)(t > one);
+    t = (unit_vector)((over & (unit_mask)one) | (~over & (unit_mask)t));
+    return x * t;
+}
+
+/* y[u] = biases[u] + sum over k of x[k] w[k][u] for `vectors` vectors of units. */
+KERNEL_INLINE void unit_vectors(const float *w, int stride, int depth, const float *x, const float *biases,
+                                int activate, int vectors, float *y)
+{
+    unit_vector sums[8];
+    for (int v = 0; v < vectors; v++)
+        sums[v] = *(const unit_vector *)(biases + v * KERNEL_SINGLE);
+    for (int k = 0; k < depth; k++)
+        for (int v = 0; v < vectors; v++)
+            sums[v] += *(const unit_vector *)(w + k * stride + v * KERNEL_SINGLE) * x[k];
+    for (int v = 0; v < vectors; v++)
+        *(unit_vector *)(y + v * KERNEL_SINGLE) = activate ? activate_units(sums[v]) : sums[v];
+}
+
+/* Writes whole vectors: y has room for a multiple of HNBRDF_PACK, and so have w and biases. */
+static void units(const float *w, int stride, int depth, const float *x, const float *biases, int count,
+                  int activate, float *y)
+{
+    int left = (count + KERNEL_SINGLE - 1) / KERNEL_SINGLE, u = 0;
+    for (; left >= 8; left -= 8, u += 8 * KERNEL_SINGLE)
+        unit_vectors(w + u, stride, depth, x, biases + u, activate, 8, y + u);
+    if (left & 4) {
+        unit_vectors(w + u, stride, depth, x, biases + u, activate, 4, y + u);
+        u += 4 * KERNEL_SINGLE;
+    }
+    if (left & 2) {
+        unit_vectors(w + u, stride, depth, x, biases + u, activate, 2, y + u);
+        u += 2 * KERNEL_SINGLE;
+    }
+    if (left & 1)
+        unit_vectors(w + u, stride, depth, x, biases + u, activate, 1, y + u);
+}
+
+#else
+
+static void units(const float *w, int stride, int depth, const float *x, const float *biases, int count,
+                  int activate, float *restrict y)
+{
+    for (int u = 0; u < count; u++)
+        y[u] = biases[u];
+    for (int k = 0; k < depth; k++)
+        for (int u = 0; u < count; u++)
+            y[u] += w[k * stride + u] * x[k];
+    for (int u = 0; activate && u < count; u++)
+        y[u] = hnbrdf_hard_gelu(y[u]);
+}
+
+#endif
+
+static void kernel_fold(const hnbrdf_model *model, const float *latent, float *first)
+{
+    units(model->packed[0], hnbrdf_packed_outputs(&model->desc, 0), model->desc.latent, latent,
+          model->packed_biases[0], model->desc.hidden, 0, first);
+}
+
+static void network_single(const hnbrdf_prepared *prepared, const float *x, float *out)
+{
+    const hnbrdf_model *model = prepared->model;
+    const hnbrdf_model_desc *desc = &model->desc;
+    const int stride = hnbrdf_packed_outputs(desc, 0), hidden = desc->hidden;
+    float buffers[2][HNBRDF_MAX_HIDDEN];
+    units(model->packed[0] + desc->latent * stride, stride, HNBRDF_ENCODING_SIZE, x, prepared->first,
+          hidden, 1, buffers[0]);
+    for (int k = 1; k < desc->layers; k++)
+        units(model->packed[k], stride, hidden, buffers[(k - 1) & 1], model->packed_biases[k], hidden, 1,
+              buffers[k & 1]);
+    units(model->packed[desc->layers], HNBRDF_PACK, hidden, buffers[(desc->layers - 1) & 1],
+          model->packed_biases[desc->layers], hnbrdf_layer_outputs(desc, desc->layers), 0, out);
+}
+
+static void kernel_single(const hnbrdf_prepared *prepared, const float wi[3], const float wo[3], float f[3])
+{
+    const hnbrdf_model_desc *desc = &prepared->model->desc;
+    hnbrdf_pair pair = hnbrdf_pair_in_frame(prepared, wi, wo);
+    float f_a[4] = {0}, value[4], x[HNBRDF_ENCODING_SIZE];
+    if (desc->kind != HNBRDF_KIND_NEURAL)
+        hnbrdf_prepared_analytic(prepared, &pair, f_a);
+    if (desc->kind == HNBRDF_KIND_GGX) {
+        for (int c = 0; c < 4; c++)
+            value[c] = hnbrdf_finish(f_a[c]);
+    } else {
+        float out[HNBRDF_MAX_HIDDEN]; /* as wide as units() may write; the fourth channel is filling */
+        out[3] = out[6] = 0.0f;
+        hnbrdf_encode(desc->encoding, &pair, x);
+        network_single(prepared, x, out);
+        const float scale = desc->scale, shift = desc->shift, lowest = desc->floor;
+        if (desc->kind == HNBRDF_KIND_HYBRID)
+            for (int c = 0; c < 4; c++)
+                value[c] = hnbrdf_compose_hybrid(out[c], out[c + 3], f_a[c], scale, shift, lowest);
+        else
+            for (int c = 0; c < 4; c++)
+                value[c] = hnbrdf_compose_neural(out[c], scale, shift, lowest);
+    }
+    memcpy(f, value, 3 * sizeof *f);
+}
+
+/* ---- The network of a block of evaluations, vectors over lanes ----------------------------------- */
+
+typedef float lane[LANES];
+
+#if KERNEL_WIDTH > 1
+
+/* y[r][l] = biases[r] + sum over k of w[k][r] x[k][l] for `rows` rows and KERNEL_WIDE vectors of lanes. */
+KERNEL_INLINE void tile(const float *w, int stride, int depth, lane *x, const float *biases, int rows,
+                        lane *y)
+{
+    tile_vector sums[KERNEL_ROWS][KERNEL_WIDE];
+    for (int r = 0; r < rows; r++)
+        for (int v = 0; v < KERNEL_WIDE; v++)
+            sums[r][v] = (tile_vector){0} + biases[r];
+    for (int k = 0; k < depth; k++) {
+        tile_vector in[KERNEL_WIDE];
+        for (int v = 0; v < KERNEL_WIDE; v++)
+            in[v] = *(const tile_vector *)((const float *)(x + k) + v * KERNEL_WIDTH);
+        for (int r = 0; r < rows; r++)
+            for (int v = 0; v < KERNEL_WIDE; v++)
+                sums[r][v] += in[v] * w[k * stride + r];
+    }
+    for (int r = 0; r < rows; r++)
+        for (int v = 0; v < KERNEL_WIDE; v++)
+            *(tile_vector *)((float *)(y + r) + v * KERNEL_WIDTH) = sums[r][v];
+}
+
+static void layer(const float *w, int stride, int depth, lane *x, const float *biases, int count,
+                  lane *y)
+{
+    for (int l = 0; l < LANES; l += KERNEL_WIDE * KERNEL_WIDTH) {
+        lane *from = (lane *)(void *)((float *)x + l);
+        lane *to = (lane *)(void *)((float *)y + l);
+        int r = 0;
+        for (; r + KERNEL_ROWS <= count; r += KERNEL_ROWS)
+            tile(w + r, stride, depth, from, biases + r, KERNEL_ROWS, to + r);
+#if KERNEL_ROWS > 6
+        for (; r + 6 <= count; r += 6)
+            tile(w + r, stride, depth, from, biases + r, 6, to + r);
+#endif
+        for (; r + 4 <= count; r += 4)
+            tile(w + r, stride, depth, from, biases + r, 4, to + r);
+        for (; r + 2 <= count; r += 2)
+            tile(w + r, stride, depth, from, biases + r, 2, to + r);
+        for (; r < count; r++)
+            tile(w + r, stride, depth, from, biases + r, 1, to + r);
+    }
+}
+
+#else
+
+/* Two rows at a time: every input is loaded once for both. */
+static void layer(const float *w, int stride, int depth, lane *restrict x, const float *biases,
+                  int count, lane *restrict y)
+{
+    for (int r = 0; r < count; r += 2) {
+        int next = r + 1 < count ? r + 1 : r; /* an odd last row is computed twice */
+        lane s, t;
+        for (int l = 0; l < LANES; l++) {
+            s[l] = biases[r];
+            t[l] = biases[next];
+        }
+        for (int k = 0; k < depth; k++)
+            for (int l = 0; l < LANES; l++) {
+                s[l] += w[k * stride + r] * x[k][l];
+                t[l] += w[k * stride + next] * x[k][l];
+            }
+        memcpy(y[r], s, sizeof s);
+        memcpy(y[next], t, sizeof t);
+    }
+}
+
+#endif
+
+static void activate_lanes(lane *restrict y, int count)
+{
+    for (int i = 0; i < count * LANES; i++)
+        (&y[0][0])[i] = hnbrdf_hard_gelu((&y[0][0])[i]);
+}
+
+/* The first layer sums `depth` inputs from `biases` with the weights w. */
+static void network_lanes(const hnbrdf_model *model, const float *w, int depth, lane *x,
+                          const float *biases, lane *out)
+{
+    const hnbrdf_model_desc *desc = &model->desc;
+    const int stride = hnbrdf_packed_outputs(desc, 0), hidden = desc->hidden;
+    lane buffers[2][HNBRDF_MAX_HIDDEN];
+    layer(w, stride, depth, x, biases, hidden, buffers[0]);
+    for (int k = 1; k <= desc->layers; k++) {
+        lane *from = buffers[(k - 1) & 1];
+        activate_lanes(from, hidden);
+        if (k < desc->layers)
+            layer(model->packed[k], stride, hidden, from, model->packed_biases[k], hidden, buffers[k & 1]);
+        else
+            layer(model->packed[k], HNBRDF_PACK, hidden, from, model->packed_biases[k],
+                  hnbrdf_layer_outputs(desc, k), out);
+    }
+}
+
+static void network_folded(const hnbrdf_prepared *prepared, lane *x, lane *out)
+{
+    const hnbrdf_model *model = prepared->model;
+    const float *w = model->packed[0] + model->desc.latent * hnbrdf_packed_outputs(&model->desc, 0);
+    network_lanes(model, w, HNBRDF_ENCODING_SIZE, x, prepared->first, out);
+}
+
+static void kernel_network(const hnbrdf_prepared *prepared, float x[HNBRDF_ENCODING_SIZE][HNBRDF_LANES],
+                           float out[HNBRDF_MAX_OUTPUTS][HNBRDF_LANES])
+{
+    network_folded(prepared, x, out);
+}
+
+/* ---- A block of pairs, arrays over lanes --------------------------------------------------------- */
+
+/* The materials of a block. */
+typedef struct lane_materials {
+    lane cosine, sine, ax, ay, area, diffuse[3], e[3];
+} lane_materials;
+
+/* Pairs in the tangent frames of their materials, and what comes of them. Lanes that have no pair above
+ * the horizon hold wi = wo = n, and 0 in `above`. */
+typedef struct lane_pairs {
+    lane wi[3], wo[3], sx, sy, sz, length2, c, f[3];
+    lane x[HNBRDF_MAX_LATENT + HNBRDF_ENCODING_SIZE]; /* the latent code, then what is encoded */
+    lane out[HNBRDF_MAX_OUTPUTS];
+    int above[LANES];
+} lane_pairs;
+
+static void put_material(const hnbrdf_prepared *prepared, int l, lane_materials *m)
+{
+    m->cosine[l] = prepared->cosine;
+    m->sine[l] = prepared->sine;
+    m->ax[l] = prepared->alpha[0];
+    m->ay[l] = prepared->alpha[1];
+    m->area[l] = prepared->area;
+    for (int c = 0; c < 3; c++) {
+        m->diffuse[c][l] = prepared->diffuse[c];
+        m->e[c][l] = prepared->e[c];
+    }
+}
+
+static const float *at(const float *first, size_t stride, size_t index)
+{
+    return (const float *)((const char *)first + index * stride);
+}
+
+static void gather(const hnbrdf_pairs *pairs, size_t first, size_t count, lane_pairs *b)
+{
+    static const float normal[3] = {0.0f, 0.0f, 1.0f};
+    for (size_t l = 0; l < LANES; l++) {
+        const float *wi = normal, *wo = normal;
+        b->above[l] = 0;
+        if (l < count) {
+            const float *i = at(pairs->wi, pairs->wi_stride, first + l);
+            const float *o = at(pairs->wo, pairs->wo_stride, first + l);
+            int above = hnbrdf_above_horizon(i, o);
+            b->above[l] = above;
+            wi = above ? i : normal;
+            wo = above ? o : normal;
+        }
+        for (int k = 0; k < 3; k++) {
+            b->wi[k][l] = wi[k];
+            b->wo[k][l] = wo[k];
+        }
+    }
+}
+
+static void scatter(const hnbrdf_pairs *pairs, size_t first, size_t count, const lane_pairs *b)
+{
+    for (size_t l = 0; l < count; l++) {
+        float *to = (float *)((char *)pairs->f + (first + l) * pairs->f_stride);
+        for (int c = 0; c < 3; c++)
+            to[c] = b->above[l] ? b->f[c][l] : 0.0f;
+    }
+}
+
+static void make_pairs(const lane_materials *restrict m, lane_pairs *restrict b)
+{
+    for (int l = 0; l < LANES; l++) {
+        const hnbrdf_frame frame = {m->cosine[l], m->sine[l]};
+        const float wi[3] = {b->wi[0][l], b->wi[1][l], b->wi[2][l]};
+        const float wo[3] = {b->wo[0][l], b->wo[1][l], b->wo[2][l]};
+        float i[3], o[3];
+        hnbrdf_to_tangent(frame, wi, i);
+        hnbrdf_to_tangent(frame, wo, o);
+        hnbrdf_pair pair = hnbrdf_pair_make(i, o);
+        b->wi[0][l] = pair.wi[0];
+        b->wi[1][l] = pair.wi[1];
+        b->wo[0][l] = pair.wo[0];
+        b->wo[1][l] = pair.wo[1];
+        b->sx[l] = pair.sx;
+        b->sy[l] = pair.sy;
+        b->sz[l] = pair.sz;
+        b->length2[l] = pair.length2;
+        b->c[l] = pair.c;
+    }
+}
+
+static inline hnbrdf_pair pair_of(const lane_pairs *b, int l)
+{
+    return (hnbrdf_pair){.wi = {b->wi[0][l], b->wi[1][l], b->wi[2][l]},
+                         .wo = {b->wo[0][l], b->wo[1][l], b->wo[2][l]},
+                         .sx = b->sx[l],
+                         .sy = b->sy[l],
+                         .sz = b->sz[l],
+                         .length2 = b->length2[l],
+                         .c = b->c[l]};
+}
+
+/* f = f_a */
+static void analytic_lanes(const lane_materials *restrict m, lane_pairs *restrict b)
+{
+    for (int l = 0; l < LANES; l++) {
+        hnbrdf_pair pair = pair_of(b, l);
+        float specular = hnbrdf_specular_of_area(&pair, m->ax[l], m->ay[l], m->area[l]);
+        for (int c = 0; c < 3; c++)
+            b->f[c][l] = hnbrdf_microfacet_of(m->diffuse[c][l], m->e[c][l], pair.c, specular);
+    }
+}
+
+static void finish_lanes(lane_pairs *b)
+{
+    for (int c = 0; c < 3; c++)
+        for (int l = 0; l < LANES; l++)
+            b->f[c][l] = hnbrdf_finish(b->f[c][l]);
+}
+
+/* One loop an encoding: none asks within it. */
+#define ENCODE_LANES(encode)                                                                                \
+    for (int l = 0; l < LANES; l++) {                                                                       \
+        hnbrdf_pair pair = pair_of(b, l);                                                                   \
+        float encoded[HNBRDF_ENCODING_SIZE];                                                                \
+        encode(&pair, encoded);                                                                             \
+        for (int i = 0; i < HNBRDF_ENCODING_SIZE; i++)                                                      \
+            x[i][l] = encoded[i];                                                                           \
+    }
+
+static void encode_lanes(hnbrdf_encoding encoding, lane_pairs *restrict b, lane *restrict x)
+{
+    switch (encoding) {
+    case HNBRDF_ENCODING_DIRECTIONS:
+        ENCODE_LANES(hnbrdf_encode_directions)
+        break;
+    case HNBRDF_ENCODING_HALF_DIFFERENCE:
+        ENCODE_LANES(hnbrdf_encode_half_difference)
+        break;
+    case HNBRDF_ENCODING_ANGLES_DIRECTED:
+        ENCODE_LANES(hnbrdf_encode_angles_directed)
+        break;
+    case HNBRDF_ENCODING_ANGLES:
+        ENCODE_LANES(hnbrdf_encode_angles)
+        break;
+    case HNBRDF_ENCODING_ANGLES_ANISOTROPIC:
+    default:
+        ENCODE_LANES(hnbrdf_encode_angles_anisotropic)
+        break;
+    }
+}
+
+static void compose_lanes(const hnbrdf_model_desc *desc, lane_pairs *b)
+{
+    const float scale = desc->scale, shift = desc->shift, lowest = desc->floor;
+    if (desc->kind == HNBRDF_KIND_HYBRID)
+        for (int c = 0; c < 3; c++)
+            for (int l = 0; l < LANES; l++)
+                b->f[c][l] = hnbrdf_compose_hybrid(b->out[c][l], b->out[c + 3][l], b->f[c][l], scale, shift,
+                                                   lowest);
+    else
+        for (int c = 0; c < 3; c++)
+            for (int l = 0; l < LANES; l++)
+                b->f[c][l] = hnbrdf_compose_neural(b->out[c][l], scale, shift, lowest);
+}
+
+/* Everything between gather and scatter. shared: the one material of all lanes, or NULL, then b->x begins
+ * with the latent codes. */
+static void evaluate_lanes(const hnbrdf_model *model, const hnbrdf_prepared *shared,
+                           const lane_materials *m, lane_pairs *b)
+{
+    const hnbrdf_model_desc *desc = &model->desc;
+    lane *encoded = b->x + desc->latent;
+    make_pairs(m, b);
+    if (desc->kind != HNBRDF_KIND_NEURAL)
+        analytic_lanes(m, b);
+    if (desc->kind == HNBRDF_KIND_GGX) {
+        finish_lanes(b);
+        return;
+    }
+    encode_lanes(desc->encoding, b, encoded);
+    if (shared)
+        network_folded(shared, encoded, b->out);
+    else
+        network_lanes(model, model->packed[0], desc->latent + HNBRDF_ENCODING_SIZE, b->x,
+                      model->packed_biases[0], b->out);
+    compose_lanes(desc, b);
+}
+
+/* ---- Batches ------------------------------------------------------------------------------------- */
+
+static void spread_material(const hnbrdf_prepared *prepared, lane_materials *m)
+{
+    for (int l = 0; l < LANES; l++)
+        put_material(prepared, l, m);
+}
+
+static size_t smaller(size_t a, size_t b)
+{
+    return a < b ? a : b;
+}
+
+static void kernel_batch(const hnbrdf_prepared *prepared, const hnbrdf_pairs *pairs)
+{
+    lane_materials materials;
+    lane_pairs block;
+    spread_material(prepared, &materials);
+    for (size_t k = 0; k < pairs->count; k += LANES) {
+        size_t count = smaller(LANES, pairs->count - k);
+        gather(pairs, k, count, &block);
+        evaluate_lanes(prepared->model, prepared, &materials, &block);
+        scatter(pairs, k, count, &block);
+    }
+}
+
+static void kernel_analytic(const hnbrdf_prepared *prepared, const hnbrdf_pairs *pairs)
+{
+    const int none = prepared->model->desc.kind == HNBRDF_KIND_NEURAL;
+    lane_materials materials;
+    lane_pairs block;
+    spread_material(prepared, &materials);
+    for (size_t k = 0; k < pairs->count; k += LANES) {
+        size_t count = smaller(LANES, pairs->count - k);
+        gather(pairs, k, count, &block);
+        make_pairs(&materials, &block);
+        analytic_lanes(&materials, &block);
+        finish_lanes(&block);
+        if (none)
+            memset(block.above, 0, sizeof block.above);
+        scatter(pairs, k, count, &block);
+    }
+}
+
+/* The materials of one block, by lane. Where all lanes have the same one, that is prepared (unless it is
+ * already: *held) and returned; else NULL, and the latent codes are put before what will be encoded. */
+static const hnbrdf_prepared *take_materials(const hnbrdf_model *model, const hnbrdf_material *const *of,
+                                             const hnbrdf_material **held, hnbrdf_prepared *prepared,
+                                             lane_materials *m, lane_pairs *b)
+{
+    int same = 1;
+    for (int l = 1; l < LANES; l++)
+        same &= of[l] == of[0];
+    if (same) {
+        if (*held != of[0]) {
+            hnbrdf_prepare(model, of[0], prepared);
+            spread_material(prepared, m);
+            *held = of[0];
+        }
+        return prepared;
+    }
+    *held = NULL;
+    for (int l = 0; l < LANES; l++) {
+        if (l == 0 || of[l] != of[l - 1])
+            hnbrdf_prepare_analytic(model, of[l], prepared);
+        put_material(prepared, l, m);
+        for (int i = 0; i < model->desc.latent; i++)
+            b->x[i][l] = of[l]->latent[i];
+    }
+    return NULL;
+}
+
+static void kernel_many(const hnbrdf_model *model, const hnbrdf_material *materials, const int *index,
+                        const hnbrdf_pairs *pairs)
+{
+    const hnbrdf_material *held = NULL;
+    hnbrdf_prepared prepared;
+    lane_materials by_lane;
+    lane_pairs block;
+    for (size_t k = 0; k < pairs->count; k += LANES) {
+        size_t count = smaller(LANES, pairs->count - k);
+        const hnbrdf_material *of[LANES];
+        for (size_t l = 0; l < LANES; l++) {
+            size_t pair = k + smaller(l, count - 1);
+            of[l] = index ? materials + index[pair] : materials + pair;
+        }
+        gather(pairs, k, count, &block);
+        const hnbrdf_prepared *shared = take_materials(model, of, &held, &prepared, &by_lane, &block);
+        evaluate_lanes(model, shared, &by_lane, &block);
+        scatter(pairs, k, count, &block);
+    }
+}
+
+const hnbrdf_kernel KERNEL_TABLE = {.variant = KERNEL_VARIANT,
+                                    .fold = kernel_fold,
+                                    .single = kernel_single,
+                                    .batch = kernel_batch,
+                                    .analytic = kernel_analytic,
+                                    .many = kernel_many,
+                                    .network = kernel_network};

@@ -1,0 +1,41 @@
+/* prepared.h: what evaluation and sampling share of a prepared material: its parts, and f_a from it. */
+#ifndef HNBRDF_CORE_PREPARED_H
+#define HNBRDF_CORE_PREPARED_H
+
+#include "core/frame.h"
+#include "core/microfacet.h"
+#include "core/model.h"
+
+/* Everything but share and first. */
+void hnbrdf_prepare_analytic(const hnbrdf_model *model, const hnbrdf_material *material,
+                             hnbrdf_prepared *prepared);
+
+/* Share of samples that go to the GGX lobe: reflectance at normal incidence, raised a little for what
+ * Fresnel adds towards grazing, against the diffuse albedo. 0 where there is no analytic part. */
+float hnbrdf_specular_share(const hnbrdf_model *model, const hnbrdf_material *material);
+
+static inline int hnbrdf_above_horizon(const float wi[3], const float wo[3])
+{
+    return wi[2] > 0.0f && wo[2] > 0.0f;
+}
+
+static inline hnbrdf_pair hnbrdf_pair_in_frame(const hnbrdf_prepared *prepared, const float wi[3],
+                                               const float wo[3])
+{
+    const hnbrdf_frame frame = {prepared->cosine, prepared->sine};
+    float i[3], o[3];
+    hnbrdf_to_tangent(frame, wi, i);
+    hnbrdf_to_tangent(frame, wo, o);
+    return hnbrdf_pair_make(i, o);
+}
+
+/* f_a of the three channels; the fourth fills a vector and repeats the third. */
+static inline void hnbrdf_prepared_analytic(const hnbrdf_prepared *prepared, const hnbrdf_pair *pair,
+                                            float f[4])
+{
+    float specular = hnbrdf_specular_of_area(pair, prepared->alpha[0], prepared->alpha[1], prepared->area);
+    for (int c = 0; c < 4; c++)
+        f[c] = hnbrdf_microfacet_of(prepared->diffuse[c], prepared->e[c], pair->c, specular);
+}
+
+#endif
