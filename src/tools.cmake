@@ -1,7 +1,7 @@
 # The hnbrdf command and what only it uses: rendering and the Vulkan harness.
 set(HNBRDF_TOOL_SOURCES
   src/cli/main.c src/cli/cli.c src/cli/sources.c src/cli/output.c src/cli/csv.c
-  src/cli/progress.c src/cli/svg.c
+  src/cli/progress.c src/cli/texels.c src/cli/svg.c
   src/cli/cmd_fit.c src/cli/loss_plot.c src/cli/cmd_eval.c src/cli/cmd_compare.c src/cli/cmd_export.c
   src/cli/cmd_verify.c src/cli/cmd_render.c src/cli/cmd_sheet.c src/cli/cmd_import.c
   src/cli/cmd_info.c src/cli/picture.c src/cli/palette.c src/cli/cmd_edit.c src/cli/cmd_mix.c

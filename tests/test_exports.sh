@@ -38,7 +38,7 @@ done
 # Evaluation is pure: src/core may call these and nothing else (second line: compiler and hardening).
 archive=$build/libhnbrdf.a
 # __cpu_model and __cpu_indicator_init are what __builtin_cpu_supports() asks.
-allowed=' cos sin sincos sqrtf memcpy memmove memset vsnprintf __cpu_model __cpu_indicator_init
+allowed=' cos sin sincos atan2 sqrtf memcpy memmove memset vsnprintf __cpu_model __cpu_indicator_init
  __stack_chk_fail __memcpy_chk __memset_chk __vsnprintf_chk _GLOBAL_OFFSET_TABLE_ '
 for path in "$source"/src/core/*.c; do
     object=$(basename "$path").o

@@ -343,6 +343,68 @@ HNBRDF_API void hnbrdf_prepared_sample(const hnbrdf_prepared *prepared, const fl
 HNBRDF_API float hnbrdf_prepared_pdf(const hnbrdf_prepared *prepared, const float wi[3],
                                      const float wo[3]);
 
+/* ---- Materials in textures -------------------------------------------------------------------
+ * For scenes with a material of its own in every pixel: a material as a few RGBA texels, which the caller
+ * keeps in as many textures (or layers) and samples as he likes. C packs; C or the exported shader unpacks
+ * to the same material.
+ *
+ * Channels follow each other through the texels without gaps: kd (3), eta (3), alpha (1, or 2 if
+ * anisotropic), rotation (2, if rotated), latent (l). An isotropic material with l = 4 takes 11 channels: 3
+ * texels. Numbers outside of a field's range are clamped to it.
+ *
+ *               RGBA16F                             RGBA8 (UNORM, linear, never sRGB)
+ *   stored      the number itself                   its place in the range of the field
+ *   kd          kd, within 2^-12                    sqrt(kd), within w/510
+ *   eta         r = (eta - 1)/(eta + 1),            sqrt(r), within w/510
+ *               relative 2^-11
+ *   alpha       alpha, relative 2^-11               ln(alpha), within w/510
+ *   rotation    (cos, sin), 3.5e-4 rad              (cos, sin), 5.6e-3 rad
+ *   latent      the number, relative 2^-11          the number, within w/510
+ *
+ * w is the width of the range along the curve, r^2 the reflectance at normal incidence. r is kept in
+ * [1e-4, 0.998]: eta from 1.0002 to 999. Beside what is stated stands the rounding of float, 1e-6 relative;
+ * half floats below 2^-14 are within 2^-25. The curves of RGBA8 are those that cost the fitted model in
+ * examples/models least. Linear filtering of either gives a legal material, near hnbrdf_material_mix(). */
+typedef enum hnbrdf_texel_format {
+    HNBRDF_TEXEL_RGBA16F = 0, /* 8 bytes a texel, IEEE half floats of the machine's byte order */
+    HNBRDF_TEXEL_RGBA8        /* 4 bytes a texel */
+} hnbrdf_texel_format;
+
+#define HNBRDF_MAX_TEXELS 7 /* of one material: 3 + 3 + 2 + 2 + HNBRDF_MAX_LATENT channels */
+
+typedef struct hnbrdf_packing {
+    hnbrdf_texel_format format;
+    int analytic;    /* 1: kd, eta and alpha are stored; 0 for a neural model */
+    int anisotropic; /* 1: alpha_x and alpha_y; 0: one for both, alpha_x */
+    int rotated;     /* 1: rotation is stored */
+    int latent;      /* l numbers of the latent code */
+    /* Smallest and largest of each field, equal where all are. RGBA16F needs and looks at none. */
+    float kd[2], eta[2], alpha[2], latent_range[HNBRDF_MAX_LATENT][2];
+} hnbrdf_packing;
+
+/* What these materials of the model need (NULL: all): fields, and ranges that just hold them. Widen the
+ * ranges for materials that are yet to be drawn. */
+HNBRDF_API hnbrdf_result hnbrdf_packing_init(const hnbrdf_model *model, const int *materials,
+                                             int material_count, hnbrdf_texel_format format,
+                                             hnbrdf_packing *packing, hnbrdf_error *error);
+/* HNBRDF_OK if something is stored and every range is in order and legal, as the functions below trust. */
+HNBRDF_API hnbrdf_result hnbrdf_packing_check(const hnbrdf_packing *packing, hnbrdf_error *error);
+
+/* Texels of one material, 1 to HNBRDF_MAX_TEXELS; bytes of one texel. */
+HNBRDF_API int hnbrdf_packing_texels(const hnbrdf_packing *packing);
+HNBRDF_API size_t hnbrdf_texel_bytes(hnbrdf_texel_format format);
+
+/* texels: hnbrdf_packing_texels() times hnbrdf_texel_bytes() bytes, any alignment. What a material does not
+ * store comes back as hnbrdf_material_init() has it. Whatever bits texels hold, what comes back passes
+ * hnbrdf_material_check(). */
+HNBRDF_API void hnbrdf_material_pack(const hnbrdf_packing *packing, const hnbrdf_material *material,
+                                     void *texels);
+HNBRDF_API void hnbrdf_material_unpack(const hnbrdf_packing *packing, const void *texels,
+                                       hnbrdf_material *material);
+/* The same from what a texture's sampler returns, filtered or not: channels is [4 * texels]. */
+HNBRDF_API void hnbrdf_material_unpack_channels(const hnbrdf_packing *packing, const float *channels,
+                                                hnbrdf_material *material);
+
 /* ---- GLSL export -----------------------------------------------------------------------------
  * Zero-initialise for defaults. */
 typedef struct hnbrdf_glsl_options {
@@ -350,6 +412,8 @@ typedef struct hnbrdf_glsl_options {
     int material_count;     /* how many; ignored when materials is NULL */
     int standalone;         /* 1: put the text of shaders/hybrid_brdf.glsl first, so that the result
                                can be pasted as it is; 0: the includer includes that file before */
+    const hnbrdf_packing *packing; /* if set: write hnbrdf_material_unpack() for materials from
+                               textures too; analytic and latent are those of the model */
 } hnbrdf_glsl_options;
 
 /* Write one GLSL include with the network as constants, the chosen materials, and the function

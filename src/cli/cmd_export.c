@@ -1,19 +1,27 @@
 /* cmd_export.c: `hnbrdf export`: a model's materials as one GLSL include. */
 #include "cli/cli.h"
+#include "cli/texels.h"
 
 #include <stdlib.h>
 
 static const cli_command command = {
     "export",
-    "MODEL [--materials A,B] [--standalone] -o FILE.glsl",
+    "MODEL [--materials A,B] [--standalone] [--pack half|byte [--texels FILE]] -o FILE.glsl",
     "Writes one GLSL include: the network as constants, the chosen materials, and\n"
     "  vec3 hnbrdf_eval(hnbrdf_material m, vec3 wi, vec3 wo)      1/sr, without the cosine.\n"
     "Include shaders/hybrid_brdf.glsl before it, or take --standalone. The text compiles as Vulkan "
     "GLSL\n"
     "450, desktop GLSL 330 and GLSL ES 300; put it after #version. What the chosen materials do not\n"
-    "need (anisotropy, rotation) is left out.",
+    "need (anisotropy, rotation) is left out.\n"
+    "\n"
+    "--pack is for scenes with a material of its own in every pixel: the include also has\n"
+    "  hnbrdf_material hnbrdf_material_unpack(vec4 t0, vec4 t1, ...)      HNBRDF_TEXELS texels\n"
+    "for what textures return: RGBA16F (half) or RGBA8 (byte). The ranges of RGBA8 are those of the\n"
+    "exported materials. What the packing costs in SMAPE is printed. --texels writes the packed materials,\n"
+    "a row of texels each, without a header, numbers in the byte order of the machine.",
     "hnbrdf export model.safetensors -o scene.glsl\n"
-    "hnbrdf export model.safetensors --materials gold-paint,velvet --standalone -o scene.glsl",
+    "hnbrdf export model.safetensors --materials gold-paint,velvet --standalone -o scene.glsl\n"
+    "hnbrdf export model.safetensors --pack half --texels materials.bin -o scene.glsl",
 };
 
 typedef struct counted_file {
@@ -41,7 +49,8 @@ static void print_summary(FILE *file, const hnbrdf_model *model, const char *pat
     fprintf(file, ", %d material%s, %zu bytes\n", materials, materials == 1 ? "" : "s", bytes);
 }
 
-static int export_to(const hnbrdf_model *model, const hnbrdf_glsl_options *options, const char *path)
+static int export_to(const hnbrdf_model *model, const hnbrdf_glsl_options *options, const char *path,
+                     const cli_texels *texels)
 {
     cli_output output;
     if (cli_output_open(path, &output) != CLI_OK)
@@ -56,17 +65,44 @@ static int export_to(const hnbrdf_model *model, const hnbrdf_glsl_options *optio
     if (cli_output_close(&output) != CLI_OK)
         return CLI_FAILURE;
     print_summary(told, model, path, options->material_count, to.bytes);
+    if (texels)
+        cli_texels_print_cost(texels, told);
     return CLI_OK;
+}
+
+typedef struct settings {
+    const char *materials, *path, *texels;
+    int standalone, pack; /* hnbrdf_texel_format, -1 for none */
+} settings;
+
+static int export_materials(const hnbrdf_model *model, const settings *set, const int *materials, int count)
+{
+    cli_texels texels = {.model = model, .materials = materials, .count = count};
+    hnbrdf_error error;
+    if (set->pack >= 0 &&
+        hnbrdf_packing_init(model, materials, count, (hnbrdf_texel_format)set->pack, &texels.packing, &error))
+        return cli_fail("%s", error.text);
+    const hnbrdf_glsl_options options = {.materials = materials,
+                                         .material_count = count,
+                                         .standalone = set->standalone,
+                                         .packing = set->pack >= 0 ? &texels.packing : NULL};
+    if (set->texels && cli_texels_write(&texels, set->texels) != CLI_OK)
+        return CLI_FAILURE;
+    return export_to(model, &options, set->path, set->pack >= 0 ? &texels : NULL);
 }
 
 int cmd_export(int argc, char **argv)
 {
-    const char *materials = NULL, *path = NULL;
-    int standalone = 0, count;
+    settings set = {.pack = -1};
+    int count;
     const cli_option options[] = {
-        {"materials", 'm', CLI_TEXT, &materials, 0, 0, "A,B", "names of the materials (default: all)"},
-        {"standalone", 0, CLI_FLAG, &standalone, 0, 0, NULL, "put the text of hybrid_brdf.glsl first"},
-        {"output", 'o', CLI_TEXT, &path, 0, 0, "FILE", "where to write; - is standard output"},
+        {"materials", 'm', CLI_TEXT, &set.materials, 0, 0, "A,B",
+         "names of the materials (default: all)"},
+        {"standalone", 0, CLI_FLAG, &set.standalone, 0, 0, NULL, "put the text of hybrid_brdf.glsl first"},
+        {"pack", 0, CLI_CHOICE, &set.pack, 0, 0, "half|byte", "with a function that unpacks texels"},
+        {"texels", 0, CLI_TEXT, &set.texels, 0, 0, "FILE",
+         "with --pack: where to write the materials as texels"},
+        {"output", 'o', CLI_TEXT, &set.path, 0, 0, "FILE", "where to write; - is standard output"},
         {0},
     };
     int result = cli_parse(&command, options, argc, argv, &count);
@@ -74,19 +110,19 @@ int cmd_export(int argc, char **argv)
         return result;
     if (count != 1)
         return cli_usage(&command, "found %d arguments, expected one MODEL", count);
-    if (!path)
+    if (!set.path)
         return cli_usage(&command, "no -o FILE.glsl");
+    if (set.texels && set.pack < 0)
+        return cli_usage(&command, "--texels without --pack half or --pack byte");
     hnbrdf_model *model = NULL;
     hnbrdf_error error;
     if (hnbrdf_model_load(argv[1], NULL, &model, &error))
         return cli_fail("%s", error.text);
-    int *indices = NULL;
-    hnbrdf_glsl_options glsl = {.standalone = standalone};
-    result = cli_choose_materials(model, materials, &indices, &glsl.material_count);
-    glsl.materials = indices;
+    int *materials = NULL, chosen = 0;
+    result = cli_choose_materials(model, set.materials, &materials, &chosen);
     if (result == CLI_OK)
-        result = export_to(model, &glsl, path);
-    free(indices);
+        result = export_materials(model, &set, materials, chosen);
+    free(materials);
     hnbrdf_model_free(model);
     return result;
 }

@@ -9,11 +9,27 @@ typedef char hnbrdf_macro_name[HNBRDF_MACRO_NAME_SIZE]; /* what follows HNBRDF_M
 
 typedef struct hnbrdf_scene {
     const hnbrdf_model_desc *desc;
-    const int *indices; /* NULL: all materials in order */
+    const hnbrdf_packing *packing; /* NULL: no materials from textures */
+    const int *indices;            /* NULL: all materials in order */
     int count;
-    int anisotropic, rotated; /* 1 if any of these materials is */
+    int anisotropic, rotated; /* 1 if any of these materials is, or the packing stores it */
     size_t weights, multiplications;
     hnbrdf_macro_name *names;
 } hnbrdf_scene;
+
+/* Checks everything there is to check of the options. Release names with the model's allocator. */
+hnbrdf_result hnbrdf_scene_make(const hnbrdf_model *model, const hnbrdf_glsl_options *options,
+                                hnbrdf_scene *s, hnbrdf_error *error);
+
+/* Material k of the scene: its number in the model, itself. */
+int hnbrdf_scene_index(const hnbrdf_scene *s, int k);
+const hnbrdf_material *hnbrdf_scene_material(const hnbrdf_scene *s, int k);
+
+int hnbrdf_scene_has_analytic(const hnbrdf_scene *s);
+int hnbrdf_scene_has_network(const hnbrdf_scene *s);
+/* Latent codes are kept in as few vec4 as hold them. */
+int hnbrdf_scene_latent_vectors(const hnbrdf_scene *s);
+/* Also where the struct would be empty, which GLSL does not allow. */
+int hnbrdf_scene_has_rotation(const hnbrdf_scene *s);
 
 #endif

@@ -1,0 +1,272 @@
+/* pack.c: a material as texels, for scenes whose materials come from textures, and back.
+ * The curves are those that cost least on fitted models: see hnbrdf_packing in hnbrdf.h. */
+#include "core/pack.h"
+
+#include "core/error.h"
+#include "core/half.h"
+
+#include <math.h>
+#include <string.h>
+
+/* eta from 1.0002 to 999: below, the reflectance is under 1e-8; above, 1 - r has too few digits. */
+#define MIN_R 1e-4f
+#define MAX_R 0.998f
+
+enum { ROTATION_UNIT = 127, ROTATION_ZERO = 128 }; /* of a byte: 0 and 1 are met exactly */
+
+/* ---- Ranges ---------------------------------------------------------------------------------- */
+
+static float amplitude(float eta)
+{
+    return hnbrdf_clamp((eta - 1.0f) / (eta + 1.0f), MIN_R, MAX_R);
+}
+
+static void widen(float range[2], float value)
+{
+    range[0] = value < range[0] ? value : range[0];
+    range[1] = value > range[1] ? value : range[1];
+}
+
+static void widen_by(hnbrdf_packing *packing, const hnbrdf_material *material)
+{
+    for (int c = 0; c < 3; c++) {
+        widen(packing->kd, material->kd[c]);
+        widen(packing->eta, material->eta[c]);
+    }
+    for (int c = 0; c < 2; c++)
+        widen(packing->alpha, material->alpha[c]);
+    for (int i = 0; i < packing->latent; i++)
+        widen(packing->latent_range[i], material->latent[i]);
+    packing->anisotropic |= packing->analytic && material->alpha[0] != material->alpha[1];
+    packing->rotated |= material->rotation != 0.0f;
+}
+
+hnbrdf_result hnbrdf_packing_init(const hnbrdf_model *model, const int *materials, int material_count,
+                                  hnbrdf_texel_format format, hnbrdf_packing *packing,
+                                  hnbrdf_error *error)
+{
+    hnbrdf_model_desc desc;
+    hnbrdf_model_describe(model, &desc);
+    int count = materials ? material_count : desc.material_count;
+    hnbrdf_packing made = {.format = format,
+                           .analytic = desc.kind != HNBRDF_KIND_NEURAL,
+                           .latent = desc.kind == HNBRDF_KIND_GGX ? 0 : desc.latent};
+    if (count < 1)
+        return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT, "packing: %d materials, expected at least 1",
+                           count);
+    for (int k = 0; k < count; k++) {
+        const hnbrdf_material *material = hnbrdf_model_material(model, materials ? materials[k] : k);
+        if (!material)
+            return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT,
+                               "packing: materials[%d] is %d, expected 0 to %d", k, materials[k],
+                               desc.material_count - 1);
+        if (k == 0) {
+            made.kd[0] = made.kd[1] = material->kd[0];
+            made.eta[0] = made.eta[1] = material->eta[0];
+            made.alpha[0] = made.alpha[1] = material->alpha[0];
+            for (int i = 0; i < made.latent; i++)
+                made.latent_range[i][0] = made.latent_range[i][1] = material->latent[i];
+        }
+        widen_by(&made, material);
+    }
+    hnbrdf_result result = hnbrdf_packing_check(&made, error);
+    if (!result)
+        *packing = made;
+    return result;
+}
+
+static hnbrdf_result check_range(const char *field, const float range[2], float low, float high,
+                                 hnbrdf_error *error)
+{
+    if (range[0] >= low && range[0] <= range[1] && range[1] <= high)
+        return HNBRDF_OK;
+    return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT,
+                       "packing: the range of %s is %g to %g, expected to lie within %g to %g", field,
+                       (double)range[0], (double)range[1], (double)low, (double)high);
+}
+
+hnbrdf_result hnbrdf_packing_check(const hnbrdf_packing *packing, hnbrdf_error *error)
+{
+    hnbrdf_result result = HNBRDF_OK;
+    if (packing->format != HNBRDF_TEXEL_RGBA16F && packing->format != HNBRDF_TEXEL_RGBA8)
+        return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT, "packing: format is %d, expected 0 or 1",
+                           (int)packing->format);
+    if (packing->latent < 0 || packing->latent > HNBRDF_MAX_LATENT)
+        return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT, "packing: latent is %d, expected 0 to %d",
+                           packing->latent, HNBRDF_MAX_LATENT);
+    if (hnbrdf_packing_texels(packing) == 0)
+        return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT, "packing: there is nothing to store");
+    if (packing->format == HNBRDF_TEXEL_RGBA16F)
+        return HNBRDF_OK;
+    if (packing->analytic) {
+        result = check_range("kd", packing->kd, 0.0f, 1.0f, error);
+        if (!result)
+            result = check_range("eta", packing->eta, 1.0f, HNBRDF_MAX_ETA, error);
+        if (!result)
+            result = check_range("alpha", packing->alpha, HNBRDF_MIN_ALPHA, HNBRDF_MAX_ALPHA, error);
+    }
+    for (int i = 0; i < packing->latent && !result; i++)
+        result =
+            check_range("latent", packing->latent_range[i], -HNBRDF_MAX_HALF, HNBRDF_MAX_HALF, error);
+    return result;
+}
+
+/* ---- Layout ---------------------------------------------------------------------------------- */
+
+static float to_curve(hnbrdf_curve curve, float value)
+{
+    if (curve == HNBRDF_CURVE_SQUARE)
+        return sqrtf(value);
+    return curve == HNBRDF_CURVE_EXP ? hnbrdf_log(value) : value;
+}
+
+static float from_curve(hnbrdf_curve curve, float value)
+{
+    if (curve == HNBRDF_CURVE_SQUARE)
+        return value * value;
+    return curve == HNBRDF_CURVE_EXP ? hnbrdf_exp(hnbrdf_clamp(value, -HNBRDF_MAX_EXPONENT, 0.0f))
+                                     : value;
+}
+
+/* Half floats hold the number itself; bytes its place in the range, along the curve. */
+static hnbrdf_field make_field(const hnbrdf_packing *packing, int *next, int count, hnbrdf_curve curve,
+                               float range_low, float range_high, float low, float high)
+{
+    hnbrdf_field field = {.first = *next, .count = count, .scale = 1.0f, .low = low, .high = high};
+    *next += count;
+    if (packing->format == HNBRDF_TEXEL_RGBA8) {
+        field.curve = curve;
+        field.offset = to_curve(curve, range_low);
+        field.scale = to_curve(curve, range_high) - field.offset;
+    }
+    return field;
+}
+
+void hnbrdf_texel_layout_make(const hnbrdf_packing *packing, hnbrdf_texel_layout *layout)
+{
+    int next = 0, bytes = packing->format == HNBRDF_TEXEL_RGBA8;
+    const float unit = bytes ? (float)ROTATION_UNIT : 1.0f;
+    memset(layout, 0, sizeof *layout);
+    if (packing->analytic) {
+        layout->kd = make_field(packing, &next, 3, HNBRDF_CURVE_SQUARE, packing->kd[0], packing->kd[1],
+                                0.0f, 1.0f);
+        layout->r = make_field(packing, &next, 3, HNBRDF_CURVE_SQUARE, amplitude(packing->eta[0]),
+                               amplitude(packing->eta[1]), MIN_R, MAX_R);
+        layout->alpha =
+            make_field(packing, &next, packing->anisotropic ? 2 : 1, HNBRDF_CURVE_EXP,
+                       packing->alpha[0], packing->alpha[1], HNBRDF_MIN_ALPHA, HNBRDF_MAX_ALPHA);
+    }
+    if (packing->rotated) {
+        layout->rotation = make_field(packing, &next, 2, HNBRDF_CURVE_LINEAR, -(float)ROTATION_ZERO,
+                                      255.0f - (float)ROTATION_ZERO, -unit, unit);
+        layout->shortest2 = 1e-4f * (unit * unit);
+    }
+    for (int i = 0; i < packing->latent; i++)
+        layout->latent[i] =
+            make_field(packing, &next, 1, HNBRDF_CURVE_LINEAR, packing->latent_range[i][0],
+                       packing->latent_range[i][1], -HNBRDF_MAX_HALF, HNBRDF_MAX_HALF);
+    layout->channels = next;
+}
+
+int hnbrdf_packing_texels(const hnbrdf_packing *packing)
+{
+    int channels = (packing->analytic ? (packing->anisotropic ? 8 : 7) : 0) +
+                   (packing->rotated ? 2 : 0) + packing->latent;
+    return (channels + 3) / 4;
+}
+
+/* ---- Packing --------------------------------------------------------------------------------- */
+
+/* Channel number `channel` of the texels. */
+static void store(const hnbrdf_packing *packing, void *texels, int channel, const hnbrdf_field *field,
+                  float value)
+{
+    unsigned char *bytes = texels;
+    value = hnbrdf_clamp(value, field->low, field->high);
+    if (packing->format == HNBRDF_TEXEL_RGBA16F) {
+        uint16_t half = hnbrdf_half_of(value);
+        memcpy(bytes + 2 * channel, &half, sizeof half);
+        return;
+    }
+    float code =
+        field->scale > 0.0f ? (to_curve(field->curve, value) - field->offset) / field->scale : 0.0f;
+    bytes[channel] = (unsigned char)(hnbrdf_clamp(code, 0.0f, 1.0f) * 255.0f + 0.5f);
+}
+
+void hnbrdf_material_pack(const hnbrdf_packing *packing, const hnbrdf_material *material, void *texels)
+{
+    hnbrdf_texel_layout layout;
+    hnbrdf_texel_layout_make(packing, &layout);
+    memset(texels, 0, (size_t)hnbrdf_packing_texels(packing) * hnbrdf_texel_bytes(packing->format));
+    for (int c = 0; c < layout.kd.count; c++)
+        store(packing, texels, layout.kd.first + c, &layout.kd, material->kd[c]);
+    for (int c = 0; c < layout.r.count; c++)
+        store(packing, texels, layout.r.first + c, &layout.r, amplitude(material->eta[c]));
+    for (int c = 0; c < layout.alpha.count; c++)
+        store(packing, texels, layout.alpha.first + c, &layout.alpha, material->alpha[c]);
+    if (layout.rotation.count > 0) {
+        const hnbrdf_field *field = &layout.rotation;
+        double angle = isfinite(material->rotation) ? (double)material->rotation : 0.0;
+        store(packing, texels, field->first, field, (float)cos(angle) * field->high);
+        store(packing, texels, field->first + 1, field, (float)sin(angle) * field->high);
+    }
+    for (int i = 0; i < packing->latent; i++)
+        store(packing, texels, layout.latent[i].first, &layout.latent[i], material->latent[i]);
+}
+
+/* ---- Unpacking ------------------------------------------------------------------------------- */
+
+static float decode(const hnbrdf_field *field, float code)
+{
+    float value = field->offset + field->scale * code;
+    return hnbrdf_clamp(from_curve(field->curve, value), field->low, field->high);
+}
+
+void hnbrdf_material_unpack_channels(const hnbrdf_packing *packing, const float *channels,
+                                     hnbrdf_material *material)
+{
+    hnbrdf_texel_layout layout;
+    hnbrdf_texel_layout_make(packing, &layout);
+    hnbrdf_material_init(material);
+    for (int c = 0; c < layout.kd.count; c++)
+        material->kd[c] = decode(&layout.kd, channels[layout.kd.first + c]);
+    for (int c = 0; c < layout.r.count; c++) {
+        float r = decode(&layout.r, channels[layout.r.first + c]);
+        material->eta[c] = (1.0f + r) / (1.0f - r);
+    }
+    for (int c = 0; c < layout.alpha.count; c++)
+        material->alpha[c] = decode(&layout.alpha, channels[layout.alpha.first + c]);
+    if (layout.alpha.count == 1)
+        material->alpha[1] = material->alpha[0];
+    if (layout.rotation.count > 0) {
+        float cosine = decode(&layout.rotation, channels[layout.rotation.first]);
+        float sine = decode(&layout.rotation, channels[layout.rotation.first + 1]);
+        if (cosine * cosine + sine * sine > layout.shortest2)
+            material->rotation = (float)atan2((double)sine, (double)cosine);
+    }
+    for (int i = 0; i < packing->latent; i++)
+        material->latent[i] = decode(&layout.latent[i], channels[layout.latent[i].first]);
+}
+
+void hnbrdf_material_unpack(const hnbrdf_packing *packing, const void *texels,
+                            hnbrdf_material *material)
+{
+    float channels[HNBRDF_MAX_TEXELS * 4];
+    const unsigned char *bytes = texels;
+    int count = 4 * hnbrdf_packing_texels(packing);
+    for (int c = 0; c < count && c < HNBRDF_MAX_TEXELS * 4; c++) {
+        uint16_t half;
+        if (packing->format == HNBRDF_TEXEL_RGBA16F) {
+            memcpy(&half, bytes + 2 * c, sizeof half);
+            channels[c] = hnbrdf_float_of_half(half);
+        } else {
+            channels[c] = (float)bytes[c] / 255.0f;
+        }
+    }
+    hnbrdf_material_unpack_channels(packing, channels, material);
+}
+
+size_t hnbrdf_texel_bytes(hnbrdf_texel_format format)
+{
+    return format == HNBRDF_TEXEL_RGBA16F ? 8 : 4;
+}
