@@ -27,9 +27,12 @@ options="--net $net --latent $latent --steps $steps"
 # shellcheck disable=SC2086 # words
 {
     $hnbrdf fit "$work/seen" $options -o "$work/half.safetensors"
-    $hnbrdf fit "$work/held" --freeze "$work/half.safetensors" -o "$work/frozen.safetensors" > "$work/frozen.log"
+    for analytic in faithful joint; do
+        $hnbrdf fit "$work/held" --freeze "$work/half.safetensors" --analytic $analytic \
+            -o "$work/$analytic.safetensors" > "$work/$analytic.log"
+    done
     $hnbrdf fit "$1" $options -o "$work/full.safetensors"
-    for kind in frozen full; do
+    for kind in faithful joint full; do
         $hnbrdf compare "$work/$kind.safetensors" "$work/held" --sampler "$sampler" --csv "$work/$kind.csv"
     done
 } > "$work/log"
@@ -38,13 +41,18 @@ cat << END
 
 Network $net, l = $latent, $steps steps, $sampler sampler, 200,000 pairs a material. Trained on every second material of
 the data; for the others only kd, eta, alpha and the latent code were fitted
-($(sed -n 's/.*frozen network, \([0-9.]* s each\).*/\1/p' "$work/frozen.log")). Written by \`sh examples/holdout.sh $1\`.
+($(sed -n 's/.*frozen network, \([0-9.]* s each\).*/\1/p' "$work/faithful.log")): faithful keeps kd, eta and alpha as GGX alone is fitted, joint moves them along
+with the code. Closer: to training on all than to GGX alone. Written by \`sh examples/holdout.sh DIRECTORY\`.
 
-| held-out material | GGX alone | frozen network | trained on all | closer to |
-|---|---|---|---|---|
+| held-out material | GGX alone | frozen, faithful | frozen, joint | trained on all | closer, faithful | closer, joint |
+|---|---|---|---|---|---|---|
 END
-paste -d, "$work/frozen.csv" "$work/full.csv" | awk -F, 'NR > 1 {
-    near = $3 - $2 > $2 - $6 ? "full" : "GGX"
-    if ($1 != "mean") { n++; full += near == "full" }
-    printf "| %s | %.4f | %.4f | %.4f | %s |\n", $1, $3, $2, $6, $1 == "mean" ? "" : near }
-    END { printf "\n%d of %d (%.0f %%) are closer to training on all than to GGX alone.\n", full, n, 100 * full / n }'
+paste -d, "$work/faithful.csv" "$work/joint.csv" "$work/full.csv" | awk -F, '
+    function closer(error) { return $3 - error > error - $10 }
+    NR > 1 {
+        faithful = closer($2); joint = closer($6)
+        if ($1 != "mean") { n++; faithfuls += faithful; joints += joint }
+        printf "| %s | %.4f | %.4f | %.4f | %.4f | %s | %s |\n", $1, $3, $2, $6, $10,
+            $1 == "mean" ? "" : (faithful ? "yes" : "no"), $1 == "mean" ? "" : (joint ? "yes" : "no") }
+    END { printf "\nCloser to training on all than to GGX alone: %d of %d (%.0f %%) faithful, %d (%.0f %%) joint.\n",
+        faithfuls, n, 100 * faithfuls / n, joints, 100 * joints / n }'
