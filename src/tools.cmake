@@ -2,7 +2,8 @@
 set(HNBRDF_TOOL_SOURCES
   src/cli/main.c src/cli/cli.c src/cli/sources.c src/cli/output.c src/cli/csv.c
   src/cli/progress.c src/cli/texels.c src/cli/svg.c
-  src/cli/cmd_fit.c src/cli/loss_plot.c src/cli/cmd_eval.c src/cli/cmd_compare.c src/cli/cmd_export.c
+  src/cli/cmd_fit.c src/cli/fit_log.c src/cli/fit_speed.c src/cli/loss_plot.c
+  src/cli/cmd_eval.c src/cli/cmd_compare.c src/cli/cmd_export.c
   src/cli/cmd_verify.c src/cli/cmd_render.c src/cli/cmd_sheet.c src/cli/cmd_import.c
   src/cli/cmd_info.c src/cli/picture.c src/cli/palette.c src/cli/cmd_edit.c src/cli/cmd_mix.c
   src/cli/peak.c src/cli/cmd_report.c src/cli/report_grid.c src/cli/report_fit.c src/cli/report_tables.c

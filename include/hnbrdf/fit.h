@@ -89,12 +89,29 @@ typedef struct hnbrdf_fit_options {
     int resume;
 } hnbrdf_fit_options;
 
+/* Where the time of a fit went, in processor seconds summed over its threads; all but `waiting` is work,
+ * whatever else the machine was busy with. */
+typedef struct hnbrdf_fit_times {
+    double drawing;  /* random directions and their measured values */
+    double ggx;      /* the GGX fits */
+    double encoding; /* what the network sees, and f_a where it is frozen */
+    double network;  /* forward and backward passes */
+    double update;   /* choice of pairs, sum of the gradients, Adam, checkpoints: on one thread */
+    double waiting;  /* threads times elapsed time less all of these: idle, or taken by other programs */
+} hnbrdf_fit_times;
+
 typedef struct hnbrdf_fit_report {
     double final_loss;
     double seconds;     /* whole fit */
     double pairs_per_s; /* network stage */
-    long steps;         /* network steps done */
+    long steps;         /* network steps done, those before a resume included */
     int stopped;        /* 1: the progress callback asked to stop */
+    double pairs;       /* direction pairs that the network was trained on in this call */
+    double flops;       /* floating-point operations of its passes in this call: the products alone, two a
+                           multiply-add, none for padding */
+    hnbrdf_fit_times times;
+    int threads;
+    const char *instructions; /* of the kernels: "plain", "avx2" or "avx512" */
 } hnbrdf_fit_report;
 
 /* Fit one model to count materials. report may be NULL. */

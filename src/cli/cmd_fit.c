@@ -1,5 +1,7 @@
 /* cmd_fit.c: hnbrdf fit: measured materials in, one model file out. */
 #include "cli/cli.h"
+#include "cli/fit_log.h"
+#include "cli/fit_speed.h"
 #include "cli/loss_plot.h"
 #include "hnbrdf/fit.h"
 
@@ -26,7 +28,7 @@ static const cli_command command = {
 typedef struct display {
     cli_progress line;
     const char *stage;
-    FILE *log;
+    fit_log log;
     loss_curve curve;
 } display;
 
@@ -57,11 +59,8 @@ static int show(void *user, const hnbrdf_fit_progress *p)
     else
         detail[0] = '\0';
     cli_progress_update(&d->line, p->done, detail);
-    if (p->step > 0 && p->step % 100 == 0) {
-        loss_curve_add(&d->curve, p->step, p->loss);
-        if (d->log)
-            fprintf(d->log, "%ld,%.6f,%.6f,%.0f\n", p->step, p->done, p->loss, p->pairs_per_s);
-    }
+    if (p->step > 0 && p->step % 100 == 0)
+        fit_log_row(&d->log, p);
     return interrupted != 0;
 }
 
@@ -85,7 +84,7 @@ static int choose_encoding(const char *text)
 
 typedef struct job {
     hnbrdf_fit_options fit;
-    const char *output, *plot;
+    const char *output, *plot, *log, *json;
     cli_data data;
 } job;
 
@@ -107,22 +106,36 @@ static void summarise(const job *j, const hnbrdf_model *model, const hnbrdf_fit_
         printf(")");
     }
     if (desc.kind != HNBRDF_KIND_GGX)
-        printf(", %ld steps, loss %.4f, %.2f M pairs/s", report->steps, report->final_loss,
-               report->pairs_per_s * 1e-6);
+        printf(", %ld steps, loss %.4f", report->steps, report->final_loss);
     printf(", %.1f s\n", report->seconds);
     cli_print_reading();
     if (report->stopped)
         printf("interrupted; the model so far is saved. Repeat the command with --resume to go on.\n");
 }
 
-/* Fit and save. The checkpoint stays only after an interruption. */
-static int run(job *j, FILE *log)
+static int write_speed(const job *j, const hnbrdf_fit_report *report)
 {
-    display d = {{0}, NULL, log, {NULL, 0, 0}};
+    fit_speed speed = fit_speed_of(report);
+    fit_speed_print(&speed);
+    if (!j->json)
+        return CLI_OK;
+    cli_output output;
+    if (cli_output_open(j->json, &output) != CLI_OK)
+        return CLI_FAILURE;
+    fit_speed_write_json(&speed, output.file);
+    return cli_output_close(&output);
+}
+
+/* Fit and save. The checkpoint stays only after an interruption. */
+static int run(job *j)
+{
+    display d = {{0}, NULL, {{NULL, NULL, NULL}, NULL, NULL}, {NULL, 0, 0}};
     hnbrdf_model *model = NULL;
     hnbrdf_fit_report report;
     hnbrdf_error error;
-    int code = CLI_OK;
+    int code = fit_log_open(j->log, j->fit.resume, &d.curve, &d.log);
+    if (code)
+        return code;
     j->fit.progress = show;
     j->fit.progress_user = &d;
     signal(SIGINT, on_interrupt);
@@ -143,20 +156,25 @@ static int run(job *j, FILE *log)
         summarise(j, model, &report);
         if (!report.stopped)
             remove(j->fit.checkpoint);
-        if (j->plot)
-            code = loss_curve_plot(&d.curve, "training loss, running mean", j->plot);
+        code = write_speed(j, &report);
     }
+    if (fit_log_close(&d.log, !result))
+        code = CLI_FAILURE;
+    if (!code && j->plot)
+        code = loss_curve_plot(&d.curve, "training loss, running mean", j->plot);
     loss_curve_free(&d.curve);
     hnbrdf_model_free(model);
     return code;
 }
 
-static int open_and_run(job *j, const char *freeze, const char *log, char *const *data, int count)
+static int open_and_run(job *j, const char *freeze, char *const *data, int count)
 {
     cli_source source = {NULL, NULL};
-    cli_output output = {NULL, NULL, NULL};
-    int code = cli_output_check(j->output);
-    if (code || (j->plot && (code = cli_output_check(j->plot))))
+    const char *const outputs[] = {j->output, j->plot, j->log, j->json};
+    int code = CLI_OK;
+    for (size_t k = 0; k < sizeof outputs / sizeof outputs[0] && !code; k++)
+        code = outputs[k] ? cli_output_check(outputs[k]) : CLI_OK;
+    if (code)
         return code;
     size_t length = strlen(j->output);
     char *checkpoint = malloc(length + sizeof ".checkpoint");
@@ -169,12 +187,7 @@ static int open_and_run(job *j, const char *freeze, const char *log, char *const
         code = cli_fail("%s: a measured file, expected a model to freeze", freeze);
     j->fit.freeze = source.model;
     if (!code && !(code = cli_open_data(data, count, &j->data))) {
-        if (log && !(code = cli_output_open(log, &output)))
-            fprintf(output.file, "step,share,loss,pairs_per_s\n");
-        if (!code)
-            code = run(j, log ? output.file : NULL);
-        if (log && output.file && cli_output_close(&output))
-            code = CLI_FAILURE;
+        code = run(j);
         cli_close_data(&j->data);
     }
     cli_close_source(&source);
@@ -188,7 +201,7 @@ int cmd_fit(int argc, char **argv)
     static const char *const losses[] = {"log-to-smape", "log", "smape", NULL};
     static const char *const schedules[] = {"cosine", "linear", "constant", NULL};
     static const char *const analytics[] = {"faithful", "joint", NULL};
-    const char *freeze = NULL, *log = NULL, *plot = NULL;
+    const char *freeze = NULL, *log = NULL, *plot = NULL, *json = NULL;
     int resume = 0;
     const char *kind = "hybrid", *encoding = NULL, *analytic = "faithful", *output = NULL;
     const char *loss = "log-to-smape", *schedule = "cosine";
@@ -226,10 +239,12 @@ int cmd_fit(int argc, char **argv)
         {"freeze", 0, CLI_TEXT, &freeze, 0, 0, "MODEL",
          "keep this model's network, fit only the new materials (default steps 3000)"},
         {"resume", 0, CLI_FLAG, &resume, 0, 0, NULL,
-         "go on from OUTPUT.checkpoint of an interrupted fit"},
+         "go on from OUTPUT.checkpoint of an interrupted fit, and with its --log"},
         {"log", 0, CLI_TEXT, &log, 0, 0, "FILE",
          "write step,share,loss,pairs_per_s as CSV, a row every 100 steps"},
         {"plot", 0, CLI_TEXT, &plot, 0, 0, "FILE", "write the course of the loss as an SVG"},
+        {"json", 0, CLI_TEXT, &json, 0, 0, "FILE",
+         "write speed, the machine's limit and where the time went as JSON; - is standard output"},
         {"threads", 0, CLI_INT, &threads, 1, 256, "N", "threads (default one a core)"},
         CLI_READING_OPTIONS,
         {NULL, 0, CLI_FLAG, NULL, 0, 0, NULL, NULL}};
@@ -265,6 +280,8 @@ int cmd_fit(int argc, char **argv)
     job j = {0};
     j.output = output;
     j.plot = plot;
+    j.log = log;
+    j.json = json;
     j.fit.kind = (hnbrdf_kind)kind_index;
     j.fit.hidden = net[0];
     j.fit.layers = net[1];
@@ -284,5 +301,5 @@ int cmd_fit(int argc, char **argv)
     j.fit.seed = (uint64_t)seed;
     j.fit.threads = (int)threads;
     j.fit.resume = resume;
-    return open_and_run(&j, freeze, log, argv + 1, given);
+    return open_and_run(&j, freeze, argv + 1, given);
 }

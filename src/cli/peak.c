@@ -118,10 +118,10 @@ static double measure(float (*chain)(void), int width, int threads)
     int count = hnbrdf_fit_workers_count(workers);
     double begun = cli_seconds(), best = 1e9;
     for (int runs = 0; runs < PEAK_RUNS_AT_LEAST || cli_seconds() - begun < PEAK_SECONDS; runs++) {
-        double started = cli_seconds();
+        double before = hnbrdf_fit_workers_busy(workers);
         hnbrdf_fit_workers_run(workers, count, run_one, &r);
-        double elapsed = cli_seconds() - started;
-        best = elapsed < best ? elapsed : best;
+        double seconds = (hnbrdf_fit_workers_busy(workers) - before) / count;
+        best = seconds < best ? seconds : best;
     }
     hnbrdf_fit_workers_stop(workers);
     return best > 0.0 ? 2.0 * count * width * PEAK_CHAINS * (double)PEAK_STEPS / best : 0.0;

@@ -3,8 +3,9 @@
 #define HNBRDF_CLI_PEAK_H
 
 /* FLOP/s in single precision, of the widest vectors this processor has, on `threads` threads at once
- * (0: one a processor); an FMA counts as two. Measured for about 50 ms, the best of many short runs.
- * Where there is no fused multiply-add, the same as cli_muladd_peak(). 0 when memory is short. */
+ * (0: one a processor); an FMA counts as two. Measured for about 50 ms, the best of many short runs in
+ * processor time, so that other programs hardly matter. Where there is no fused multiply-add, the same
+ * as cli_muladd_peak(). 0 when memory is short. */
 double cli_fma_peak(int threads);
 /* The same for separate multiplications and additions: the limit of code that must round as plain C
  * does, as all of this library's. Equal to the first on some processors, half of it on others. */

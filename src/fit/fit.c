@@ -96,8 +96,11 @@ static void fit_one(void *context, int material, int worker)
         else
             t->materials[material] = fitted;
     }
-    if (t->options.kind != HNBRDF_KIND_GGX)
+    if (t->options.kind != HNBRDF_KIND_GGX) {
+        double started = hnbrdf_fit_thread_seconds();
         hnbrdf_fit_pool_encode(&t->pool, material, t->options.encoding, &t->materials[material]);
+        t->encoded[material] = hnbrdf_fit_thread_seconds() - started;
+    }
     piece_done(t, "ggx", worker);
 }
 
@@ -294,6 +297,7 @@ static int allocate(trainer *t)
     t->materials = calloc(materials, sizeof *t->materials);
     t->isotropic = calloc(materials, sizeof(int));
     t->drawn = calloc(materials, sizeof(int));
+    t->encoded = calloc(materials, sizeof(double));
     t->order = calloc(materials, sizeof(int));
     t->cursor = calloc(materials, sizeof(int));
     t->parameters = calloc(3 * l->count, sizeof(float));
@@ -306,17 +310,17 @@ static int allocate(trainer *t)
     t->tile_material = calloc(tiles, sizeof(int));
     t->tile_index = calloc(tiles, sizeof(int));
     t->moments = t->parameters ? t->parameters + l->count : NULL;
-    return t->pool.data && t->materials && t->isotropic && t->drawn && t->order && t->cursor &&
-           t->parameters && t->snapshot && t->gradient && t->chunk_gradients && t->derived &&
-           t->scratch && t->tile_material && t->tile_index;
+    return t->pool.data && t->materials && t->isotropic && t->drawn && t->encoded && t->order &&
+           t->cursor && t->parameters && t->snapshot && t->gradient && t->chunk_gradients &&
+           t->derived && t->scratch && t->tile_material && t->tile_index;
 }
 
 static void release(trainer *t)
 {
     hnbrdf_fit_workers_stop(t->workers);
-    void *all[] = {t->pool.data, t->materials,  t->isotropic,     t->drawn,     t->order,
-                   t->cursor,    t->parameters, t->snapshot,      t->gradient,  t->chunk_gradients,
-                   t->derived,   t->scratch,    t->tile_material, t->tile_index};
+    void *all[] = {t->pool.data,       t->materials, t->isotropic,  t->drawn,         t->order,
+                   t->encoded,         t->cursor,    t->parameters, t->snapshot,      t->gradient,
+                   t->chunk_gradients, t->derived,   t->scratch,    t->tile_material, t->tile_index};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
         free(all[i]);
 }
@@ -330,6 +334,7 @@ static hnbrdf_result run(trainer *t, hnbrdf_model **model, hnbrdf_fit_report *re
     }
     hnbrdf_fit_stage_begin(t);
     hnbrdf_fit_workers_run(t->workers, t->count, draw_one, t);
+    result->times.drawing = hnbrdf_fit_workers_busy(t->workers);
     for (int m = 0; m < t->count; m++)
         if (!t->drawn[m])
             return hnbrdf_fail(error, HNBRDF_ERROR_FORMAT,
@@ -337,6 +342,10 @@ static hnbrdf_result run(trainer *t, hnbrdf_model **model, hnbrdf_fit_report *re
                                hnbrdf_measured_name(t->data[m]));
     hnbrdf_fit_stage_begin(t);
     hnbrdf_fit_workers_run(t->workers, t->count, fit_one, t);
+    for (int m = 0; m < t->count; m++)
+        result->times.encoding += t->encoded[m];
+    result->times.ggx =
+        hnbrdf_fit_workers_busy(t->workers) - result->times.drawing - result->times.encoding;
     if (t->stopped && t->options.kind != HNBRDF_KIND_GGX && !t->options.resume)
         return hnbrdf_fail(error, HNBRDF_ERROR_CANCELLED, "stopped before the network's first step");
     hnbrdf_result status =
@@ -351,7 +360,7 @@ hnbrdf_result hnbrdf_fit(const hnbrdf_measured *const *data, int count,
 {
     trainer t = {0};
     double started = hnbrdf_fit_seconds();
-    hnbrdf_fit_report result_report = {NAN, 0.0, 0.0, 0, 0};
+    hnbrdf_fit_report result_report = {.final_loss = NAN};
     if (count < 1 || count > HNBRDF_MAX_MATERIALS)
         return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT, "%d materials to fit, expected 1 to %d", count,
                            HNBRDF_MAX_MATERIALS);
@@ -381,8 +390,15 @@ hnbrdf_result hnbrdf_fit(const hnbrdf_measured *const *data, int count,
             count, t.options.pool, (double)count * t.pool.tiles * FIT_POOL_TILE * sizeof(float) * 1e-6);
     else
         result = run(&t, model, &result_report, error);
-    release(&t);
     result_report.seconds = hnbrdf_fit_seconds() - started;
+    result_report.instructions = t.kernel->name;
+    if (t.workers) {
+        hnbrdf_fit_times *times = &result_report.times;
+        result_report.threads = hnbrdf_fit_workers_count(t.workers);
+        times->waiting = fmax(0.0, result_report.threads * result_report.seconds - times->drawing -
+                                       times->ggx - times->encoding - times->network - times->update);
+    }
+    release(&t);
     if (!result && report_out)
         *report_out = result_report;
     return result;

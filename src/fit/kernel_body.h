@@ -1,6 +1,6 @@
 /* kernel_body.h: the text of every kernel, included once per instruction set and once in double.
- * The includer defines REAL, REAL_EXP, REAL_LOG, REAL_SQRT, REAL_COS, REAL_SIN, and KERNEL_WIDTH, the
- * numbers in one vector of its machine. */
+ * The includer defines REAL, REAL_EXP, REAL_EXP_INSIDE (for x in [-80, 80]), REAL_LOG, REAL_SQRT,
+ * REAL_COS, REAL_SIN, and KERNEL_WIDTH, the numbers in one vector of its machine. */
 #include "fit/kernel.h"
 
 #include <string.h>
@@ -34,30 +34,37 @@ static void product(const REAL *restrict x, int x_stride, int depth, const REAL 
         }
 }
 
-/* g[k][u] += sum over b of a[b][k] y[b][u], k < rows, u < columns (a multiple of FIT_LANES). */
+/* One block of outer(): `rows` of g from row k on, a constant where this is inlined. */
+static inline __attribute__((always_inline)) void outer_block(const REAL *restrict a, int a_stride,
+                                                              const REAL *restrict y, int y_stride,
+                                                              REAL *restrict g, int columns, int rows)
+{
+    vector sums[KERNEL_ROWS];
+    memset(sums, 0, sizeof sums);
+    for (int b = 0; b < FIT_TILE; b++) {
+        vector row = *(const vector *)(y + b * y_stride);
+        for (int r = 0; r < rows; r++)
+            sums[r] += row * a[b * a_stride + r];
+    }
+    for (int r = 0; r < rows; r++)
+        *(vector *)(g + r * columns) += sums[r];
+}
+
+/* g[k][u] += sum over b of a[b][k] y[b][u], k < rows, u < columns (a multiple of FIT_LANES). What is
+ * left of whole blocks is mostly 6, the inputs or outputs of a network. */
 static void outer(const REAL *restrict a, int a_stride, int rows, const REAL *restrict y, int y_stride,
                   int columns, REAL *restrict g)
 {
     for (int u = 0; u < columns; u += KERNEL_WIDTH) {
         int k = 0;
-        for (; k + KERNEL_ROWS <= rows; k += KERNEL_ROWS) {
-            vector sums[KERNEL_ROWS];
-            memset(sums, 0, sizeof sums);
-            for (int b = 0; b < FIT_TILE; b++) {
-                vector row = *(const vector *)(y + b * y_stride + u);
-                for (int r = 0; r < KERNEL_ROWS; r++)
-                    sums[r] += row * a[b * a_stride + k + r];
-            }
-            for (int r = 0; r < KERNEL_ROWS; r++)
-                *(vector *)(g + (k + r) * columns + u) += sums[r];
-        }
-        for (; k < rows; k++) {
-            vector sum;
-            memset(&sum, 0, sizeof sum);
-            for (int b = 0; b < FIT_TILE; b++)
-                sum += *(const vector *)(y + b * y_stride + u) * a[b * a_stride + k];
-            *(vector *)(g + k * columns + u) += sum;
-        }
+        for (; k + KERNEL_ROWS <= rows; k += KERNEL_ROWS)
+            outer_block(a + k, a_stride, y + u, y_stride, g + k * columns + u, columns, KERNEL_ROWS);
+        for (; k + 6 <= rows; k += 6)
+            outer_block(a + k, a_stride, y + u, y_stride, g + k * columns + u, columns, 6);
+        for (; k + 3 <= rows; k += 3)
+            outer_block(a + k, a_stride, y + u, y_stride, g + k * columns + u, columns, 3);
+        for (; k < rows; k++)
+            outer_block(a + k, a_stride, y + u, y_stride, g + k * columns + u, columns, 1);
     }
 }
 
@@ -240,37 +247,44 @@ static void kernel_derive(const fit_layout *l, const REAL *parameters, REAL *der
                 o < l->outputs ? parameters[l->last + (size_t)(o * n + i)] : (REAL)0;
 }
 
+/* exp(x) and, where x is beyond what exp can take, 0 for its slope; x is `sign` times a column of the
+ * network's outputs. Two loops: one would branch, which does not vectorise. */
+static void bounded_exp(const REAL *restrict out, REAL sign, REAL *restrict e, REAL *restrict inside)
+{
+    const REAL limit = 40;
+    REAL x[FIT_TILE];
+    for (int b = 0; b < FIT_TILE; b++) {
+        REAL value = sign * out[b * FIT_LANES], low = value > -limit ? value : -limit;
+        x[b] = low < limit ? low : limit;
+        inside[b] = x[b] == value ? (REAL)1 : (REAL)0;
+    }
+    for (int b = 0; b < FIT_TILE; b++)
+        e[b] = REAL_EXP_INSIDE(x[b]);
+}
+
 /* Values, loss and the derivative of the loss by the network's outputs (and by f_a, into by_analytic).
  */
 static double compose_loss(const fit_layout *l, const REAL *out, const fit_tile *tile,
                            REAL analytic[3][FIT_TILE], REAL mix, REAL *by_out,
                            REAL by_analytic[3][FIT_TILE])
 {
-    const REAL limit = 40;
+    const int hybrid = l->kind == HNBRDF_KIND_HYBRID;
     double loss = 0.0;
     memset(by_out, 0, sizeof(REAL) * FIT_TILE * FIT_LANES);
     for (int k = 0; k < 3; k++) {
         REAL u[FIT_TILE], slope[FIT_TILE], e[FIT_TILE], gate[FIT_TILE], inside[FIT_TILE];
-        for (int b = 0; b < FIT_TILE; b++) {
-            REAL c = out[b * FIT_LANES + k];
-            inside[b] = c > -limit && c < limit ? (REAL)1 : (REAL)0;
-            c = c > -limit ? (c < limit ? c : limit) : -limit;
-            e[b] = REAL_EXP(c);
-        }
-        if (l->kind == HNBRDF_KIND_HYBRID)
-            for (int b = 0; b < FIT_TILE; b++) {
-                REAL g = -out[b * FIT_LANES + k + 3];
-                g = g > -limit ? (g < limit ? g : limit) : -limit;
-                gate[b] = 1 / (1 + REAL_EXP(g));
-                u[b] = e[b] + gate[b] * analytic[k][b] - (REAL)l->floor;
-            }
-        else
+        if (hybrid) {
+            bounded_exp(out + k + 3, -1, gate, inside);
             for (int b = 0; b < FIT_TILE; b++)
-                u[b] = e[b] - (REAL)l->floor;
+                gate[b] = 1 / (1 + gate[b]);
+        }
+        bounded_exp(out + k, 1, e, inside);
+        for (int b = 0; b < FIT_TILE; b++)
+            u[b] = e[b] + (hybrid ? gate[b] * analytic[k][b] : 0) - (REAL)l->floor;
         loss += channel_loss(u, tile->target + k * FIT_TILE, mix, slope);
         for (int b = 0; b < FIT_TILE; b++)
             by_out[b * FIT_LANES + k] = slope[b] * e[b] * inside[b];
-        if (l->kind == HNBRDF_KIND_HYBRID)
+        if (hybrid)
             for (int b = 0; b < FIT_TILE; b++) {
                 by_out[b * FIT_LANES + k + 3] = slope[b] * analytic[k][b] * (gate[b] * (1 - gate[b]));
                 by_analytic[k][b] = slope[b] * gate[b];

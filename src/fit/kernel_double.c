@@ -3,6 +3,7 @@
 
 #define REAL double
 #define REAL_EXP(x) exp(x)
+#define REAL_EXP_INSIDE(x) exp(x)
 #define REAL_LOG(x) log(x)
 #define REAL_SQRT(x) sqrt(x)
 #define REAL_COS(x) cos(x)

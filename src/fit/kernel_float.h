@@ -4,6 +4,7 @@
 
 #define REAL float
 #define REAL_EXP(x) hnbrdf_exp(hnbrdf_clamp((x), -80.0f, 80.0f))
+#define REAL_EXP_INSIDE(x) hnbrdf_exp(x)
 #define REAL_LOG(x) hnbrdf_log(x)
 #define REAL_SQRT(x) sqrtf(x)
 #define REAL_COS(x) ((float)cos((double)(x)))

@@ -240,8 +240,19 @@ static hnbrdf_result start(trainer *t, hnbrdf_error *error)
     return HNBRDF_OK;
 }
 
+/* Floating-point operations of both passes over one pair; see hnbrdf_fit_report. */
+static double flops_a_pair(const fit_layout *l)
+{
+    double h = l->hidden_size, hidden = (l->layers - 1) * h * h;
+    double forward = FIT_INPUTS * h + hidden + h * l->outputs;
+    double backward = FIT_INPUTS * h + 2.0 * hidden + 2.0 * h * l->outputs;
+    return 2.0 * (forward + backward);
+}
+
 hnbrdf_result hnbrdf_fit_train(trainer *t, hnbrdf_fit_report *report, hnbrdf_error *error)
 {
+    const double busy_before = hnbrdf_fit_workers_busy(t->workers);
+    const double alone_before = hnbrdf_fit_thread_seconds() - hnbrdf_fit_workers_busy_here(t->workers);
     hnbrdf_result result = start(t, error);
     if (result)
         return result;
@@ -274,5 +285,10 @@ hnbrdf_result hnbrdf_fit_train(trainer *t, hnbrdf_fit_report *report, hnbrdf_err
     report->final_loss = t->running;
     report->pairs_per_s = elapsed > 0.0 ? pairs / elapsed : 0.0;
     report->steps = t->step;
+    report->pairs = pairs;
+    report->flops = pairs * flops_a_pair(&t->layout);
+    report->times.network = hnbrdf_fit_workers_busy(t->workers) - busy_before;
+    report->times.update =
+        hnbrdf_fit_thread_seconds() - hnbrdf_fit_workers_busy_here(t->workers) - alone_before;
     return HNBRDF_OK;
 }

@@ -21,6 +21,7 @@ typedef struct trainer {
     fit_pool pool;
     hnbrdf_material *materials;             /* [count], from the GGX stage */
     int *isotropic, *drawn;                 /* [count] */
+    double *encoded;                        /* [count] processor seconds of encoding */
     float *parameters, *moments, *gradient; /* [layout.count], twice for the moments, which follow on */
     float *snapshot;                        /* parameters and moments that were finite */
     float *derived, *chunk_gradients, *scratch;

@@ -5,6 +5,7 @@
 #include <pthread.h>
 #include <stdatomic.h>
 #include <stdlib.h>
+#include <time.h>
 #include <unistd.h>
 
 enum { MAX_THREADS = 256 };
@@ -18,6 +19,7 @@ struct fit_workers {
     fit_work_fn work;
     void *context;
     atomic_int next;
+    double worked[MAX_THREADS]; /* processor seconds, each written by its thread alone */
     pthread_t thread[MAX_THREADS];
     struct start {
         fit_workers *workers;
@@ -25,10 +27,32 @@ struct fit_workers {
     } start[MAX_THREADS];
 };
 
+double hnbrdf_fit_thread_seconds(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+double hnbrdf_fit_workers_busy(const fit_workers *workers)
+{
+    double sum = 0.0;
+    for (int i = 0; i < workers->threads; i++)
+        sum += workers->worked[i];
+    return sum;
+}
+
+double hnbrdf_fit_workers_busy_here(const fit_workers *workers)
+{
+    return workers->worked[0];
+}
+
 static void take(fit_workers *w, int worker)
 {
+    double started = hnbrdf_fit_thread_seconds();
     for (int index; (index = atomic_fetch_add(&w->next, 1)) < w->count;)
         w->work(w->context, index, worker);
+    w->worked[worker] += hnbrdf_fit_thread_seconds() - started;
 }
 
 static void *loop(void *argument)

@@ -1,0 +1,89 @@
+/* fit_speed.c: how fast a fit was, how near to the machine's limit, and what bounds it. */
+#include "cli/fit_speed.h"
+
+#include "cli/cli.h"
+#include "cli/peak.h"
+
+#include <math.h>
+
+typedef struct part {
+    const char *name, *title;
+    double seconds;
+} part;
+
+enum { PARTS = 6 };
+
+static void list_parts(const hnbrdf_fit_times *t, part parts[PARTS])
+{
+    const part all[PARTS] = {
+        {"drawing", "drawing and looking up data", t->drawing},
+        {"ggx", "fitting GGX", t->ggx},
+        {"encoding", "encoding", t->encoding},
+        {"network", "forward and backward", t->network},
+        {"update", "gradient sum, Adam", t->update},
+        {"waiting", "waiting or other programs", t->waiting},
+    };
+    for (int k = 0; k < PARTS; k++)
+        parts[k] = all[k];
+}
+
+fit_speed fit_speed_of(const hnbrdf_fit_report *report)
+{
+    fit_speed speed = {.report = report};
+    if (report->flops > 0.0 && report->times.network > 0.0) {
+        speed.kernel_flops = report->flops / report->times.network * report->threads;
+        speed.peak = cli_fma_peak(report->threads);
+        speed.muladd = cli_muladd_peak(report->threads);
+    }
+    return speed;
+}
+
+static double share(double some, double whole)
+{
+    return whole > 0.0 ? some / whole : 0.0;
+}
+
+void fit_speed_print(const fit_speed *speed)
+{
+    const hnbrdf_fit_report *r = speed->report;
+    part parts[PARTS];
+    double all = r->threads * r->seconds;
+    list_parts(&r->times, parts);
+    if (r->pairs > 0.0) {
+        printf("speed: %.2f M pairs/s everything included, %.2f in the network stage, %d thread%s\n",
+               share(r->pairs, r->seconds) * 1e-6, r->pairs_per_s * 1e-6, r->threads,
+               r->threads == 1 ? "" : "s");
+        printf("network kernels (%s): %.1f GFLOP/s, %.0f %% of the FMA peak of %.0f (%s), %.0f %% of "
+               "separate multiplications and additions\n",
+               r->instructions, speed->kernel_flops * 1e-9,
+               100.0 * share(speed->kernel_flops, speed->peak), speed->peak * 1e-9, cli_peak_name(),
+               100.0 * share(speed->kernel_flops, speed->muladd));
+    }
+    printf("time:");
+    for (int k = 0; k < PARTS; k++)
+        printf("%s %.0f %% %s", k ? "," : "", 100.0 * share(parts[k].seconds, all), parts[k].title);
+    printf("\n");
+}
+
+void fit_speed_write_json(const fit_speed *speed, FILE *file)
+{
+    const hnbrdf_fit_report *r = speed->report;
+    part parts[PARTS];
+    list_parts(&r->times, parts);
+    fprintf(file, "{\"steps\": %ld, \"stopped\": %s, \"loss\": ", r->steps,
+            r->stopped ? "true" : "false");
+    if (isfinite(r->final_loss))
+        fprintf(file, "%.9g", r->final_loss);
+    else
+        fputs("null", file);
+    fprintf(file,
+            ", \"seconds\": %.6f, \"threads\": %d, \"instructions\": \"%s\",\n"
+            " \"pairs\": %.0f, \"pairs_per_s\": %.0f, \"network_pairs_per_s\": %.0f,\n"
+            " \"network_flops_per_s\": %.4g, \"fma_peak_flops_per_s\": %.4g, "
+            "\"muladd_peak_flops_per_s\": %.4g,\n \"processor_seconds\": {",
+            r->seconds, r->threads, r->instructions, r->pairs, share(r->pairs, r->seconds),
+            r->pairs_per_s, speed->kernel_flops, speed->peak, speed->muladd);
+    for (int k = 0; k < PARTS; k++)
+        fprintf(file, "%s\"%s\": %.6f", k ? ", " : "", parts[k].name, parts[k].seconds);
+    fputs("}}\n", file);
+}
