@@ -1,5 +1,7 @@
-# Editing, mixing and the accuracy report. (cli.cmake, read before, knows how to run the scripts.)
+# Editing, mixing, baking and the accuracy report. (cli.cmake, read before, knows how to run the scripts.)
 hnbrdf_test(test_edit test_edit.c)
 hnbrdf_cli_test(test_edit_cli)
 hnbrdf_cli_test(test_report)
 set_tests_properties(test_report PROPERTIES TIMEOUT 300)
+hnbrdf_cli_test(test_bake_cli)
+set_tests_properties(test_bake_cli PROPERTIES TIMEOUT 300)

@@ -21,6 +21,7 @@ static const subcommand subcommands[] = {
     {"sheet", cmd_sheet, "contact sheet: reference, GGX alone and model, side by side"},
     {"edit", cmd_edit, "change a material: colour, refraction, roughness, angle"},
     {"mix", cmd_mix, "materials between two of a model"},
+    {"bake", cmd_bake, "the smallest network that is good enough for the materials of a scene"},
     {"report", cmd_report, "error of a grid of networks and baselines, as tables and plots"},
     {"import", cmd_import, "published .brdf shaders to a model file"},
 };
