@@ -31,11 +31,10 @@ static const cli_command command = {
     "The exit code is 0 only if what is saved is what was asked for. Otherwise, after Ctrl-C too, the "
     "best of\n"
     "what was tried is saved, if a network was.",
-    "hnbrdf bake rgl.safetensors --materials vch_silk_blue,cc_nothern_aurora --max-error 0.15 -o "
+    "hnbrdf bake rgl.safetensors -m vch_silk_blue,cc_nothern_aurora --max-error 0.15 -o "
     "scene.safetensors\n"
-    "hnbrdf bake rgl.safetensors --materials vch_silk_blue --max-ns 60 --data rgl/ -o "
-    "scene.safetensors\n"
-    "hnbrdf bake merl.safetensors --net auto --seconds 120 --csv tried.csv --plot tried.svg -o "
+    "hnbrdf bake rgl.safetensors -m vch_silk_blue --max-ns 60 --data rgl/ -o scene.safetensors\n"
+    "hnbrdf bake merl.safetensors --net auto --seconds 120 --csv b.csv --plot b.svg -o "
     "scene.safetensors\n"
     "hnbrdf bake rgl.safetensors --net 8x2 --latent 4 -o scene.safetensors",
 };
