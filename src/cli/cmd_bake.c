@@ -7,8 +7,7 @@
 
 static const cli_command command = {
     "bake",
-    "MODEL [--materials A,B,...] (--max-error E | --max-ns T | --net auto|HxN) [--data DATA...] -o "
-    "SCENE",
+    "MODEL (--max-error E | --max-ns T | --net auto|HxN) [-m A,B] [--data DATA...] -o OUT",
     "Refits a small network to only the materials that a scene uses. A network shared by a whole "
     "database\n"
     "is larger than a few of its materials need. They are learned from the measurements (--data), else "
