@@ -109,6 +109,21 @@ HNBRDF_PRECISE float hnbrdf_hard_gelu(float x)
     return x * clamp(x * 0.333333333 + 0.5, 0.0, 1.0);
 }
 
+HNBRDF_PRECISE vec2 hnbrdf_hard_gelu(vec2 x)
+{
+    return x * clamp(x * 0.333333333 + 0.5, 0.0, 1.0);
+}
+
+HNBRDF_PRECISE vec3 hnbrdf_hard_gelu(vec3 x)
+{
+    return x * clamp(x * 0.333333333 + 0.5, 0.0, 1.0);
+}
+
+HNBRDF_PRECISE vec4 hnbrdf_hard_gelu(vec4 x)
+{
+    return x * clamp(x * 0.333333333 + 0.5, 0.0, 1.0);
+}
+
 // ---- A pair of directions ----------------------------------------------------------------------------
 
 // Into the tangent frame of a material: turned about n by the angle with this (cosine, sine).

@@ -1,6 +1,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 // verify.comp: runs one stage of an exported scene over a buffer of direction pairs, for comparison with C.
+#define HNBRDF_WEIGHTS_BINDING 3
 #include "hybrid_brdf.glsl"
 #include "scene.glsl"
 

@@ -6,33 +6,46 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Neither units nor latent code fill their vectors. */
+#define UNEVEN                                                                                         \
+    {                                                                                                  \
+        .encoding = HNBRDF_ENCODING_ANGLES, .hidden = 11, .layers = 2, .latent = 5, .shift = 0.5f      \
+    }
+
 static const struct {
     const char *name;
     scene_shape shape;
+    hnbrdf_glsl_weights weights;
+    hnbrdf_glsl_precision precision;
 } scenes[] = {
-    {"hybrid_32x2",
-     {.encoding = HNBRDF_ENCODING_HALF_DIFFERENCE,
-      .hidden = 32,
-      .layers = 2,
-      .latent = 4,
-      .floor = 0.003f}},
-    {"hybrid_8x4_rotated",
-     {.encoding = HNBRDF_ENCODING_HALF_DIFFERENCE,
-      .hidden = 8,
-      .layers = 4,
-      .latent = 6,
-      .anisotropic = 1,
-      .rotated = 1,
-      .scale = 2.0f,
-      .shift = 1.0f}},
-    {"neural_16x3_directions",
-     {.kind = HNBRDF_KIND_NEURAL,
-      .encoding = HNBRDF_ENCODING_DIRECTIONS,
-      .hidden = 16,
-      .layers = 3,
-      .latent = 12}},
-    {"ggx", {.kind = HNBRDF_KIND_GGX}},
-    {"ggx_rotated", {.kind = HNBRDF_KIND_GGX, .anisotropic = 1, .rotated = 1}},
+    {.name = "hybrid_32x2",
+     .shape = {.encoding = HNBRDF_ENCODING_HALF_DIFFERENCE,
+               .hidden = 32,
+               .layers = 2,
+               .latent = 4,
+               .floor = 0.003f}},
+    {.name = "hybrid_8x4_rotated",
+     .shape = {.encoding = HNBRDF_ENCODING_HALF_DIFFERENCE,
+               .hidden = 8,
+               .layers = 4,
+               .latent = 6,
+               .anisotropic = 1,
+               .rotated = 1,
+               .scale = 2.0f,
+               .shift = 1.0f}},
+    {.name = "neural_16x3_directions",
+     .shape = {.kind = HNBRDF_KIND_NEURAL,
+               .encoding = HNBRDF_ENCODING_DIRECTIONS,
+               .hidden = 16,
+               .layers = 3,
+               .latent = 12}},
+    {.name = "ggx", .shape = {.kind = HNBRDF_KIND_GGX}},
+    {.name = "ggx_rotated", .shape = {.kind = HNBRDF_KIND_GGX, .anisotropic = 1, .rotated = 1}},
+    {"columns", UNEVEN, HNBRDF_GLSL_COLUMNS, HNBRDF_GLSL_FLOAT},
+    {"uniform", UNEVEN, HNBRDF_GLSL_UNIFORM, HNBRDF_GLSL_FLOAT},
+    {"half", UNEVEN, HNBRDF_GLSL_CONSTANTS, HNBRDF_GLSL_HALF},
+    {"half_columns", UNEVEN, HNBRDF_GLSL_COLUMNS, HNBRDF_GLSL_HALF},
+    {"half_uniform", UNEVEN, HNBRDF_GLSL_UNIFORM, HNBRDF_GLSL_HALF},
 };
 
 static int write_text(const char *directory, const char *name, const char *ending, const char *text)
@@ -44,11 +57,14 @@ static int write_text(const char *directory, const char *name, const char *endin
     return file && fclose(file) == 0 && written;
 }
 
-static int write_scene(const char *directory, const char *name, const scene_shape *shape)
+static int write_scene(const char *directory, const char *name, const scene_shape *shape,
+                       hnbrdf_glsl_options options)
 {
     char path[1024];
     hnbrdf_model *model = scene_model(shape);
-    char *include = scene_text(model, 0), *alone = scene_text(model, 1);
+    char *include = styled_text(model, &options);
+    options.standalone = 1;
+    char *alone = styled_text(model, &options);
     snprintf(path, sizeof path, "%s/%s.safetensors", directory, name);
     int written = write_text(directory, name, ".glsl", include) &&
                   write_text(directory, name, ".alone.glsl", alone) &&
@@ -64,7 +80,9 @@ int main(int argc, char **argv)
     if (argc != 2)
         return 2;
     for (size_t i = 0; i < sizeof scenes / sizeof scenes[0]; i++) {
-        if (!write_scene(argv[1], scenes[i].name, &scenes[i].shape))
+        const hnbrdf_glsl_options options = {.weights = scenes[i].weights,
+                                             .precision = scenes[i].precision};
+        if (!write_scene(argv[1], scenes[i].name, &scenes[i].shape, options))
             return 1;
         printf("%s\n", scenes[i].name);
     }

@@ -100,12 +100,26 @@ static int append(void *user, const void *data, size_t size)
     return 0;
 }
 
-char *scene_text(const hnbrdf_model *model, int standalone)
+char *styled_text(const hnbrdf_model *model, const hnbrdf_glsl_options *options)
 {
-    hnbrdf_glsl_options options = {.standalone = standalone};
     growing_text text = {0};
     hnbrdf_error error = {""};
-    if (hnbrdf_export_glsl(model, &options, append, &text, &error))
+    if (hnbrdf_export_glsl(model, options, append, &text, &error))
         fail_msg("%s", error.text);
     return text.bytes;
+}
+
+char *scene_text(const hnbrdf_model *model, int standalone)
+{
+    return styled_text(model, &(hnbrdf_glsl_options){.standalone = standalone});
+}
+
+float *scene_weights(const hnbrdf_model *model, const hnbrdf_glsl_options *options, size_t *size)
+{
+    growing_text bytes = {0};
+    hnbrdf_error error = {""};
+    if (hnbrdf_export_weights(model, options, append, &bytes, &error))
+        fail_msg("%s", error.text);
+    *size = bytes.size;
+    return (float *)(void *)bytes.bytes;
 }

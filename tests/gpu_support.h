@@ -20,5 +20,9 @@ hnbrdf_model *scene_model(const scene_shape *shape);
 
 /* The exported include, malloc'ed. */
 char *scene_text(const hnbrdf_model *model, int standalone);
+char *styled_text(const hnbrdf_model *model, const hnbrdf_glsl_options *options);
+
+/* The bytes of the uniform block, malloc'ed; *size of them. */
+float *scene_weights(const hnbrdf_model *model, const hnbrdf_glsl_options *options, size_t *size);
 
 #endif

@@ -405,8 +405,35 @@ HNBRDF_API void hnbrdf_material_unpack(const hnbrdf_packing *packing, const void
 HNBRDF_API void hnbrdf_material_unpack_channels(const hnbrdf_packing *packing, const float *channels,
                                                 hnbrdf_material *material);
 
-/* ---- GLSL export -----------------------------------------------------------------------------
- * Zero-initialise for defaults. */
+/* ---- GLSL export ----------------------------------------------------------------------------- */
+
+/* How a shader holds the network. The sums go in the same order in each: the same bits, where the device
+ * rounds + and * correctly and HNBRDF_EXACT is 1. */
+typedef enum hnbrdf_glsl_weights {
+    HNBRDF_GLSL_CONSTANTS = 0, /* literals, every unit an expression of its own: the fastest, one shader a
+                                  network; compiling takes seconds at 64x3, more than a minute at 64x4 */
+    HNBRDF_GLSL_COLUMNS,       /* literals, four units at a time as vec4 columns: half the text */
+    HNBRDF_GLSL_UNIFORM        /* a uniform buffer read in loops: compiles at once whatever the size, several
+                                  times slower to run; one shader for every network of the same kind,
+                                  encoding, hidden, layers and latent, see hnbrdf_export_weights() */
+} hnbrdf_glsl_weights;
+
+/* What the hidden layers compute in. Encoding, last layer, exp, sigmoid and the analytic part are in single
+ * precision either way. */
+typedef enum hnbrdf_glsl_precision {
+    HNBRDF_GLSL_FLOAT = 0, /* single: the values of hnbrdf_eval() */
+    HNBRDF_GLSL_HALF       /* float16_t in Vulkan GLSL (the device needs shaderFloat16), mediump in GLSL ES,
+                              single elsewhere or where HNBRDF_HALF_NATIVE is defined as 0. Weights are rounded
+                              to half, those of hidden layers clamped to 2048, biases to 8192, and units to
+                              what the next layer can sum without passing 65504: finite whatever the weights.
+                              SMAPE against measurements grows by about 0.0001. */
+} hnbrdf_glsl_precision;
+
+/* "constants", "columns", "uniform"; "float", "half"; NULL for any other value. */
+HNBRDF_API const char *hnbrdf_glsl_weights_name(hnbrdf_glsl_weights weights);
+HNBRDF_API const char *hnbrdf_glsl_precision_name(hnbrdf_glsl_precision precision);
+
+/* Zero-initialise for defaults. */
 typedef struct hnbrdf_glsl_options {
     const int *materials;   /* indices of the materials to export; NULL means all */
     int material_count;     /* how many; ignored when materials is NULL */
@@ -414,14 +441,34 @@ typedef struct hnbrdf_glsl_options {
                                can be pasted as it is; 0: the includer includes that file before */
     const hnbrdf_packing *packing; /* if set: write hnbrdf_material_unpack() for materials from
                                textures too; analytic and latent are those of the model */
+    hnbrdf_glsl_weights weights;
+    hnbrdf_glsl_precision precision;
 } hnbrdf_glsl_options;
 
-/* Write one GLSL include with the network as constants, the chosen materials, and the function
+/* Write one GLSL include with the network, the chosen materials, and the function
  *   vec3 hnbrdf_eval(hnbrdf_material material, vec3 wi, vec3 wo)
  * whose values are those of hnbrdf_eval() in C. options may be NULL. */
 HNBRDF_API hnbrdf_result hnbrdf_export_glsl(const hnbrdf_model *model,
                                             const hnbrdf_glsl_options *options,
                                             hnbrdf_write_fn write, void *user, hnbrdf_error *error);
+
+/* Bytes of the uniform block of a shader exported with HNBRDF_GLSL_UNIFORM; 0 for a ggx model, which has
+ * none. At most 58000; every Vulkan, GL and GL ES 3 device takes 16384, desktop ones 65536. */
+HNBRDF_API size_t hnbrdf_weights_size(const hnbrdf_model *model);
+
+/* Write the contents of that block, std140: vec4 after vec4, floats in the byte order of this machine.
+ *   vec4 0, 1         s, m, b of the model, and for half precision the largest input and the largest unit
+ *                     of each hidden layer (else 0)
+ *   then a layer      for every four outputs, the last group filled with zeros: their biases, then one vec4
+ *   after the other   an input, the weights of that input to the four outputs. Inputs of the first layer:
+ *                     the latent code, then the encoded directions; of the others the units of the layer
+ *                     before, filled with zeros to a multiple of four.
+ * The shader's block is hnbrdf_weights_block; in Vulkan at set HNBRDF_WEIGHTS_SET, binding
+ * HNBRDF_WEIGHTS_BINDING, both 0 unless defined before the include. Of the options, which may be NULL, only
+ * the precision matters: it must be that of the shader. HNBRDF_ERROR_ARGUMENT for a ggx model. */
+HNBRDF_API hnbrdf_result hnbrdf_export_weights(const hnbrdf_model *model,
+                                               const hnbrdf_glsl_options *options,
+                                               hnbrdf_write_fn write, void *user, hnbrdf_error *error);
 
 #ifdef __cplusplus
 }

@@ -6,13 +6,18 @@
 
 static const cli_command command = {
     "export",
-    "MODEL [--materials A,B] [--standalone] [--pack half|byte [--texels FILE]] -o FILE.glsl",
-    "Writes one GLSL include: the network as constants, the chosen materials, and\n"
+    "MODEL [--materials A,B] [--weights STYLE] [--precision P] [--pack P] [--standalone] -o FILE.glsl",
+    "Writes one GLSL include: the network, the chosen materials, and\n"
     "  vec3 hnbrdf_eval(hnbrdf_material m, vec3 wi, vec3 wo)      1/sr, without the cosine.\n"
     "Include shaders/hybrid_brdf.glsl before it, or take --standalone. The text compiles as Vulkan "
     "GLSL\n"
     "450, desktop GLSL 330 and GLSL ES 300; put it after #version. What the chosen materials do not\n"
     "need (anisotropy, rotation) is left out.\n"
+    "\n"
+    "--weights constants is the fastest, one shader a network; columns are the same constants in vec4. uniform\n"
+    "reads them from a buffer whose bytes --weights-out writes: slower, but compiled at once, and any network\n"
+    "of the same size can be loaded at run time (hnbrdf.h tells the layout). --precision half computes the\n"
+    "hidden layers in float16 (GLSL 450) or mediump (ES).\n"
     "\n"
     "--pack is for scenes with a material of its own in every pixel: the include also has\n"
     "  hnbrdf_material hnbrdf_material_unpack(vec4 t0, vec4 t1, ...)      HNBRDF_TEXELS texels\n"
@@ -21,6 +26,7 @@ static const cli_command command = {
     "a row of texels each, without a header, numbers in the byte order of the machine.",
     "hnbrdf export model.safetensors -o scene.glsl\n"
     "hnbrdf export model.safetensors --materials gold-paint,velvet --standalone -o scene.glsl\n"
+    "hnbrdf export model.safetensors --weights uniform --weights-out weights.bin -o scene.glsl\n"
     "hnbrdf export model.safetensors --pack half --texels materials.bin -o scene.glsl",
 };
 
@@ -36,17 +42,53 @@ static int write_counted(void *user, const void *data, size_t size)
     return fwrite(data, 1, size, to->file) != size;
 }
 
-static void print_summary(FILE *file, const hnbrdf_model *model, const char *path, int materials,
-                          size_t bytes)
+static void print_summary(FILE *file, const hnbrdf_model *model, const hnbrdf_glsl_options *options,
+                          const char *path, size_t bytes)
 {
+    int materials = options->material_count;
     hnbrdf_model_desc desc;
     hnbrdf_model_describe(model, &desc);
     fprintf(file, "%s: %s", path, hnbrdf_kind_name(desc.kind));
     if (desc.kind != HNBRDF_KIND_GGX)
-        fprintf(file, " %dx%d, %s, %zu weights, %zu multiplications per evaluation", desc.hidden,
+        fprintf(file, " %dx%d, %s, %zu weights (%s, %s), %zu multiplications per evaluation", desc.hidden,
                 desc.layers, hnbrdf_encoding_name(desc.encoding), hnbrdf_model_weight_count(model),
+                hnbrdf_glsl_weights_name(options->weights), hnbrdf_glsl_precision_name(options->precision),
                 hnbrdf_model_multiplications(model));
     fprintf(file, ", %d material%s, %zu bytes\n", materials, materials == 1 ? "" : "s", bytes);
+}
+
+/* Measured with lavapipe (Mesa 22.3, `hnbrdf verify`): the first dispatch takes 0.3 s at 1606 constants (32x2),
+ * 3 s at 9350 (64x3). */
+enum { MANY_CONSTANTS = 12000, SMALL_BLOCK = 16384 };
+
+/* Why another style may be wanted; what was asked for is written all the same. */
+static void warn(const hnbrdf_model *model, const hnbrdf_glsl_options *options)
+{
+    size_t numbers = hnbrdf_model_weight_count(model), bytes = hnbrdf_weights_size(model);
+    if (options->weights == HNBRDF_GLSL_UNIFORM && bytes > SMALL_BLOCK)
+        fprintf(stderr,
+                "hnbrdf export: a uniform block of %zu bytes; devices need not take more than %d (desktop "
+                "ones do, 65536)\n",
+                bytes, SMALL_BLOCK);
+    if (options->weights != HNBRDF_GLSL_UNIFORM && numbers > MANY_CONSTANTS)
+        fprintf(stderr,
+                "hnbrdf export: %zu constants may take a compiler long (`hnbrdf verify` measures it); --weights "
+                "uniform compiles at once\n",
+                numbers);
+}
+
+/* The buffer of --weights uniform. */
+static int write_weights(const hnbrdf_model *model, const hnbrdf_glsl_options *options, const char *path)
+{
+    cli_output output;
+    if (cli_output_open(path, &output) != CLI_OK)
+        return CLI_FAILURE;
+    counted_file to = {.file = output.file};
+    hnbrdf_error error;
+    if (hnbrdf_export_weights(model, options, write_counted, &to, &error) == HNBRDF_OK)
+        return cli_output_close(&output);
+    cli_output_discard(&output);
+    return cli_fail("%s: %s", path, error.text);
 }
 
 static int export_to(const hnbrdf_model *model, const hnbrdf_glsl_options *options, const char *path,
@@ -64,15 +106,16 @@ static int export_to(const hnbrdf_model *model, const hnbrdf_glsl_options *optio
     FILE *told = output.file == stdout ? stderr : stdout;
     if (cli_output_close(&output) != CLI_OK)
         return CLI_FAILURE;
-    print_summary(told, model, path, options->material_count, to.bytes);
+    print_summary(told, model, options, path, to.bytes);
     if (texels)
         cli_texels_print_cost(texels, told);
     return CLI_OK;
 }
 
 typedef struct settings {
-    const char *materials, *path, *texels;
+    const char *materials, *path, *texels, *weights_path;
     int standalone, pack; /* hnbrdf_texel_format, -1 for none */
+    int weights, precision;
 } settings;
 
 static int export_materials(const hnbrdf_model *model, const settings *set, const int *materials, int count)
@@ -85,7 +128,12 @@ static int export_materials(const hnbrdf_model *model, const settings *set, cons
     const hnbrdf_glsl_options options = {.materials = materials,
                                          .material_count = count,
                                          .standalone = set->standalone,
-                                         .packing = set->pack >= 0 ? &texels.packing : NULL};
+                                         .packing = set->pack >= 0 ? &texels.packing : NULL,
+                                         .weights = (hnbrdf_glsl_weights)set->weights,
+                                         .precision = (hnbrdf_glsl_precision)set->precision};
+    warn(model, &options);
+    if (set->weights_path && write_weights(model, &options, set->weights_path) != CLI_OK)
+        return CLI_FAILURE;
     if (set->texels && cli_texels_write(&texels, set->texels) != CLI_OK)
         return CLI_FAILURE;
     return export_to(model, &options, set->path, set->pack >= 0 ? &texels : NULL);
@@ -99,6 +147,12 @@ int cmd_export(int argc, char **argv)
         {"materials", 'm', CLI_TEXT, &set.materials, 0, 0, "A,B",
          "names of the materials (default: all)"},
         {"standalone", 0, CLI_FLAG, &set.standalone, 0, 0, NULL, "put the text of hybrid_brdf.glsl first"},
+        {"weights", 'w', CLI_CHOICE, &set.weights, 0, 0, "constants|columns|uniform",
+         "how the shader holds the network (default constants)"},
+        {"weights-out", 0, CLI_TEXT, &set.weights_path, 0, 0, "FILE",
+         "with --weights uniform: where to write the bytes of the buffer"},
+        {"precision", 0, CLI_CHOICE, &set.precision, 0, 0, "float|half",
+         "of the hidden layers (default float)"},
         {"pack", 0, CLI_CHOICE, &set.pack, 0, 0, "half|byte", "with a function that unpacks texels"},
         {"texels", 0, CLI_TEXT, &set.texels, 0, 0, "FILE",
          "with --pack: where to write the materials as texels"},
@@ -112,6 +166,8 @@ int cmd_export(int argc, char **argv)
         return cli_usage(&command, "found %d arguments, expected one MODEL", count);
     if (!set.path)
         return cli_usage(&command, "no -o FILE.glsl");
+    if (set.weights_path && set.weights != HNBRDF_GLSL_UNIFORM)
+        return cli_usage(&command, "--weights-out without --weights uniform");
     if (set.texels && set.pack < 0)
         return cli_usage(&command, "--texels without --pack half or --pack byte");
     hnbrdf_model *model = NULL;

@@ -1,4 +1,4 @@
-/* strerror.c: the words for results, kinds and encodings, and the version. */
+/* strerror.c: the words for results and for the choices a caller has, and the version. */
 #include "hnbrdf/hnbrdf.h"
 
 const char *hnbrdf_version(void)
@@ -55,6 +55,30 @@ const char *hnbrdf_encoding_name(hnbrdf_encoding encoding)
         return "angles";
     case HNBRDF_ENCODING_ANGLES_ANISOTROPIC:
         return "angles-anisotropic";
+    }
+    return NULL;
+}
+
+const char *hnbrdf_glsl_weights_name(hnbrdf_glsl_weights weights)
+{
+    switch (weights) {
+    case HNBRDF_GLSL_CONSTANTS:
+        return "constants";
+    case HNBRDF_GLSL_COLUMNS:
+        return "columns";
+    case HNBRDF_GLSL_UNIFORM:
+        return "uniform";
+    }
+    return NULL;
+}
+
+const char *hnbrdf_glsl_precision_name(hnbrdf_glsl_precision precision)
+{
+    switch (precision) {
+    case HNBRDF_GLSL_FLOAT:
+        return "float";
+    case HNBRDF_GLSL_HALF:
+        return "half";
     }
     return NULL;
 }

@@ -4,6 +4,7 @@
 #include "core/frame.h"
 #include "model/export_network.h"
 #include "model/export_unpack.h"
+#include "model/export_weights.h"
 
 #include <string.h>
 
@@ -11,6 +12,16 @@
 extern const char hnbrdf_hybrid_brdf_glsl[];
 
 /* ---- Sections -------------------------------------------------------------------------------- */
+
+/* What the weights take in the shader or in its uniform block, which holds single precision alone. */
+static size_t weight_bytes(const hnbrdf_scene *s)
+{
+    const hnbrdf_model_desc *desc = s->desc;
+    if (s->style == HNBRDF_GLSL_UNIFORM)
+        return (size_t)hnbrdf_layer_start(desc, desc->layers + 1) * 4 * sizeof(float);
+    size_t single = (size_t)hnbrdf_layer_outputs(desc, desc->layers) * ((size_t)desc->hidden + 1);
+    return s->precision == HNBRDF_GLSL_HALF ? 2 * (s->weights + single) : s->weights * sizeof(float);
+}
 
 static void put_heading(hnbrdf_printer *out, const hnbrdf_scene *s)
 {
@@ -26,7 +37,12 @@ static void put_heading(hnbrdf_printer *out, const hnbrdf_scene *s)
                    desc->layers);
         hnbrdf_put(out, "//   encoding   %s, then %d latent\n", hnbrdf_encoding_name(desc->encoding),
                    desc->latent);
-        hnbrdf_put(out, "//   weights    %zu, %zu bytes\n", s->weights, s->weights * sizeof(float));
+        hnbrdf_put(out, "//   weights    %zu, %zu bytes, %s\n", s->weights, weight_bytes(s),
+                   s->style == HNBRDF_GLSL_UNIFORM   ? "in a uniform block"
+                   : s->style == HNBRDF_GLSL_COLUMNS ? "as constants in columns"
+                                                     : "as constants");
+        hnbrdf_put(out, "//   precision  %s\n",
+                   s->precision == HNBRDF_GLSL_HALF ? "half in hidden layers, else single" : "single");
         hnbrdf_put(out, "//   cost       %zu multiplications per evaluation\n", s->multiplications);
     }
     hnbrdf_put(out, "//   materials  %d%s%s\n", s->count,
@@ -137,15 +153,16 @@ static const char HORIZON[] = "    if (!(wi.z > 0.0 && wo.z > 0.0))\n        ret
 /* The exponent s c + m; a scale of 1 and a shift of 0 change no bit and are left out. */
 static void put_exponent(hnbrdf_printer *out, const hnbrdf_scene *s)
 {
+    int loaded = s->style == HNBRDF_GLSL_UNIFORM;
     hnbrdf_put(out, "    HNBRDF_PRECISE vec3 exponent = ");
-    if (s->desc->scale != 1.0f) {
-        hnbrdf_put_float(out, s->desc->scale);
+    if (loaded || s->desc->scale != 1.0f) {
+        hnbrdf_put_constant(out, s, 0);
         hnbrdf_put(out, " * ");
     }
     hnbrdf_put(out, "c");
-    if (s->desc->shift != 0.0f) {
+    if (loaded || s->desc->shift != 0.0f) {
         hnbrdf_put(out, " + ");
-        hnbrdf_put_float(out, s->desc->shift);
+        hnbrdf_put_constant(out, s, 1);
     }
     hnbrdf_put(out, ";\n");
 }
@@ -186,7 +203,7 @@ static void put_eval(hnbrdf_printer *out, const hnbrdf_scene *s)
     put_exponent(out, s);
     hnbrdf_put(out, hybrid ? "    return hnbrdf_compose_hybrid(exponent, g, hnbrdf_analytic(m, p), "
                            : "    return hnbrdf_compose_neural(exponent, ");
-    hnbrdf_put_float(out, s->desc->floor);
+    hnbrdf_put_constant(out, s, 2);
     hnbrdf_put(out, ");\n}\n");
 }
 

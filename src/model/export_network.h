@@ -9,4 +9,14 @@
  * is m.latent0, m.latent1, ... Only for kinds with a network. */
 void hnbrdf_put_network(hnbrdf_printer *out, const hnbrdf_scene *s);
 
+/* The numbers s, m and b of the model (0, 1, 2) as an expression. */
+void hnbrdf_put_constant(hnbrdf_printer *out, const hnbrdf_scene *s, int which);
+
+/* The body of hnbrdf_network for HNBRDF_GLSL_UNIFORM, and what it needs before it. */
+void hnbrdf_put_weights_block(hnbrdf_printer *out, const hnbrdf_scene *s);
+void hnbrdf_put_loops(hnbrdf_printer *out, const hnbrdf_scene *s);
+
+/* Input i of the first layer in the order of summation, as an expression. */
+void hnbrdf_put_input(hnbrdf_printer *out, const hnbrdf_scene *s, int i);
+
 #endif

@@ -108,6 +108,12 @@ hnbrdf_result hnbrdf_scene_make(const hnbrdf_model *model, const hnbrdf_glsl_opt
 {
     memset(s, 0, sizeof *s);
     s->desc = &model->desc;
+    s->style = options ? options->weights : HNBRDF_GLSL_CONSTANTS;
+    s->precision = options ? options->precision : HNBRDF_GLSL_FLOAT;
+    if (!hnbrdf_glsl_weights_name(s->style) || !hnbrdf_glsl_precision_name(s->precision))
+        return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT,
+                           "export: weights %d, precision %d, expected 0 to 2 and 0 to 1",
+                           (int)s->style, (int)s->precision);
     hnbrdf_result result = use_packing(s, options ? options->packing : NULL, error);
     if (result)
         return result;

@@ -14,6 +14,8 @@ typedef struct hnbrdf_scene {
     int count;
     int anisotropic, rotated; /* 1 if any of these materials is, or the packing stores it */
     size_t weights, multiplications;
+    hnbrdf_glsl_weights style;
+    hnbrdf_glsl_precision precision;
     hnbrdf_macro_name *names;
 } hnbrdf_scene;
 
