@@ -9,7 +9,9 @@ set(HNBRDF_TOOL_SOURCES
   src/cli/peak.c src/cli/cmd_report.c src/cli/cmd_bake.c src/cli/bake_search.c src/cli/bake_sizes.c
   src/cli/bake_fit.c src/cli/bake_teacher.c src/cli/bake_tables.c src/cli/bake_plot.c
   src/cli/report_grid.c src/cli/report_fit.c src/cli/report_tables.c
-  src/cli/report_plot.c)
+  src/cli/report_plot.c src/cli/cmd_bench.c src/cli/bench_probe.c src/cli/bench_cpu.c
+  src/cli/bench_gpu.c src/cli/bench_peer.c src/cli/bench_quality.c src/cli/bench_write.c
+  src/cli/bench_plot.c src/cli/text_buffer.c)
 
 # The renderer is a library only so that its tests need not compile it again; it is not installed.
 add_library(hnbrdf_render STATIC EXCLUDE_FROM_ALL
@@ -33,7 +35,7 @@ target_compile_definitions(hnbrdf_cli PRIVATE _POSIX_C_SOURCE=200809L)
 if(HNBRDF_WITH_VULKAN)
   # What the harness compiles, as texts named hnbrdf_ and the file's name with _ for the dot.
   set(HNBRDF_SHADER_TEXTS "")
-  foreach(shader verify.comp probe.comp)
+  foreach(shader verify.comp probe.comp bench.comp)
     string(REPLACE "." "_" symbol ${shader})
     set(text ${CMAKE_CURRENT_BINARY_DIR}/generated/${symbol}.c)
     add_custom_command(OUTPUT ${text}
@@ -45,7 +47,7 @@ if(HNBRDF_WITH_VULKAN)
   # A library only so that its tests need not compile it again; it is not installed.
   add_library(hnbrdf_gpu STATIC EXCLUDE_FROM_ALL
     src/gpu/device.c src/gpu/compile.c src/gpu/compute.c src/gpu/probe.c src/gpu/pairs.c
-    src/gpu/bounds.c src/gpu/reference.c src/gpu/verify.c ${HNBRDF_SHADER_TEXTS})
+    src/gpu/bounds.c src/gpu/reference.c src/gpu/verify.c src/gpu/timed.c ${HNBRDF_SHADER_TEXTS})
   target_link_libraries(hnbrdf_gpu PRIVATE hnbrdf_flags PUBLIC hnbrdf_measured_static Vulkan::Vulkan)
   target_compile_definitions(hnbrdf_gpu PRIVATE _POSIX_C_SOURCE=200809L)
   target_sources(hnbrdf_cli PRIVATE src/cli/verify_report.c)

@@ -22,6 +22,7 @@ int cmd_edit(int argc, char **argv);
 int cmd_mix(int argc, char **argv);
 int cmd_report(int argc, char **argv);
 int cmd_bake(int argc, char **argv);
+int cmd_bench(int argc, char **argv);
 int cmd_import(int argc, char **argv);
 int cmd_info(int argc, char **argv);
 

@@ -23,6 +23,7 @@ static const subcommand subcommands[] = {
     {"mix", cmd_mix, "materials between two of a model"},
     {"bake", cmd_bake, "the smallest network that is good enough for the materials of a scene"},
     {"report", cmd_report, "error of a grid of networks and baselines, as tables and plots"},
+    {"bench", cmd_bench, "run time beside error, on the CPU and on GPUs"},
     {"import", cmd_import, "published .brdf shaders to a model file"},
 };
 enum { SUBCOMMANDS = sizeof subcommands / sizeof subcommands[0] };

@@ -192,21 +192,6 @@ void svg_axis_pad(svg_axis *axis, double share)
 
 enum { MOST_TICKS = 64 };
 
-static int logarithmic_ticks(const svg_axis *axis, double ticks[MOST_TICKS])
-{
-    static const int many[] = {10, 15, 20, 30, 50, 70}, few[] = {10, 20, 50}, one[] = {10};
-    double decades = log10(axis->high / axis->low);
-    const int *tenths = decades < 1.3 ? many : decades < 3.0 ? few : one;
-    int steps = decades < 1.3 ? 6 : decades < 3.0 ? 3 : 1, count = 0;
-    for (int decade = (int)floor(log10(axis->low)); decade <= (int)ceil(log10(axis->high)); decade++)
-        for (int i = 0; i < steps; i++) {
-            double value = tenths[i] * pow(10.0, decade - 1);
-            if (value >= axis->low * 0.9999 && value <= axis->high * 1.0001 && count < MOST_TICKS)
-                ticks[count++] = value;
-        }
-    return count;
-}
-
 static int linear_ticks(const svg_axis *axis, double ticks[MOST_TICKS])
 {
     double rough = (axis->high - axis->low) / 6.0, decade = pow(10.0, floor(log10(rough)));
@@ -218,6 +203,34 @@ static int linear_ticks(const svg_axis *axis, double ticks[MOST_TICKS])
         if (count < MOST_TICKS)
             ticks[count++] = k * step + 0.0; /* no -0 */
     return count;
+}
+
+/* Tenths of a decade at which numbers stand, from sparse to dense. */
+static const struct {
+    int count, tenths[6];
+} spacings[] = {{1, {10}}, {3, {10, 20, 50}}, {6, {10, 15, 20, 30, 50, 70}}};
+
+static int spaced_ticks(const svg_axis *axis, const int *tenths, int steps, double ticks[MOST_TICKS])
+{
+    int count = 0;
+    for (int decade = (int)floor(log10(axis->low)); decade <= (int)ceil(log10(axis->high)); decade++)
+        for (int i = 0; i < steps; i++) {
+            double value = tenths[i] * pow(10.0, decade - 1);
+            if (value >= axis->low * 0.9999 && value <= axis->high * 1.0001 && count < MOST_TICKS)
+                ticks[count++] = value;
+        }
+    return count;
+}
+
+/* The sparsest spacing with enough numbers; an axis of a fraction of a decade gets even steps. */
+static int logarithmic_ticks(const svg_axis *axis, double ticks[MOST_TICKS])
+{
+    for (int k = 0; k < 3; k++) {
+        int count = spaced_ticks(axis, spacings[k].tenths, spacings[k].count, ticks);
+        if (count >= 4)
+            return count;
+    }
+    return linear_ticks(axis, ticks);
 }
 
 static int ticks_of(const svg_axis *axis, double ticks[MOST_TICKS])
@@ -252,7 +265,7 @@ static void draw_y(FILE *file, const svg_panel *panel)
         svg_text(file, panel->left - 8.0, y + 4.0, "end", NULL, text);
     }
     if (panel->y.title)
-        svg_text_upwards(file, panel->left - 46.0, panel->top + 0.5 * panel->height, panel->y.title);
+        svg_text_upwards(file, panel->left - 52.0, panel->top + 0.5 * panel->height, panel->y.title);
 }
 
 void svg_panel_draw(FILE *file, const svg_panel *panel)

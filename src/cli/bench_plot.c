@@ -1,0 +1,240 @@
+/* bench_plot.c: error against run time: a pair of panels (SMAPE, PSNR) for each backend, with Pareto
+ * fronts. */
+#include "cli/bench.h"
+#include "cli/svg.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    WIDTH = 400,
+    HEIGHT = 260,
+    LEFT = 74,
+    BETWEEN = 88,
+    TOP = 92,
+    BELOW = 84,
+    RIGHT = 40,
+    PLOT_BACKENDS = 6,
+    PLOT_POINTS = 128
+};
+
+typedef enum plot_kind { PLOT_GGX, PLOT_HYBRID, PLOT_NEURAL, PLOT_PEER, PLOT_KINDS } plot_kind;
+
+static const char *const kind_titles[PLOT_KINDS] = {"GGX alone", "hybrid", "neural",
+                                                    "published-style shader"};
+static const svg_shape kind_shapes[PLOT_KINDS] = {SVG_DIAMOND, SVG_CIRCLE, SVG_TRIANGLE, SVG_SQUARE};
+
+typedef struct plot_point {
+    const bench_row *row;
+    double ns, error;
+} plot_point;
+
+typedef struct plot_panel {
+    plot_point points[PLOT_POINTS];
+    int count;
+    int larger_is_better;
+} plot_panel;
+
+static const char *kind_color(plot_kind kind)
+{
+    static const int colors[PLOT_KINDS] = {0, 1, 3, 2};
+    return svg_colors[colors[kind]];
+}
+
+static plot_kind kind_of(const bench_row *row)
+{
+    if (strcmp(row->weights, "published-style") == 0)
+        return PLOT_PEER;
+    return row->model->desc.kind == HNBRDF_KIND_GGX      ? PLOT_GGX
+           : row->model->desc.kind == HNBRDF_KIND_NEURAL ? PLOT_NEURAL
+                                                         : PLOT_HYBRID;
+}
+
+/* ---- Choosing ------------------------------------------------------------------------------------ */
+
+static int same_point(const bench_row *a, const bench_row *b)
+{
+    return a->model == b->model && kind_of(a) == kind_of(b) && strcmp(a->precision, b->precision) == 0;
+}
+
+/* Of the rows of one model on a backend, which differ in variant and storage, the fastest. */
+static void add_point(plot_panel *panel, const bench_row *row, double error)
+{
+    double ns = bench_ns(row);
+    if (!isfinite(ns) || ns <= 0.0 || !isfinite(error))
+        return;
+    for (int k = 0; k < panel->count; k++)
+        if (same_point(panel->points[k].row, row)) {
+            if (ns < panel->points[k].ns)
+                panel->points[k] = (plot_point){row, ns, error};
+            return;
+        }
+    if (panel->count < PLOT_POINTS)
+        panel->points[panel->count++] = (plot_point){row, ns, error};
+}
+
+static int compare_points(const void *a, const void *b)
+{
+    const plot_point *x = a, *y = b;
+    return x->ns < y->ns ? -1 : x->ns > y->ns;
+}
+
+static void choose_points(const bench *b, const char *backend, int psnr, plot_panel *panel)
+{
+    panel->count = 0;
+    panel->larger_is_better = psnr;
+    for (int k = 0; k < b->row_count; k++)
+        if (strcmp(b->rows[k].backend, backend) == 0)
+            add_point(panel, &b->rows[k], psnr ? b->rows[k].psnr : b->rows[k].smape);
+    qsort(panel->points, (size_t)panel->count, sizeof *panel->points, compare_points);
+}
+
+/* Every backend once. */
+static int choose_backends(const bench *b, const char *backends[PLOT_BACKENDS])
+{
+    int count = 0;
+    for (int k = 0; k < b->row_count; k++) {
+        int known = 0;
+        for (int i = 0; i < count; i++)
+            known = known || strcmp(backends[i], b->rows[k].backend) == 0;
+        if (!known && count < PLOT_BACKENDS)
+            backends[count++] = b->rows[k].backend;
+    }
+    return count;
+}
+
+/* ---- Drawing ------------------------------------------------------------------------------------- */
+
+/* The points, in order of time, that no faster one beats. */
+static void draw_front(const plot_panel *panel, const svg_panel *axes, FILE *file)
+{
+    double best = (double)NAN, sign = panel->larger_is_better ? -1.0 : 1.0;
+    svg_path_begin(file, "#888", 1.2, 1);
+    for (int k = 0; k < panel->count; k++) {
+        const plot_point *p = &panel->points[k];
+        if (sign * p->error >= sign * best)
+            continue;
+        if (!isnan(best))
+            svg_path_point(file, svg_x(axes, p->ns), svg_y(axes, best));
+        svg_path_point(file, svg_x(axes, p->ns), svg_y(axes, p->error));
+        best = p->error;
+    }
+    if (!isnan(best))
+        svg_path_point(file, axes->left + axes->width, svg_y(axes, best));
+    svg_path_end(file);
+}
+
+static void label_of(const bench_row *row, char *text, size_t size)
+{
+    char net[16];
+    if (row->model->desc.kind == HNBRDF_KIND_GGX)
+        snprintf(text, size, "GGX");
+    else
+        snprintf(text, size, "%s%s%s", bench_net(row->model, net),
+                 row->encoding == HNBRDF_ENCODING_DIRECTIONS ? " directions" : "",
+                 strcmp(row->precision, "half") == 0 ? " half" : "");
+}
+
+/* Labels beside their points, each lifted until it is clear of those already there. */
+static void draw_labels(const plot_panel *panel, const svg_panel *axes, FILE *file)
+{
+    double taken[PLOT_POINTS][3]; /* from, to, baseline */
+    for (int k = 0; k < panel->count; k++) {
+        char text[64];
+        const plot_point *p = &panel->points[k];
+        label_of(p->row, text, sizeof text);
+        double length = 6.4 * (double)strlen(text), x = svg_x(axes, p->ns), y = svg_y(axes, p->error);
+        int left = x + length + 14.0 > axes->left + axes->width;
+        double from = left ? x - 8.0 - length : x + 8.0, at = y - 7.0;
+        for (int i = 0; i < k; i++)
+            if (from < taken[i][1] && from + length > taken[i][0] && fabs(at - taken[i][2]) < 12.0) {
+                at = taken[i][2] - 12.0;
+                i = -1;
+            }
+        taken[k][0] = from;
+        taken[k][1] = from + length;
+        taken[k][2] = at;
+        svg_text(file, left ? x - 8.0 : x + 8.0, at, left ? "end" : "start",
+                 kind_color(kind_of(p->row)), text);
+    }
+}
+
+static void draw_panel(const bench *b, const char *backend, int psnr, double left, double top,
+                       FILE *file)
+{
+    char title[64];
+    plot_panel panel;
+    choose_points(b, backend, psnr, &panel);
+    snprintf(title, sizeof title, "SMAPE, %s sampler", hnbrdf_sampler_name((hnbrdf_sampler)b->sampler));
+    svg_panel axes = {.left = left,
+                      .top = top,
+                      .width = WIDTH,
+                      .height = HEIGHT,
+                      .x = {1.0, 0.0, 1, "ns per evaluation"},
+                      .y = {1.0, 0.0, !psnr, psnr ? "PSNR of a sphere, dB" : title}};
+    for (int k = 0; k < panel.count; k++) {
+        svg_axis_include(&axes.x, panel.points[k].ns);
+        svg_axis_include(&axes.y, panel.points[k].error);
+    }
+    svg_axis_pad(&axes.x, 0.12);
+    svg_axis_pad(&axes.y, 0.12);
+    svg_panel_draw(file, &axes);
+    draw_front(&panel, &axes, file);
+    for (int k = 0; k < panel.count; k++)
+        svg_mark(file, kind_shapes[kind_of(panel.points[k].row)], svg_x(&axes, panel.points[k].ns),
+                 svg_y(&axes, panel.points[k].error), 5.0, kind_color(kind_of(panel.points[k].row)), 0);
+    draw_labels(&panel, &axes, file);
+}
+
+static int has_kind(const bench *b, plot_kind kind)
+{
+    for (int k = 0; k < b->row_count; k++)
+        if (kind_of(&b->rows[k]) == kind && isfinite(b->rows[k].smape))
+            return 1;
+    return 0;
+}
+
+static void draw_legend(const bench *b, double y, FILE *file)
+{
+    double x = LEFT;
+    for (plot_kind kind = 0; kind < PLOT_KINDS; kind++)
+        if (has_kind(b, kind)) {
+            svg_mark(file, kind_shapes[kind], x + 6.0, y - 4.0, 5.0, kind_color(kind), 0);
+            svg_text(file, x + 17.0, y, "start", NULL, kind_titles[kind]);
+            x += 44.0 + 6.6 * (double)strlen(kind_titles[kind]);
+        }
+    svg_line(file, x, y - 4.0, x + 26.0, y - 4.0, "#888", 1.2, 1);
+    svg_text(file, x + 32.0, y, "start", NULL, "nothing faster is better (Pareto front)");
+}
+
+/* What the panels under it were measured on. */
+static void title_of(const bench *b, const char *backend, char *text, size_t size)
+{
+    const bench_row *row = b->rows;
+    while (strcmp(row->backend, backend) != 0)
+        row++;
+    if (row->io)
+        snprintf(text, size, "%s, buffers subtracted%s", backend, row->threads ? ", all threads" : "");
+    else
+        snprintf(text, size, "%s, one thread, %s", backend, b->cpu);
+}
+
+void bench_write_plot(const bench *b, FILE *file)
+{
+    const char *backends[PLOT_BACKENDS];
+    char text[160];
+    int count = choose_backends(b, backends);
+    double row_height = HEIGHT + BELOW;
+    svg_begin(file, LEFT + 2 * WIDTH + BETWEEN + RIGHT, TOP + count * row_height - 24.0);
+    svg_heading(file, LEFT, 28.0, "Error against run time");
+    draw_legend(b, 52.0, file);
+    for (int k = 0; k < count; k++) {
+        double top = TOP + k * row_height;
+        title_of(b, backends[k], text, sizeof text);
+        svg_text(file, LEFT, top - 10.0, "start", NULL, text);
+        draw_panel(b, backends[k], 0, LEFT, top, file);
+        draw_panel(b, backends[k], 1, LEFT + WIDTH + BETWEEN, top, file);
+    }
+    svg_end(file);
+}

@@ -1,0 +1,126 @@
+/* timed.c: exported scenes on one Vulkan device, compiled and ready to be timed again and again. */
+#include "gpu/timed.h"
+
+#include "core/error.h"
+#include "gpu/compile.h"
+#include "hnbrdf/measured.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+/* The text of shaders/bench.comp. */
+extern const char hnbrdf_bench_comp[];
+
+typedef struct push_constants {
+    uint32_t count;
+    int32_t material;
+} push_constants;
+
+static double milliseconds(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec * 1e3 + (double)now.tv_nsec * 1e-6;
+}
+
+/* ---- Buffers ------------------------------------------------------------------------------------- */
+
+static hnbrdf_result upload_directions(const gpu_device *device, gpu_timed_buffers *buffers,
+                                       hnbrdf_error *error)
+{
+    size_t size = buffers->count * 6 * sizeof(float);
+    float *pairs = malloc(size);
+    if (!pairs)
+        return hnbrdf_fail(error, HNBRDF_ERROR_MEMORY, "timing: no memory for %lu pairs",
+                           (unsigned long)buffers->count);
+    hnbrdf_rng rng;
+    hnbrdf_rng_seed(&rng, 1, 0);
+    for (uint32_t k = 0; k < buffers->count; k++)
+        hnbrdf_sampler_draw(HNBRDF_SAMPLER_UNIFORM, &rng, pairs + 6 * k, pairs + 6 * k + 3);
+    hnbrdf_result result = gpu_upload(device, &buffers->directions, pairs, size, error);
+    free(pairs);
+    return result;
+}
+
+hnbrdf_result gpu_timed_buffers_open(const gpu_device *device, uint32_t count,
+                                     gpu_timed_buffers *buffers, hnbrdf_error *error)
+{
+    memset(buffers, 0, sizeof *buffers);
+    buffers->count = count;
+    hnbrdf_result result =
+        gpu_buffer_open(device, count * 6 * sizeof(float), &buffers->directions, error);
+    if (!result)
+        result = gpu_buffer_open(device, count * 3 * sizeof(float), &buffers->values, error);
+    if (!result)
+        result = upload_directions(device, buffers, error);
+    if (result)
+        gpu_timed_buffers_close(device, buffers);
+    return result;
+}
+
+void gpu_timed_buffers_close(const gpu_device *device, gpu_timed_buffers *buffers)
+{
+    gpu_buffer_close(device, &buffers->directions);
+    gpu_buffer_close(device, &buffers->values);
+}
+
+/* ---- Scenes -------------------------------------------------------------------------------------- */
+
+static hnbrdf_result open_program(const gpu_device *device, const gpu_timed_buffers *buffers,
+                                  const char *scene, gpu_work work, gpu_timed *timed,
+                                  hnbrdf_error *error)
+{
+    static const char *const defines[] = {"WORK=0", "WORK=1", "WORK=2"};
+    const gpu_include include = {"scene.glsl", scene};
+    const gpu_buffer *const bound[] = {&buffers->directions, &buffers->values};
+    uint32_t *spirv = NULL;
+    double started = milliseconds();
+    hnbrdf_result result =
+        gpu_compile(hnbrdf_bench_comp, &include, 1, defines[work], &spirv, &timed->spirv_bytes, error);
+    timed->compile_ms = milliseconds() - started;
+    if (!result)
+        result = gpu_program_open(device, spirv, timed->spirv_bytes, bound, 2, sizeof(push_constants),
+                                  &timed->program, error);
+    free(spirv);
+    return result;
+}
+
+/* What a renderer waits for before the first picture: drivers compile here or at the first dispatch. */
+static hnbrdf_result open_pipeline(const gpu_device *device, gpu_timed *timed, hnbrdf_error *error)
+{
+    push_constants push = {1, 0};
+    double started = milliseconds();
+    hnbrdf_result result = gpu_pipeline_open(device, &timed->program, 0, &timed->pipeline, error);
+    if (!result)
+        result = gpu_dispatch(device, &timed->program, timed->pipeline, &push, 1, 1, NULL, error);
+    timed->first_ms = milliseconds() - started;
+    return result;
+}
+
+hnbrdf_result gpu_timed_open(const gpu_device *device, const gpu_timed_buffers *buffers,
+                             const char *scene, gpu_work work, gpu_timed *timed, hnbrdf_error *error)
+{
+    memset(timed, 0, sizeof *timed);
+    hnbrdf_result result = open_program(device, buffers, scene, work, timed, error);
+    if (!result)
+        result = open_pipeline(device, timed, error);
+    if (result)
+        gpu_timed_close(device, timed);
+    return result;
+}
+
+void gpu_timed_close(const gpu_device *device, gpu_timed *timed)
+{
+    vkDestroyPipeline(device->handle, timed->pipeline, NULL);
+    timed->pipeline = VK_NULL_HANDLE;
+    gpu_program_close(device, &timed->program);
+}
+
+hnbrdf_result gpu_timed_run(const gpu_device *device, const gpu_timed_buffers *buffers,
+                            const gpu_timed *timed, int repeats, double *ns, hnbrdf_error *error)
+{
+    push_constants push = {buffers->count, 0};
+    return gpu_dispatch(device, &timed->program, timed->pipeline, &push, buffers->count, repeats, ns,
+                        error);
+}
