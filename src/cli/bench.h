@@ -61,6 +61,14 @@ typedef struct bench_row {
     double smape, psnr;
 } bench_row;
 
+/* What one thread can do with the instructions of this name, in FLOP/s: with fused multiply-adds, and
+ * with multiplications and additions apart, as all of this library's arithmetic is. */
+enum { BENCH_PEAKS = 6 };
+typedef struct bench_peak {
+    const char *variant;
+    double fma, muladd;
+} bench_peak;
+
 typedef struct bench {
     bench_model models[BENCH_MODELS]; /* the first one is GGX alone, to compare with */
     int model_count;
@@ -68,7 +76,8 @@ typedef struct bench {
     int row_count;
     bench_probe io[BENCH_DEVICES];
     int io_count;
-    double peak_single, peak_all; /* FLOP/s of one thread and of all; 0: not measured */
+    bench_peak peaks[BENCH_PEAKS];
+    int peak_count;
     const char *command_line;
     int sampler;
     long pairs, size, spp, rounds;
@@ -87,9 +96,10 @@ double bench_network_ns(const bench_row *row);
 /* The row of GGX alone on the same backend, variant and precision as far as there is one; NULL: none.
  */
 const bench_row *bench_ggx(const bench *b, const bench_row *row);
-/* Multiplications and additions of the network in `ns`, as a share of what the row's threads could do.
- */
-double bench_peak_fraction(const bench *b, const bench_row *row, double ns);
+/* Multiplications and additions of the network in `ns`, as a share of what the row's threads could do
+ * with its instructions (a software device's: with the widest there are), fused or not; NaN where
+ * unknown. */
+double bench_peak_fraction(const bench *b, const bench_row *row, double ns, int fused);
 
 /* ---- bench_cpu.c --------------------------------------------------------------------------------- */
 

@@ -8,18 +8,22 @@
 #include <string.h>
 
 /* Few enough that directions and values stay in the nearest cache. */
-enum { PAIRS = 512, BLOCKS = PAIRS / HNBRDF_LANES };
+enum { PAIRS = 512, BLOCKS = PAIRS / HNBRDF_LANES, TABLE = 16 };
 
+/* One model with one variant. */
 typedef struct cpu_work {
     struct bench_cpu *cpu;
-    const bench_model *model;
+    hnbrdf_model *model;
+    const hnbrdf_material *material;
+    hnbrdf_prepared prepared;
+    const hnbrdf_material *table; /* for hnbrdf_eval_many() */
+    int index[PAIRS];
     struct cpu_work *next;
 } cpu_work;
 
 struct bench_cpu {
     float wi[PAIRS][3], wo[PAIRS][3], f[PAIRS][3];
     float inputs[BLOCKS][HNBRDF_ENCODING_SIZE][HNBRDF_LANES], outputs[HNBRDF_MAX_OUTPUTS][HNBRDF_LANES];
-    float input[PAIRS][HNBRDF_ENCODING_SIZE];
     cpu_work *works; /* all that were made */
 };
 
@@ -32,7 +36,18 @@ static double run_single(void *context, long repeats)
     double started = bench_thread_ns();
     for (long n = 0; n < repeats; n++)
         for (int k = 0; k < PAIRS; k++)
-            hnbrdf_eval(w->model->model, w->model->material, cpu->wi[k], cpu->wo[k], cpu->f[k]);
+            hnbrdf_eval(w->model, w->material, cpu->wi[k], cpu->wo[k], cpu->f[k]);
+    return bench_thread_ns() - started;
+}
+
+static double run_prepared(void *context, long repeats)
+{
+    cpu_work *w = context;
+    struct bench_cpu *cpu = w->cpu;
+    double started = bench_thread_ns();
+    for (long n = 0; n < repeats; n++)
+        for (int k = 0; k < PAIRS; k++)
+            hnbrdf_prepared_eval(&w->prepared, cpu->wi[k], cpu->wo[k], cpu->f[k]);
     return bench_thread_ns() - started;
 }
 
@@ -42,8 +57,18 @@ static double run_batch(void *context, long repeats)
     struct bench_cpu *cpu = w->cpu;
     double started = bench_thread_ns();
     for (long n = 0; n < repeats; n++)
-        hnbrdf_eval_batch(w->model->model, w->model->material, PAIRS, cpu->wi[0], 0, cpu->wo[0], 0,
-                          cpu->f[0], 0);
+        hnbrdf_eval_batch(w->model, w->material, PAIRS, cpu->wi[0], 0, cpu->wo[0], 0, cpu->f[0], 0);
+    return bench_thread_ns() - started;
+}
+
+static double run_many(void *context, long repeats)
+{
+    cpu_work *w = context;
+    struct bench_cpu *cpu = w->cpu;
+    double started = bench_thread_ns();
+    for (long n = 0; n < repeats; n++)
+        hnbrdf_eval_many(w->model, w->table, w->index, PAIRS, cpu->wi[0], 0, cpu->wo[0], 0, cpu->f[0],
+                         0);
     return bench_thread_ns() - started;
 }
 
@@ -51,23 +76,10 @@ static double run_network(void *context, long repeats)
 {
     cpu_work *w = context;
     struct bench_cpu *cpu = w->cpu;
-    float out[HNBRDF_MAX_OUTPUTS];
-    double started = bench_thread_ns();
-    for (long n = 0; n < repeats; n++)
-        for (int k = 0; k < PAIRS; k++)
-            hnbrdf_network(&w->model->desc, w->model->material->latent, cpu->input[k], out);
-    return bench_thread_ns() - started;
-}
-
-static double run_network_blocks(void *context, long repeats)
-{
-    cpu_work *w = context;
-    struct bench_cpu *cpu = w->cpu;
     double started = bench_thread_ns();
     for (long n = 0; n < repeats; n++)
         for (int k = 0; k < BLOCKS; k++)
-            hnbrdf_network_block(&w->model->desc, w->model->material->latent, cpu->inputs[k],
-                                 cpu->outputs);
+            hnbrdf_network_block(&w->prepared, cpu->inputs[k], cpu->outputs);
     return bench_thread_ns() - started;
 }
 
@@ -81,35 +93,83 @@ static void fill(struct bench_cpu *cpu)
     for (int k = 0; k < PAIRS; k++) {
         hnbrdf_sampler_draw(HNBRDF_SAMPLER_UNIFORM, &rng, cpu->wi[k], cpu->wo[k]);
         for (int i = 0; i < HNBRDF_ENCODING_SIZE; i++)
-            cpu->input[k][i] = cpu->inputs[k / HNBRDF_LANES][i][k % HNBRDF_LANES] =
-                2.0f * hnbrdf_rng_float(&rng) - 1.0f;
+            cpu->inputs[k / HNBRDF_LANES][i][k % HNBRDF_LANES] = 2.0f * hnbrdf_rng_float(&rng) - 1.0f;
     }
 }
 
-static cpu_work *add_work(struct bench_cpu *cpu, const bench_model *model)
+/* Some of the model's materials without any order, as the hits of a scattered ray batch have them. */
+static void fill_table(cpu_work *work)
 {
+    int count = hnbrdf_model_material_count(work->model);
+    hnbrdf_rng rng;
+    hnbrdf_rng_seed(&rng, 2, 0);
+    work->table = hnbrdf_model_material(work->model, 0);
+    for (int k = 0; k < PAIRS; k++)
+        work->index[k] = (int)(hnbrdf_rng_u32(&rng) % (uint32_t)(count < TABLE ? count : TABLE));
+}
+
+/* NULL after a message. */
+static cpu_work *add_work(struct bench_cpu *cpu, const bench_model *model, hnbrdf_variant variant)
+{
+    hnbrdf_model_desc desc = model->desc;
+    hnbrdf_error error;
     cpu_work *work = calloc(1, sizeof *work);
-    if (!work)
+    if (!work) {
+        cli_fail("out of memory");
         return NULL;
-    *work = (cpu_work){.cpu = cpu, .model = model, .next = cpu->works};
-    return cpu->works = work;
+    }
+    work->next = cpu->works;
+    cpu->works = work;
+    work->cpu = cpu;
+    desc.variant = variant;
+    if (hnbrdf_model_create(&desc, NULL, &work->model, &error)) {
+        cli_fail("%s", error.text);
+        return NULL;
+    }
+    work->material = hnbrdf_model_material(work->model, 0);
+    hnbrdf_prepare(work->model, work->material, &work->prepared);
+    fill_table(work);
+    return work;
 }
 
 typedef double (*runner)(void *context, long repeats);
 
-static int add_row(bench *b, struct bench_cpu *cpu, const bench_model *model, const char *backend,
-                   const char *variant, runner whole, runner network)
+static int add_row(bench *b, const bench_model *model, cpu_work *work, hnbrdf_variant variant,
+                   const char *backend, runner whole, int with_network)
 {
-    bench_row *row = bench_add_row(b, model, backend, variant, "model", "float");
-    cpu_work *work = row ? add_work(cpu, model) : NULL;
-    if (!work)
-        return row ? cli_fail("out of memory") : CLI_FAILURE;
+    bench_row *row = bench_add_row(b, model, backend, hnbrdf_variant_name(variant), "model", "float");
+    if (!row)
+        return CLI_FAILURE;
     row->threads = 1;
     row->bytes = hnbrdf_model_weight_count(model->model) * sizeof(float);
     row->whole = bench_probe_make(whole, work, PAIRS);
-    if (model->desc.kind != HNBRDF_KIND_GGX)
-        row->network = bench_probe_make(network, work, PAIRS);
+    if (with_network && model->desc.kind != HNBRDF_KIND_GGX)
+        row->network = bench_probe_make(run_network, work, PAIRS);
     return CLI_OK;
+}
+
+/* Batches with every variant, the rest with the one that is in use. */
+static int add_model(bench *b, struct bench_cpu *cpu, const bench_model *model)
+{
+    int code = CLI_OK;
+    for (int v = HNBRDF_VARIANT_PLAIN; hnbrdf_variant_name((hnbrdf_variant)v) && code == CLI_OK; v++) {
+        hnbrdf_variant variant = (hnbrdf_variant)v;
+        int in_use = variant == model->desc.variant;
+        if (!hnbrdf_variant_available(variant))
+            continue;
+        cpu_work *work = add_work(cpu, model, variant);
+        if (!work)
+            return CLI_FAILURE;
+        if (in_use)
+            code = add_row(b, model, work, variant, "c-single", run_single, 0);
+        if (in_use && code == CLI_OK)
+            code = add_row(b, model, work, variant, "c-single-prepared", run_prepared, 0);
+        if (code == CLI_OK)
+            code = add_row(b, model, work, variant, "c-batch", run_batch, 1);
+        if (in_use && code == CLI_OK)
+            code = add_row(b, model, work, variant, "c-many", run_many, 1);
+    }
+    return code;
 }
 
 bench_cpu *bench_cpu_open(bench *b)
@@ -118,12 +178,8 @@ bench_cpu *bench_cpu_open(bench *b)
     int code = cpu ? CLI_OK : cli_fail("out of memory");
     if (code == CLI_OK)
         fill(cpu);
-    for (int k = 0; k < b->model_count && code == CLI_OK; k++) {
-        const bench_model *model = &b->models[k];
-        code = add_row(b, cpu, model, "c-single", "plain", run_single, run_network);
-        if (code == CLI_OK)
-            code = add_row(b, cpu, model, "c-batch", "plain", run_batch, run_network_blocks);
-    }
+    for (int k = 0; k < b->model_count && code == CLI_OK; k++)
+        code = add_model(b, cpu, &b->models[k]);
     if (code == CLI_OK)
         return cpu;
     bench_cpu_close(cpu);
@@ -134,6 +190,7 @@ void bench_cpu_close(bench_cpu *cpu)
 {
     for (cpu_work *work = cpu ? cpu->works : NULL; work;) {
         cpu_work *next = work->next;
+        hnbrdf_model_free(work->model);
         free(work);
         work = next;
     }

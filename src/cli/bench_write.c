@@ -8,12 +8,13 @@
 static const char columns[] =
     "model,net,encoding,latent,backend,variant,weights,precision,ns_per_eval,evals_per_s,peak_fraction,"
     "ratio_to_ggx,compile_ms,bytes,mults,smape,psnr,io_ns,net_ns,net_peak_fraction,first_dispatch_ms,"
-    "threads";
+    "threads,net_muladd_fraction";
 
 /* ---- What follows from a row --------------------------------------------------------------------- */
 
 typedef struct figures {
-    double ns, network_ns, io_ns, per_second, peak_fraction, network_peak_fraction, ratio;
+    double ns, network_ns, io_ns, per_second, peak_fraction, network_peak_fraction,
+        network_muladd_fraction, ratio;
 } figures;
 
 static figures figures_of(const bench *b, const bench_row *row)
@@ -24,8 +25,9 @@ static figures figures_of(const bench *b, const bench_row *row)
                  .io_ns = row->io ? row->io->ns : (double)NAN,
                  .ratio = (double)NAN};
     f.per_second = 1e9 / f.ns;
-    f.peak_fraction = bench_peak_fraction(b, row, f.ns);
-    f.network_peak_fraction = bench_peak_fraction(b, row, f.network_ns);
+    f.peak_fraction = bench_peak_fraction(b, row, f.ns, 1);
+    f.network_peak_fraction = bench_peak_fraction(b, row, f.network_ns, 1);
+    f.network_muladd_fraction = bench_peak_fraction(b, row, f.network_ns, 0);
     if (ggx)
         f.ratio = f.ns / bench_ns(ggx);
     return f;
@@ -73,9 +75,10 @@ static void print_heading(const bench *b)
 {
     printf("%s, %d threads in this machine; CPU rows on one thread, in its own CPU time\n", b->cpu,
            cli_processors());
-    if (b->peak_single > 0.0)
-        printf("multiply-add peak measured in this run: %.1f GFLOP/s on one thread, %.1f on all\n",
-               b->peak_single * 1e-9, b->peak_all * 1e-9);
+    for (int k = 0; k < b->peak_count; k++)
+        printf("%s %s: %.1f GFLOP/s fused, %.1f with additions apart", k ? "," : "peak of one thread,",
+               b->peaks[k].variant, b->peaks[k].fma * 1e-9, b->peaks[k].muladd * 1e-9);
+    printf("\n");
     printf(
         "least of %ld rounds over all rows; ns/eval without buffers (io), network: the network alone\n",
         b->rounds);
@@ -96,7 +99,8 @@ static void print_ratios(const bench *b, const bench_row *row)
     printf("  %s, %s %s %s %s: whole BRDF %.2f times its network", row->model->name, row->backend,
            row->variant, row->weights, row->precision, f.ns / f.network_ns);
     if (isfinite(f.network_peak_fraction))
-        printf(", network at %.1f %% of the peak", 100.0 * f.network_peak_fraction);
+        printf(", network at %.1f %% of the peak (%.1f %% of that without fusing)",
+               100.0 * f.network_peak_fraction, 100.0 * f.network_muladd_fraction);
     for (int k = 0; k < b->row_count; k++) {
         const bench_row *peer = &b->rows[k];
         if (strcmp(peer->weights, "published-style") == 0 && peer != row && peer->model == row->model &&
@@ -154,10 +158,9 @@ static void write_csv_row(const bench *b, const bench_row *row, FILE *file)
                             row->first_ms};
     for (int k = 0; k < 6; k++)
         write_csv_number(file, after[k]);
-    if (row->threads)
-        fprintf(file, ",%d\n", row->threads);
-    else
-        fputs(",\n", file);
+    write_csv_number(file, row->threads ? row->threads : (double)NAN);
+    write_csv_number(file, f.network_muladd_fraction);
+    putc('\n', file);
 }
 
 void bench_write_csv(const bench *b, FILE *file)
@@ -206,6 +209,7 @@ static void write_json_row(const bench *b, const bench_row *row, FILE *file)
     write_json_number(file, "io_ns", f.io_ns);
     write_json_number(file, "net_ns", f.network_ns);
     write_json_number(file, "net_peak_fraction", f.network_peak_fraction);
+    write_json_number(file, "net_muladd_fraction", f.network_muladd_fraction);
     write_json_number(file, "first_dispatch_ms", row->first_ms);
     write_json_number(file, "threads", row->threads ? row->threads : (double)NAN);
     fprintf(file, "\"bytes\": %zu, \"mults\": %zu}", row->bytes,
@@ -219,8 +223,11 @@ void bench_write_json(const bench *b, FILE *file)
     write_json_text(file, "version", hnbrdf_version());
     write_json_text(file, "cpu", b->cpu);
     write_json_number(file, "processors", cli_processors());
-    write_json_number(file, "peak_flops_single", b->peak_single);
-    write_json_number(file, "peak_flops_all", b->peak_all);
+    fputs("\"peaks\": [", file);
+    for (int k = 0; k < b->peak_count; k++)
+        fprintf(file, "%s{\"variant\": \"%s\", \"fma\": %.6g, \"muladd\": %.6g}", k ? ", " : "",
+                b->peaks[k].variant, b->peaks[k].fma, b->peaks[k].muladd);
+    fputs("], ", file);
     write_json_number(file, "rounds", (double)b->rounds);
     write_json_text(file, "sampler", hnbrdf_sampler_name((hnbrdf_sampler)b->sampler));
     write_json_number(file, "pairs", (double)b->pairs);

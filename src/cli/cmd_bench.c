@@ -17,11 +17,15 @@ static const cli_command command = {
     "is always there to compare with. All rows are sampled in turn, many times; the least time "
     "counts.\n"
     "\n"
-    "Backends: c-single (hnbrdf_eval), c-batch (hnbrdf_eval_batch; a row a variant), vulkan:DEVICE "
-    "(the\n"
-    "exported shader, fast build). CPU rows are of one thread, in its CPU time; Vulkan rows by the "
-    "device's\n"
-    "timestamps, less the time of an empty kernel on the same buffers, which is shown as io.\n"
+    "Backends: c-single (hnbrdf_eval), c-single-prepared (hnbrdf_prepared_eval), c-batch "
+    "(hnbrdf_eval_batch;\n"
+    "a row a variant), c-many (hnbrdf_eval_many, a material drawn for every pair), vulkan:DEVICE (the "
+    "exported\n"
+    "shader, fast build, two materials). CPU rows are of one thread, in its CPU time. Vulkan rows are "
+    "by the\n"
+    "device's timestamps, those of a software device by the process's CPU time over the number of "
+    "processors,\n"
+    "less the time of an empty kernel on the same buffers, which is shown as io.\n"
     "Weights: model (as loaded), constants (in the shader's code), published-style (a peer: the same "
     "network\n"
     "with the directions as inputs, mat4 chains with literals of three decimals, microfacet formulas "
@@ -30,8 +34,8 @@ static const cli_command command = {
     "\n"
     "CSV columns: ns_per_eval (without buffers); peak_fraction: multiplications and additions of the "
     "network\n"
-    "in that time, of the multiply-add peak measured in the same run on as many threads; ratio_to_ggx: "
-    "of\n"
+    "in that time, of the FMA peak measured in the same run, with the row's instructions and threads; "
+    "ratio_to_ggx:\nof "
     "ns_per_eval to that of GGX alone on the same backend; compile_ms: GLSL to SPIR-V; bytes: of the "
     "weights,\n"
     "or of the SPIR-V with evaluation alone in it; mults: a evaluation's in the network; smape, psnr: "
@@ -108,11 +112,16 @@ const bench_row *bench_ggx(const bench *b, const bench_row *row)
     return NULL;
 }
 
-double bench_peak_fraction(const bench *b, const bench_row *row, double ns)
+double bench_peak_fraction(const bench *b, const bench_row *row, double ns, int fused)
 {
-    double peak = row->threads == 1 ? b->peak_single : row->threads > 1 ? b->peak_all : 0.0;
     double operations = 2.0 * (double)hnbrdf_model_multiplications(row->model->model);
-    return peak > 0.0 && operations > 0.0 ? operations / ns * 1e9 / peak : (double)NAN;
+    const char *variant = row->io ? cli_peak_name() : row->variant;
+    for (int k = 0; k < b->peak_count; k++)
+        if (strcmp(b->peaks[k].variant, variant) == 0 && row->threads > 0 && operations > 0.0) {
+            double peak = row->threads * (fused ? b->peaks[k].fma : b->peaks[k].muladd);
+            return operations / ns * 1e9 / peak;
+        }
+    return (double)NAN;
 }
 
 /* ---- Models -------------------------------------------------------------------------------------- */
@@ -250,20 +259,33 @@ typedef struct watch {
     double peak_seconds; /* when the peak was measured last */
 } watch;
 
-/* The peak is measured again and again along the way: the machine's clock rate changes within a run. */
+/* Peaks are measured again and again along the way: the clock rate changes within a run. */
 static void between(void *user, double share)
 {
     watch *w = user;
     cli_progress_update(&w->line, share, "");
     if (cli_seconds() - w->peak_seconds < 1.0)
         return;
-    w->b->peak_single = fmax(w->b->peak_single, cli_fma_peak(1));
-    w->b->peak_all = fmax(w->b->peak_all, cli_fma_peak(0));
+    for (int k = 0; k < w->b->peak_count; k++) {
+        double fma, muladd;
+        bench_peak *peak = &w->b->peaks[k];
+        cli_peaks_of(peak->variant, &fma, &muladd);
+        peak->fma = fmax(peak->fma, fma);
+        peak->muladd = fmax(peak->muladd, muladd);
+    }
     w->peak_seconds = cli_seconds();
+}
+
+static void choose_peaks(bench *b)
+{
+    for (int v = HNBRDF_VARIANT_PLAIN; hnbrdf_variant_name((hnbrdf_variant)v); v++)
+        if (hnbrdf_variant_available((hnbrdf_variant)v) && b->peak_count < BENCH_PEAKS)
+            b->peaks[b->peak_count++].variant = hnbrdf_variant_name((hnbrdf_variant)v);
 }
 
 static int time_rows(bench *b, const settings *set)
 {
+    choose_peaks(b);
     bench_probe **probes = calloc(2 * BENCH_ROWS + BENCH_DEVICES, sizeof(bench_probe *));
     int count = 0;
     if (!probes)

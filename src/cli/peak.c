@@ -4,6 +4,8 @@
 #include "cli/cli.h"
 #include "fit/workers.h"
 
+#include <string.h>
+
 #if defined(__x86_64__)
 #include <immintrin.h>
 #elif defined(__aarch64__)
@@ -81,19 +83,37 @@ static float chain_neon_fma(void)
 #undef STEP
 #endif
 
-static peak_chains choose(void)
+/* From the narrowest to the widest; all but the first are run only where the processor has them. */
+static const peak_chains all_chains[] = {
+    {"plain", 4, chain_plain, chain_plain},
+#if defined(__x86_64__)
+    {"sse2", 4, chain_plain, chain_plain},
+    {"avx2", 8, chain_avx2, chain_avx2_fma},
+    {"avx512", 16, chain_avx512, chain_avx512_fma},
+#elif defined(__aarch64__)
+    {"neon", 4, chain_plain, chain_neon_fma},
+#endif
+};
+
+static int is_available(const peak_chains *chains)
 {
 #if defined(__x86_64__)
-    if (__builtin_cpu_supports("avx512f"))
-        return (peak_chains){"avx512", 16, chain_avx512, chain_avx512_fma};
-    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
-        return (peak_chains){"avx2", 8, chain_avx2, chain_avx2_fma};
-    return (peak_chains){"sse2", 4, chain_plain, chain_plain};
-#elif defined(__aarch64__)
-    return (peak_chains){"neon", 4, chain_plain, chain_neon_fma};
-#else
-    return (peak_chains){"plain", 4, chain_plain, chain_plain};
+    if (chains->width == 16)
+        return __builtin_cpu_supports("avx512f");
+    if (chains->width == 8)
+        return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
 #endif
+    return chains->name != NULL;
+}
+
+/* By name, or the widest; NULL: none. */
+static const peak_chains *choose(const char *name)
+{
+    const peak_chains *found = NULL;
+    for (size_t k = 0; k < sizeof all_chains / sizeof all_chains[0]; k++)
+        if (is_available(&all_chains[k]) && (!name || strcmp(all_chains[k].name, name) == 0))
+            found = &all_chains[k];
+    return found;
 }
 
 typedef struct run {
@@ -129,17 +149,24 @@ static double measure(float (*chain)(void), int width, int threads)
 
 double cli_fma_peak(int threads)
 {
-    peak_chains chains = choose();
-    return measure(chains.fma, chains.width, threads);
+    const peak_chains *chains = choose(NULL);
+    return measure(chains->fma, chains->width, threads);
 }
 
 double cli_muladd_peak(int threads)
 {
-    peak_chains chains = choose();
-    return measure(chains.muladd, chains.width, threads);
+    const peak_chains *chains = choose(NULL);
+    return measure(chains->muladd, chains->width, threads);
+}
+
+void cli_peaks_of(const char *name, double *fma, double *muladd)
+{
+    const peak_chains *chains = choose(name);
+    *fma = chains ? measure(chains->fma, chains->width, 1) : 0.0;
+    *muladd = chains ? measure(chains->muladd, chains->width, 1) : 0.0;
 }
 
 const char *cli_peak_name(void)
 {
-    return choose().name;
+    return choose(NULL)->name;
 }

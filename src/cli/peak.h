@@ -10,7 +10,9 @@ double cli_fma_peak(int threads);
 /* The same for separate multiplications and additions: the limit of code that must round as plain C
  * does, as all of this library's. Equal to the first on some processors, half of it on others. */
 double cli_muladd_peak(int threads);
-/* What is measured: "avx512", "avx2", "neon", "sse2" or "plain". */
+/* Both on one thread with the instructions of this name (see below); 0 where the machine lacks them. */
+void cli_peaks_of(const char *name, double *fma, double *muladd);
+/* What the first two measure: "avx512", "avx2", "neon", "sse2" or "plain". */
 const char *cli_peak_name(void);
 
 #endif

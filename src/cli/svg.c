@@ -51,8 +51,8 @@ void svg_text(FILE *file, double x, double y, const char *anchor, const char *co
     put_attribute(file, "x", x);
     put_attribute(file, "y", y);
     fprintf(file, " text-anchor='%s'", anchor);
-    if (color)
-        fprintf(file, " fill='%s'", color);
+    if (color) /* such a text may lie on lines */
+        fprintf(file, " fill='%s' stroke='#fff' stroke-width='3' paint-order='stroke'", color);
     putc('>', file);
     put_escaped(file, text);
     fputs("</text>\n", file);

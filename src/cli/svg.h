@@ -29,7 +29,8 @@ extern const char *const svg_colors[SVG_COLORS];
 void svg_begin(FILE *file, double width, double height);
 void svg_end(FILE *file);
 
-/* Text at a point, which is its "start", "middle" or "end"; any characters, color NULL: black. */
+/* Text at a point, which is its "start", "middle" or "end"; any characters. color NULL: black; else
+ * with a white rim, readable on lines too. */
 void svg_text(FILE *file, double x, double y, const char *anchor, const char *color, const char *text);
 /* Larger and bold. */
 void svg_heading(FILE *file, double x, double y, const char *text);
