@@ -27,6 +27,19 @@ if(HNBRDF_WITH_OPENEXR)
   target_link_libraries(hnbrdf_render PRIVATE OpenEXR::OpenEXRCore)
 endif()
 
+# What the BRDF is by its formulas, for tests and `hnbrdf stability`; no installed library links it.
+include(CheckCSourceCompiles)
+set(CMAKE_REQUIRED_LIBRARIES quadmath)
+check_c_source_compiles("#include <quadmath.h>
+  int main(void) { __float128 x = 2; return (int)sqrtq(x); }" HNBRDF_HAS_QUADMATH)
+unset(CMAKE_REQUIRED_LIBRARIES)
+add_library(hnbrdf_oracle STATIC EXCLUDE_FROM_ALL src/oracle/oracle.c)
+target_link_libraries(hnbrdf_oracle PRIVATE hnbrdf_flags m)
+if(HNBRDF_HAS_QUADMATH)
+  target_compile_definitions(hnbrdf_oracle PRIVATE HNBRDF_ORACLE_QUAD)
+  target_link_libraries(hnbrdf_oracle PRIVATE quadmath)
+endif()
+
 add_executable(hnbrdf_cli ${HNBRDF_TOOL_SOURCES})
 set_target_properties(hnbrdf_cli PROPERTIES OUTPUT_NAME hnbrdf RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR})
 target_link_libraries(hnbrdf_cli PRIVATE hnbrdf_flags hnbrdf_render hnbrdf_fit_static
