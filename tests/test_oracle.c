@@ -52,7 +52,8 @@ static void fresnel_is_the_mean_of_the_squared_amplitudes(void **state)
             double g[2];
             for (int i = 0; i < 2; i++) {
                 const float *w = i ? wo : wi;
-                double z = (double)w[2], w2 = z * z + (double)w[0] * (double)w[0] + (double)w[1] * (double)w[1];
+                double z = (double)w[2],
+                       w2 = z * z + (double)w[0] * (double)w[0] + (double)w[1] * (double)w[1];
                 g[i] = 1 / (z + sqrt(w2));
             }
             double expected = (rs * rs + rp * rp) / 2 / pi * g[0] * g[1];
@@ -62,9 +63,10 @@ static void fresnel_is_the_mean_of_the_squared_amplitudes(void **state)
         }
 }
 
-/* Seen along n nothing is masked: the density of wi is D h.z/(4 wo.h) and G1(n) = 1. In slopes r a (cos, sin)
- * with r^2 = v/(1 - v), D h.z dh = dv dphi/(2 pi): of a midpoint rule in v and phi every point has the same
- * share, so the mean of density over expectation, with the share of wi below the horizon, is 1. */
+/* Seen along n nothing is masked: the density of wi is D h.z/(4 wo.h) and G1(n) = 1. In slopes r a
+ * (cos, sin) with r^2 = v/(1 - v), D h.z dh = dv dphi/(2 pi): of a midpoint rule in v and phi every
+ * point has the same share, so the mean of density over expectation, with the share of wi below the
+ * horizon, is 1. */
 static void the_density_is_that_of_mirrored_normals_and_integrates_to_one(void **state)
 {
     (void)state;
@@ -102,7 +104,8 @@ static void normal_incidence_has_its_closed_form(void **state)
         oracle_point point = ggx_point(&m, n, n);
         for (int c = 0; c < 3; c++) {
             double r0 = ((double)m.eta[c] - 1) / ((double)m.eta[c] + 1);
-            double expected = (double)m.kd[c] / pi + r0 * r0 / (4 * pi * (double)m.alpha[0] * (double)m.alpha[1]);
+            double expected =
+                (double)m.kd[c] / pi + r0 * r0 / (4 * pi * (double)m.alpha[0] * (double)m.alpha[1]);
             assert_true(fabs(point.value[c] - expected) <= 1e-12 * expected);
         }
     }
@@ -117,9 +120,15 @@ static void a_network_of_one_unit_is_what_one_writes_out(void **state)
         last[k] = 0.5f * (float)(k + 1);
         biases[k] = -1.0f;
     }
-    hnbrdf_model_desc desc = {.kind = HNBRDF_KIND_HYBRID, .hidden = 1, .layers = 1, .latent = 2,
-                              .scale = 0.5f, .shift = 0.25f, .floor = 0.01f,
-                              .weights = {first, last}, .biases = {bias, biases}};
+    hnbrdf_model_desc desc = {.kind = HNBRDF_KIND_HYBRID,
+                              .hidden = 1,
+                              .layers = 1,
+                              .latent = 2,
+                              .scale = 0.5f,
+                              .shift = 0.25f,
+                              .floor = 0.01f,
+                              .weights = {first, last},
+                              .biases = {bias, biases}};
     hnbrdf_material m;
     hnbrdf_material_init(&m);
     m.latent[0] = 0.5f;
@@ -147,7 +156,8 @@ static void library_and_oracle_agree_on_every_kind_and_encoding(void **state)
     rng r = rng_make(5);
     for (int kind = HNBRDF_KIND_HYBRID; kind <= HNBRDF_KIND_GGX; kind++)
         for (int encoding = 0; encoding <= HNBRDF_ENCODING_ANGLES_ANISOTROPIC; encoding++) {
-            hnbrdf_model *model = random_model(&r, (hnbrdf_kind)kind, (hnbrdf_encoding)encoding, 16, 2, 4);
+            hnbrdf_model *model =
+                random_model(&r, (hnbrdf_kind)kind, (hnbrdf_encoding)encoding, 16, 2, 4);
             hnbrdf_model_desc desc;
             hnbrdf_model_describe(model, &desc);
             for (int k = 0; k < 40; k++) {

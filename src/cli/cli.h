@@ -25,6 +25,7 @@ int cmd_bake(int argc, char **argv);
 int cmd_bench(int argc, char **argv);
 int cmd_import(int argc, char **argv);
 int cmd_info(int argc, char **argv);
+int cmd_stability(int argc, char **argv);
 
 /* ---- Options ---------------------------------------------------------------------------------------
  * A command describes itself once; --help, parsing and messages come from that. */

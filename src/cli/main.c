@@ -17,6 +17,7 @@ static const subcommand subcommands[] = {
     {"eval", cmd_eval, "BRDF values for pairs of directions, CSV to CSV"},
     {"export", cmd_export, "write a model's materials as one GLSL include"},
     {"verify", cmd_verify, "prove on a GPU that the exported shader equals the C library"},
+    {"stability", cmd_stability, "error against an oracle at extremes, on CPU and GPU"},
     {"render", cmd_render, "picture of a sphere under an environment map"},
     {"sheet", cmd_sheet, "contact sheet: reference, GGX alone and model, side by side"},
     {"edit", cmd_edit, "change a material: colour, refraction, roughness, angle"},
@@ -37,7 +38,7 @@ static void print_overview(FILE *file)
           "commands:\n",
           file);
     for (int k = 0; k < SUBCOMMANDS; k++)
-        fprintf(file, "  %-8s  %s\n", subcommands[k].name, subcommands[k].about);
+        fprintf(file, "  %-9s  %s\n", subcommands[k].name, subcommands[k].about);
     fputs(
         "\n"
         "DATA is `builtin` (procedural materials), MERL .binary, RGL .bsdf or UTIA .bin files, or\n"

@@ -1,4 +1,5 @@
-/* oracle.c: DESIGN section 2 line by line, in real numbers of many digits. Slow, and meant to be read. */
+/* oracle.c: DESIGN section 2 line by line, in real numbers of many digits. Slow, and meant to be read.
+ */
 #include "oracle/oracle.h"
 
 #include "oracle/real.h"
@@ -46,7 +47,8 @@ static real limited(real x, real low, real high)
     return x < low ? low : x > high ? high : x;
 }
 
-/* ---- The analytic part ------------------------------------------------------------------------------- */
+/* ---- The analytic part
+ * ------------------------------------------------------------------------------- */
 
 static real D(vec h, real ax, real ay)
 {
@@ -66,7 +68,8 @@ static real F(real eta, real c)
     return a * a * (1 + b * b) / 2;
 }
 
-/* ---- Encodings --------------------------------------------------------------------------------------- */
+/* ---- Encodings
+ * --------------------------------------------------------------------------------------- */
 
 typedef struct angles {
     vec h;
@@ -115,7 +118,8 @@ static void encode(hnbrdf_encoding encoding, vec wi, vec wo, const angles *a, re
     }
 }
 
-/* ---- The network ------------------------------------------------------------------------------------- */
+/* ---- The network
+ * ------------------------------------------------------------------------------------- */
 
 static real hard_gelu(real x)
 {
@@ -144,7 +148,8 @@ static void network(const hnbrdf_model_desc *desc, const float *latent, const re
     memcpy(out, from, (size_t)columns * sizeof *out);
 }
 
-/* ---- All of it --------------------------------------------------------------------------------------- */
+/* ---- All of it
+ * --------------------------------------------------------------------------------------- */
 
 static real specular_share(const hnbrdf_material *material)
 {
@@ -157,6 +162,18 @@ static real specular_share(const hnbrdf_material *material)
     return limited(specular / (specular + diffuse), (real)2 / 10, (real)9 / 10);
 }
 
+double oracle_pdf(hnbrdf_kind kind, const hnbrdf_material *material, const float wi[3],
+                  const float wo[3])
+{
+    if (!(wi[2] > 0.0f && wo[2] > 0.0f))
+        return 0.0;
+    vec i = in_tangent_frame(wi, material->rotation), o = in_tangent_frame(wo, material->rotation);
+    real ax = material->alpha[0], ay = material->alpha[1];
+    real share = kind == HNBRDF_KIND_NEURAL ? 0 : specular_share(material);
+    real lobe = D(angles_of(i, o).h, ax, ay) * G1(o, ax, ay) / (4 * o.z);
+    return (double)limited(share * lobe + (1 - share) * i.z / pi(), 0, HNBRDF_MAX_VALUE);
+}
+
 void oracle_evaluate(const hnbrdf_model_desc *desc, const hnbrdf_material *material, const float wi[3],
                      const float wo[3], oracle_point *point)
 {
@@ -167,9 +184,7 @@ void oracle_evaluate(const hnbrdf_model_desc *desc, const hnbrdf_material *mater
     vec i = in_tangent_frame(wi, material->rotation), o = in_tangent_frame(wo, material->rotation);
     real ax = material->alpha[0], ay = material->alpha[1], limit = HNBRDF_MAX_EXPONENT;
     angles a = angles_of(i, o);
-    real share = neural ? 0 : specular_share(material);
-    real lobe = D(a.h, ax, ay) * G1(o, ax, ay) / (4 * o.z);
-    point->pdf = (double)limited(share * lobe + (1 - share) * i.z / pi(), 0, HNBRDF_MAX_VALUE);
+    point->pdf = oracle_pdf(desc->kind, material, wi, wo);
 
     real x[6] = {0}, out[6] = {0};
     if (desc->kind != HNBRDF_KIND_GGX) {

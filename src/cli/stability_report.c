@@ -1,0 +1,243 @@
+/* stability_report.c: what `hnbrdf stability` found, as a table, CSV and JSON. */
+#include "cli/stability_report.h"
+
+#include "cli/cli.h"
+#include "cli/csv.h"
+#include "oracle/oracle.h"
+
+#include <math.h>
+
+static const stability_row *row_at(const stability_result *result, int what, int backend, int stage)
+{
+    return &result->rows[(what * result->backend_count + backend) * STABILITY_STAGES + stage];
+}
+
+int stability_passed(const stability_result *results, int count)
+{
+    for (int m = 0; m < count; m++)
+        for (int k = 0; k < stability_case_count * results[m].backend_count * STABILITY_STAGES; k++)
+            if (results[m].rows[k].applies && !results[m].rows[k].within)
+                return 0;
+    return 1;
+}
+
+static size_t wrong(const stability_row *row)
+{
+    return row->not_finite + row->negative + row->inconsistent;
+}
+
+static const char *verdict(const stability_row *row)
+{
+    return !row->within ? (wrong(row) ? "INVALID" : "OUTSIDE") : isfinite(row->bar) ? "ok" : "finite";
+}
+
+/* ---- For people
+ * -------------------------------------------------------------------------------------- */
+
+static void print_place(const stability_row *row, FILE *file)
+{
+    const stability_place *p = &row->place;
+    fprintf(file,
+            "      channel %d: %.9g, true %.9g; wi (%.9g %.9g %.9g) wo (%.9g %.9g %.9g) alpha %.6g "
+            "%.6g eta %.9g "
+            "kd %.4g; inputs an ulp off: %.2g\n",
+            p->channel, p->got, p->expected, (double)p->pair[0], (double)p->pair[1], (double)p->pair[2],
+            (double)p->pair[3], (double)p->pair[4], (double)p->pair[5], (double)p->material.alpha[0],
+            (double)p->material.alpha[1], (double)p->material.eta[p->channel % 3],
+            (double)p->material.kd[p->channel % 3], p->sensitivity);
+}
+
+static void print_row(const stability_row *row, int brief, FILE *file)
+{
+    fprintf(file, "  %-16s %-9s %-32.32s %8zu %6zu ", row->what->name, stability_stage_name(row->stage),
+            row->backend, row->values, wrong(row));
+    if (row->what->not_a_number)
+        fprintf(file, "%9s %9s %9s  %s\n", "", "", "", verdict(row));
+    else
+        fprintf(file, "%9.2g %9.2g %9.3g  %s\n", row->worst_scale, row->worst_own, row->worst_ulp,
+                verdict(row));
+    if (!row->within || (!brief && row->worst_scale > 0.0))
+        print_place(row, file);
+}
+
+/* Of a stage of a case, the backend that is furthest from its bar. */
+static const stability_row *worst_backend(const stability_result *result, int what, int stage)
+{
+    const stability_row *worst = NULL;
+    for (int b = 0; b < result->backend_count; b++) {
+        const stability_row *row = row_at(result, what, b, stage);
+        if (!row->applies)
+            continue;
+        if (!worst || wrong(row) > wrong(worst) ||
+            (wrong(row) == wrong(worst) &&
+             (row->worst_share > worst->worst_share ||
+              (!isfinite(row->bar) && row->worst_scale > worst->worst_scale))))
+            worst = row;
+    }
+    return worst;
+}
+
+static void print_case(const stability_result *result, int what, int brief, FILE *file)
+{
+    const stability_case *c = &stability_cases[what];
+    fprintf(file, "%s: %s%s%s\n", c->name, c->about, c->why ? "; " : "", c->why ? c->why : "");
+    for (int stage = 0; stage < STABILITY_STAGES; stage++) {
+        const stability_row *worst = worst_backend(result, what, stage);
+        for (int b = 0; b < result->backend_count; b++) {
+            const stability_row *row = row_at(result, what, b, stage);
+            if (row->applies && (!brief || row == worst || !row->within))
+                print_row(row, brief, file);
+        }
+    }
+}
+
+static void print_summary(const stability_result *result, FILE *file)
+{
+    fprintf(file, "worst of the cases that have a bar, and the numbers that differ from C's bits\n");
+    for (int b = 0; b < result->backend_count; b++)
+        for (int stage = 0; stage < STABILITY_STAGES; stage++) {
+            double worst = 0.0;
+            size_t values = 0, invalid = 0, differs = 0;
+            for (int k = 0; k < stability_case_count; k++) {
+                const stability_row *row = row_at(result, k, b, stage);
+                values += row->values;
+                invalid += wrong(row);
+                differs += row->differs;
+                if (isfinite(row->bar) && stability_cases[k].demand == STABILITY_ACCURATE)
+                    worst = fmax(worst, row->worst_scale);
+            }
+            if (values)
+                fprintf(file, "  %-9s %-32.32s %9zu %6zu invalid  worst %-9.2g %zu differ\n",
+                        stability_stage_name((stability_stage)stage),
+                        row_at(result, 0, b, stage)->backend, values, invalid, worst, differs);
+        }
+}
+
+void stability_print(const stability_result *results, int count, int brief, FILE *file)
+{
+    fprintf(
+        file,
+        "Errors against the formulas in %s: relative to f before the floor is subtracted (judged), to "
+        "f, in "
+        "ulp of f.\nBars: analytic and pdf %.2g, value %.2g; four times that in directed rounding.\n\n",
+        oracle_arithmetic(), STABILITY_ANALYTIC_BAR, STABILITY_VALUE_BAR);
+    for (int m = 0; m < count; m++) {
+        fprintf(file, "%s\n  %-16s %-9s %-32s %8s %6s %9s %9s %9s\n", results[m].path, "case", "stage",
+                "backend", "numbers", "wrong", "worst", "of f", "ulp");
+        for (int k = 0; k < stability_case_count; k++)
+            print_case(&results[m], k, brief, file);
+        print_summary(&results[m], file);
+        fputc('\n', file);
+    }
+    fputs(stability_passed(results, count) ? "all finite, none negative, every bar kept\n"
+                                           : "NOT PASSED\n",
+          file);
+}
+
+/* ---- For programs
+ * ------------------------------------------------------------------------------------ */
+
+void stability_write_csv(const stability_result *results, int count, FILE *file)
+{
+    fputs("model,case,stage,backend,values,not_finite,negative,inconsistent,differs,worst,worst_of_f,"
+          "worst_ulp,"
+          "bar,within,channel,got,expected,ulp_sensitivity,wi_x,wi_y,wi_z,wo_x,wo_y,wo_z,alpha_x,alpha_"
+          "y,eta,kd,"
+          "rotation,why\n",
+          file);
+    for (int m = 0; m < count; m++)
+        for (int k = 0; k < stability_case_count * results[m].backend_count * STABILITY_STAGES; k++) {
+            const stability_row *row = &results[m].rows[k];
+            const stability_place *p = &row->place;
+            if (!row->applies)
+                continue;
+            csv_write_text(file, results[m].path);
+            fprintf(file, ",%s,%s,", row->what->name, stability_stage_name(row->stage));
+            csv_write_text(file, row->backend);
+            fprintf(file, ",%zu,%zu,%zu,%zu,%zu,%.4g,%.4g,%.4g,%.4g,%d,%d,%.9g,%.9g,%.4g", row->values,
+                    row->not_finite, row->negative, row->inconsistent, row->differs, row->worst_scale,
+                    row->worst_own, row->worst_ulp, row->bar, row->within, p->channel, p->got,
+                    p->expected, p->sensitivity);
+            for (int i = 0; i < 6; i++)
+                fprintf(file, ",%.9g", (double)p->pair[i]);
+            fprintf(file, ",%.9g,%.9g,%.9g,%.9g,%.9g,", (double)p->material.alpha[0],
+                    (double)p->material.alpha[1], (double)p->material.eta[p->channel % 3],
+                    (double)p->material.kd[p->channel % 3], (double)p->material.rotation);
+            csv_write_text(file, row->what->why ? row->what->why : "");
+            fputc('\n', file);
+        }
+}
+
+/* JSON has no infinity and no NaN: null. */
+static void put(FILE *file, const char *key, double value)
+{
+    if (isfinite(value))
+        fprintf(file, ", \"%s\": %.9g", key, value);
+    else
+        fprintf(file, ", \"%s\": null", key);
+}
+
+static void put_floats(FILE *file, const char *key, const float *values, int count)
+{
+    fprintf(file, ", \"%s\": [", key);
+    for (int i = 0; i < count; i++)
+        if (isfinite(values[i]))
+            fprintf(file, "%s%.9g", i ? ", " : "", (double)values[i]);
+        else
+            fprintf(file, "%snull", i ? ", " : "");
+    fputc(']', file);
+}
+
+static void json_row(const char *path, const stability_row *row, FILE *file)
+{
+    const stability_place *p = &row->place;
+    fputs("    {\"model\": ", file);
+    cli_write_json_text(file, path);
+    fprintf(file, ", \"case\": \"%s\", \"stage\": \"%s\", \"backend\": ", row->what->name,
+            stability_stage_name(row->stage));
+    cli_write_json_text(file, row->backend);
+    fprintf(file,
+            ", \"values\": %zu, \"not_finite\": %zu, \"negative\": %zu, \"inconsistent\": %zu, "
+            "\"differs\": %zu",
+            row->values, row->not_finite, row->negative, row->inconsistent, row->differs);
+    put(file, "worst", row->worst_scale);
+    put(file, "worst_of_f", row->worst_own);
+    put(file, "worst_ulp", row->worst_ulp);
+    put(file, "bar", row->bar);
+    fprintf(file, ", \"within\": %s, \"channel\": %d", row->within ? "true" : "false", p->channel);
+    put(file, "got", p->got);
+    put(file, "expected", p->expected);
+    put(file, "ulp_sensitivity", p->sensitivity);
+    put_floats(file, "wi", p->pair, 3);
+    put_floats(file, "wo", p->pair + 3, 3);
+    put_floats(file, "alpha", p->material.alpha, 2);
+    put_floats(file, "eta", p->material.eta, 3);
+    put_floats(file, "kd", p->material.kd, 3);
+    fputc('}', file);
+}
+
+void stability_write_json(const stability_result *results, int count, FILE *file)
+{
+    const char *comma = "";
+    fprintf(file, "{\n  \"oracle\": \"%s\",\n  \"passed\": %s,\n  \"cases\": [\n", oracle_arithmetic(),
+            stability_passed(results, count) ? "true" : "false");
+    for (int k = 0; k < stability_case_count; k++) {
+        fprintf(file, "%s    {\"name\": \"%s\", \"about\": ", k ? ",\n" : "", stability_cases[k].name);
+        cli_write_json_text(file, stability_cases[k].about);
+        fputs(", \"why\": ", file);
+        if (stability_cases[k].why)
+            cli_write_json_text(file, stability_cases[k].why);
+        else
+            fputs("null", file);
+        fputc('}', file);
+    }
+    fputs("\n  ],\n  \"rows\": [\n", file);
+    for (int m = 0; m < count; m++)
+        for (int k = 0; k < stability_case_count * results[m].backend_count * STABILITY_STAGES; k++)
+            if (results[m].rows[k].applies) {
+                fputs(comma, file);
+                json_row(results[m].path, &results[m].rows[k], file);
+                comma = ",\n";
+            }
+    fputs("\n  ]\n}\n", file);
+}

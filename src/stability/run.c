@@ -1,0 +1,311 @@
+/* run.c: evaluates the cases with every backend and judges each number by the oracle's. */
+#include "stability/stability.h"
+
+#include "core/error.h"
+#include "oracle/oracle.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+const char *stability_stage_name(stability_stage stage)
+{
+    static const char *const names[STABILITY_STAGES] = {"analytic", "value", "pdf", "sample"};
+    return names[stage];
+}
+
+int stability_stage_numbers(stability_stage stage)
+{
+    static const int numbers[STABILITY_STAGES] = {3, 3, 1, 8};
+    return numbers[stage];
+}
+
+/* ---- The truth
+ * --------------------------------------------------------------------------------------- */
+
+/* What number `n` of a stage should be, and what its error is measured by. */
+static double truth(const oracle_point *point, stability_stage stage, int n, double *scale)
+{
+    double expected = stage == STABILITY_ANALYTIC ? point->analytic[n]
+                      : stage == STABILITY_VALUE  ? point->value[n]
+                                                  : point->pdf;
+    *scale = fmax(stage == STABILITY_VALUE ? point->scale[n] : expected, (double)FLT_MIN);
+    return expected;
+}
+
+/* Sum over all inputs of the relative change of the true value when one of them moves to the next
+ * float. */
+static double sensitivity(const hnbrdf_model_desc *desc, stability_stage stage,
+                          const stability_place *place)
+{
+    double total = 0.0;
+    for (int i = 0; i < 6 + 1 + desc->latent; i++) {
+        stability_place moved = *place;
+        float *input = i < 6    ? &moved.pair[i]
+                       : i == 6 ? &moved.material.rotation
+                                : &moved.material.latent[i - 7];
+        double ignored;
+        oracle_point point;
+        if (i == 6 && *input == 0.0f)
+            continue;
+        *input = nextafterf(*input, 2.0f * *input + 1.0f);
+        oracle_evaluate(desc, &moved.material, moved.pair, moved.pair + 3, &point);
+        total += fabs(truth(&point, stage, place->channel, &ignored) - place->expected) / place->scale;
+    }
+    return total;
+}
+
+/* ---- Judging
+ * ----------------------------------------------------------------------------------------- */
+
+/* Turning a direction rounds its x and y to 4.5 u, u = 2^-24: two products and a sum of numbers up to
+ * 1, and the cosine and sine. Slopes of h = wi + wo are then 9 u/s.z off, in alphas 9 u/(s.z alpha),
+ * and D = .../(1 + slope^2)^2 changes by at most twice that. Beyond a tenth it is no bound: none is
+ * set. */
+static double turned_bar(const hnbrdf_material *material, const float pair[6])
+{
+    double alpha = (double)fminf(material->alpha[0], material->alpha[1]);
+    double bar = 18.0 * 0x1p-24 / (alpha * ((double)pair[2] + (double)pair[5]));
+    return bar < 0.1 ? bar : (double)INFINITY;
+}
+
+static double bar_of(const stability_case *what, const stability_backend *backend,
+                     stability_stage stage, const hnbrdf_material *material, const float pair[6])
+{
+    stability_demand demand = stage == STABILITY_VALUE ? what->value_demand : what->demand;
+    double bar = stage == STABILITY_VALUE ? STABILITY_VALUE_BAR : STABILITY_ANALYTIC_BAR;
+    if (demand == STABILITY_FINITE)
+        return (double)INFINITY;
+    if (demand == STABILITY_TURNED)
+        bar += turned_bar(material, pair);
+    return bar * backend->loosen;
+}
+
+static double spacing(double size)
+{
+    float rounded = (float)size;
+    return (double)(nextafterf(rounded, INFINITY) - rounded);
+}
+
+static void note_place(stability_row *row, const stability_block *block, int k, int channel, double got,
+                       double expected, double scale)
+{
+    row->place.material = block->material;
+    memcpy(row->place.pair, block->pairs[k], sizeof row->place.pair);
+    row->place.channel = channel;
+    row->place.got = got;
+    row->place.expected = expected;
+    row->place.scale = scale;
+}
+
+/* Finite and not negative; counts and keeps the first that is not. */
+static int is_valid(stability_row *row, const stability_block *block, int k, int n, float value)
+{
+    int direction = row->stage == STABILITY_SAMPLE && n < 2; /* x and y of a direction have signs */
+    int valid = isfinite(value) && (direction || value >= 0.0f);
+    row->values++;
+    if (valid)
+        return 1;
+    if (row->not_finite + row->negative == 0)
+        note_place(row, block, k, n, (double)value, (double)NAN, (double)NAN);
+    if (isfinite(value))
+        row->negative++;
+    else
+        row->not_finite++;
+    return 0;
+}
+
+static void judge(stability_row *row, const stability_block *block, int k, int channel, double bar,
+                  float value, const oracle_point *point)
+{
+    double scale, expected = truth(point, row->stage, channel, &scale);
+    double error = fabs((double)value - expected), own = fmax(fabs(expected), (double)FLT_MIN);
+    if (error <= (double)FLT_MIN) /* subnormal results may be flushed */
+        error = 0.0;
+    int broken = row->not_finite + row->negative > 0;
+    if (!broken && error / scale >= row->worst_scale)
+        note_place(row, block, k, channel, (double)value, expected, scale);
+    row->worst_scale = fmax(row->worst_scale, error / scale);
+    row->worst_own = fmax(row->worst_own, error / own);
+    row->worst_ulp = fmax(row->worst_ulp, error / spacing(own));
+    row->bar = fmin(row->bar, bar);
+    row->worst_share = fmax(row->worst_share, error / scale / bar);
+}
+
+/* A sample's own rules; its density is judged where it says it was drawn. */
+static void judge_sample(stability_row *row, const hnbrdf_model_desc *desc,
+                         const stability_block *block, int k, const stability_backend *backend,
+                         const float values[STABILITY_NUMBERS])
+{
+    float wi_z = values[2], pdf = values[6];
+    row->inconsistent += pdf > 0.0f && (!(wi_z > 0.0f) || memcmp(&pdf, &values[7], sizeof pdf) != 0);
+    if (!(pdf > 0.0f) || row->what->not_a_number)
+        return;
+    stability_block drawn = *block;
+    memcpy(drawn.pairs[k], values, 3 * sizeof(float));
+    oracle_point point = {
+        .pdf = oracle_pdf(desc->kind, &block->material, drawn.pairs[k], drawn.pairs[k] + 3)};
+    judge(row, &drawn, k, 0, bar_of(row->what, backend, row->stage, &block->material, drawn.pairs[k]),
+          pdf, &point);
+}
+
+static void judge_block(stability_row *row, const hnbrdf_model_desc *desc,
+                        const stability_backend *backend, const stability_block *block,
+                        float values[STABILITY_BLOCK][STABILITY_NUMBERS],
+                        float first[STABILITY_BLOCK][STABILITY_NUMBERS], const oracle_point *points)
+{
+    int numbers = stability_stage_numbers(row->stage);
+    for (int k = 0; k < STABILITY_BLOCK; k++) {
+        double bar = bar_of(row->what, backend, row->stage, &block->material, block->pairs[k]);
+        int valid = 1;
+        for (int n = 0; n < numbers; n++) {
+            int same = memcmp(&values[k][n], &first[k][n], sizeof(float)) == 0;
+            row->differs += !same;
+            valid &= is_valid(row, block, k, n, values[k][n]);
+            if (valid && row->stage != STABILITY_SAMPLE && !row->what->not_a_number)
+                judge(row, block, k, n, bar, values[k][n], &points[k]);
+        }
+        if (valid && row->stage == STABILITY_SAMPLE)
+            judge_sample(row, desc, block, k, backend, values[k]);
+    }
+}
+
+/* ---- Running
+ * ----------------------------------------------------------------------------------------- */
+
+/* A model whose weights and biases are `factor` times those of another one; free with
+ * hnbrdf_model_free(). */
+static hnbrdf_result scaled_model(const hnbrdf_model *model, float factor, hnbrdf_model **scaled,
+                                  hnbrdf_error *error)
+{
+    hnbrdf_model_desc desc;
+    hnbrdf_model_describe(model, &desc);
+    float *copy = malloc((hnbrdf_model_weight_count(model) + 1) * sizeof *copy), *next = copy;
+    if (!copy)
+        return hnbrdf_fail(error, HNBRDF_ERROR_MEMORY, "stability: no memory for a network");
+    int columns = 6 + desc.latent;
+    for (int k = 0; desc.kind != HNBRDF_KIND_GGX && k <= desc.layers; k++) {
+        int rows = k < desc.layers ? desc.hidden : desc.kind == HNBRDF_KIND_HYBRID ? 6 : 3;
+        const float *weights = next;
+        for (int i = 0; i < rows * columns; i++)
+            *next++ = desc.weights[k][i] * factor;
+        desc.weights[k] = weights;
+        const float *biases = next;
+        for (int i = 0; i < rows; i++)
+            *next++ = desc.biases[k][i] * factor;
+        desc.biases[k] = biases;
+        columns = rows;
+    }
+    hnbrdf_result result = hnbrdf_model_create(&desc, NULL, scaled, error);
+    free(copy);
+    return result;
+}
+
+typedef struct runner {
+    const stability_options *options;
+    stability_backend *backends;
+    int backend_count;
+    stability_row *rows;
+    hnbrdf_error *error;
+} runner;
+
+static hnbrdf_result run_block(const runner *r, const hnbrdf_model_desc *desc,
+                               const stability_block *block, const oracle_point *points,
+                               stability_row *rows)
+{
+    for (int stage = 0; stage < STABILITY_STAGES; stage++) {
+        static const float zeros[STABILITY_BLOCK][STABILITY_NUMBERS];
+        float first[STABILITY_BLOCK][STABILITY_NUMBERS], values[STABILITY_BLOCK][STABILITY_NUMBERS];
+        memcpy(first, zeros, sizeof first);
+        for (int b = 0; b < r->backend_count; b++) {
+            stability_backend *backend = &r->backends[b];
+            stability_row *row = &rows[b * STABILITY_STAGES + stage];
+            if (!(backend->stages & 1 << stage))
+                continue;
+            hnbrdf_result result =
+                backend->run(backend, (stability_stage)stage, block, values, r->error);
+            if (result)
+                return result;
+            if (b == 0)
+                memcpy(first, values, sizeof first);
+            row->applies = 1;
+            judge_block(row, desc, backend, block, values, first, points);
+        }
+    }
+    return HNBRDF_OK;
+}
+
+static void open_rows(const runner *r, const stability_case *what, stability_row *rows)
+{
+    for (int b = 0; b < r->backend_count; b++)
+        for (int stage = 0; stage < STABILITY_STAGES; stage++) {
+            stability_row *row = &rows[b * STABILITY_STAGES + stage];
+            memset(row, 0, sizeof *row);
+            row->what = what;
+            memcpy(row->backend, r->backends[b].name, sizeof row->backend);
+            row->stage = (stability_stage)stage;
+            row->bar = (double)INFINITY;
+        }
+}
+
+static void close_row(const hnbrdf_model_desc *desc, stability_row *row)
+{
+    row->within = row->not_finite + row->negative + row->inconsistent == 0 && row->worst_share <= 1.0;
+    if (row->applies && row->worst_scale > 0.0 && isfinite(row->place.expected))
+        row->place.sensitivity = sensitivity(desc, row->stage, &row->place);
+}
+
+static hnbrdf_result run_case(const runner *r, const stability_case *what, const hnbrdf_model *model,
+                              stability_row *rows)
+{
+    enum { FIELDS = 25 }; /* cases that break one field after the other need as many blocks */
+    int blocks =
+        what->not_a_number && r->options->blocks < FIELDS + 1 ? FIELDS + 1 : r->options->blocks;
+    hnbrdf_model_desc desc;
+    hnbrdf_model_describe(model, &desc);
+    open_rows(r, what, rows);
+    for (int b = 0; b < r->backend_count; b++) {
+        stability_backend *backend = &r->backends[b];
+        hnbrdf_result result =
+            backend->model == model ? HNBRDF_OK : backend->begin(backend, model, r->error);
+        if (result)
+            return result;
+    }
+    for (int k = 0; k < blocks; k++) {
+        stability_block block;
+        oracle_point points[STABILITY_BLOCK];
+        stability_block_make(what, k, &desc.materials[k % desc.material_count], &block);
+        for (int i = 0; i < STABILITY_BLOCK && !what->not_a_number; i++)
+            oracle_evaluate(&desc, &block.material, block.pairs[i], block.pairs[i] + 3, &points[i]);
+        hnbrdf_result result = run_block(r, &desc, &block, points, rows);
+        if (result)
+            return result;
+    }
+    for (int k = 0; k < r->backend_count * STABILITY_STAGES; k++)
+        close_row(&desc, &rows[k]);
+    return HNBRDF_OK;
+}
+
+hnbrdf_result stability_run(const hnbrdf_model *model, const stability_options *options,
+                            stability_backend *backends, int backend_count, stability_row *rows,
+                            hnbrdf_error *error)
+{
+    const runner r = {options, backends, backend_count, rows, error};
+    hnbrdf_result result = HNBRDF_OK;
+    for (int k = 0; k < stability_case_count && !result; k++) {
+        const stability_case *what = &stability_cases[k];
+        hnbrdf_model *scaled = NULL;
+        if (what->weight_factor != 0.0f)
+            result = scaled_model(model, what->weight_factor, &scaled, error);
+        if (!result)
+            result = run_case(&r, what, scaled ? scaled : model,
+                              rows + k * backend_count * STABILITY_STAGES);
+        for (int b = 0; b < backend_count && scaled; b++)
+            backends[b].model = NULL;
+        hnbrdf_model_free(scaled);
+        if (options->progress)
+            options->progress(options->progress_user, (k + 1.0) / stability_case_count);
+    }
+    return result;
+}

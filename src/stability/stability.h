@@ -1,0 +1,87 @@
+/* stability.h: every implementation of the BRDF against the oracle, over the hard cases. */
+#ifndef HNBRDF_STABILITY_STABILITY_H
+#define HNBRDF_STABILITY_STABILITY_H
+
+#include "stability/cases.h"
+
+typedef enum stability_stage {
+    STABILITY_ANALYTIC = 0, /* hnbrdf_eval_analytic(): 3 numbers an evaluation */
+    STABILITY_VALUE,        /* hnbrdf_eval(): 3 */
+    STABILITY_PDF,          /* hnbrdf_pdf(): 1 */
+    STABILITY_SAMPLE,       /* hnbrdf_sample(): wi, weight, pdf, then hnbrdf_pdf() of that wi: 8 */
+    STABILITY_STAGES
+} stability_stage;
+enum { STABILITY_NUMBERS = 8, STABILITY_NAME = 96 };
+
+/* "analytic", "value", "pdf", "sample"; numbers an evaluation. */
+const char *stability_stage_name(stability_stage stage);
+int stability_stage_numbers(stability_stage stage);
+
+/* An implementation. begin() is called before run() and whenever the model is another one. */
+typedef struct stability_backend {
+    char name[STABILITY_NAME];
+    int stages;    /* sum of 1 << stage */
+    double loosen; /* factor on the bars: 1 for correctly rounded operations */
+    hnbrdf_result (*begin)(struct stability_backend *backend, const hnbrdf_model *model,
+                           hnbrdf_error *error);
+    hnbrdf_result (*run)(struct stability_backend *backend, stability_stage stage,
+                         const stability_block *block, float values[STABILITY_BLOCK][STABILITY_NUMBERS],
+                         hnbrdf_error *error);
+    void *user;
+    const hnbrdf_model *model; /* of the last begin() */
+    int mode;                  /* for run() */
+} stability_backend;
+
+/* The C library: `c`, the reference; `c-batch`; `c` in every rounding mode and with subnormals flushed,
+ * as far as this machine has them. Returns how many; at most STABILITY_C_BACKENDS. */
+enum { STABILITY_C_BACKENDS = 16 };
+int stability_c_backends(stability_backend backends[STABILITY_C_BACKENDS]);
+
+/* The bars, relative: of f_a and pdf to themselves; of f to oracle_point.scale, because where the floor
+ * is subtracted f has no digits of its own. */
+#define STABILITY_ANALYTIC_BAR 4e-6
+#define STABILITY_VALUE_BAR 2e-5
+
+/* Where an error is largest. */
+typedef struct stability_place {
+    hnbrdf_material material;
+    float pair[6];
+    int channel;
+    double got, expected, scale;
+    double sensitivity; /* relative change of the true value when every input moves by an ulp: sum of
+                           sizes */
+} stability_place;
+
+/* One case, backend and stage. Errors are relative; below the smallest normal float they are none. */
+typedef struct stability_row {
+    const stability_case *what;
+    char backend[STABILITY_NAME];
+    stability_stage stage;
+    int applies;   /* 0: not run */
+    size_t values; /* numbers looked at */
+    size_t not_finite, negative;
+    size_t
+        inconsistent; /* samples below the horizon, or whose density is not hnbrdf_pdf()'s to the bit */
+    size_t differs;   /* numbers whose bits are not those of the first backend */
+    double worst_own; /* to f itself */
+    double worst_scale;    /* to the scale: what is judged */
+    double worst_ulp;      /* of f itself, in spacings of floats */
+    double bar;            /* least one among its evaluations; infinite: none */
+    double worst_share;    /* of the bar of its own evaluation */
+    stability_place place; /* of worst_scale, or of the first number that is not finite or negative */
+    int within;
+} stability_row;
+
+typedef struct stability_options {
+    int blocks; /* of STABILITY_BLOCK evaluations a case */
+    void (*progress)(void *user, double share);
+    void *progress_user;
+} stability_options;
+
+/* rows[stability_case_count][backend_count][STABILITY_STAGES]. Fails if something cannot be run; what
+ * is out of its bar gives HNBRDF_OK and a row with within = 0. */
+hnbrdf_result stability_run(const hnbrdf_model *model, const stability_options *options,
+                            stability_backend *backends, int backend_count, stability_row *rows,
+                            hnbrdf_error *error);
+
+#endif

@@ -1,0 +1,27 @@
+#!/bin/sh
+# test_stability_cli.sh HNBRDF MODEL: the short form of `hnbrdf stability` on the shipped model and a GGX one.
+set -eu
+hnbrdf=$1 model=$2
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+ASAN_OPTIONS=detect_leaks=0 # the Vulkan driver is unloaded before leaks are looked for
+export ASAN_OPTIONS
+fail() { echo "failed: $*"; exit 1; }
+status() { expected=$1; shift; got=0; "$@" >"$work/out" 2>"$work/err" || got=$?
+    [ $got = "$expected" ] || { cat "$work/out" "$work/err"; fail "exit $got, expected $expected: $*"; }; }
+
+status 0 "$hnbrdf" stability "$model" --blocks 3 --csv "$work/s.csv" --json "$work/s.json"
+grep -q 'every bar kept' "$work/out" || fail "no verdict"
+tail -n 40 "$work/out"
+grep -q '"passed": true' "$work/s.json" || fail "json"
+columns() { sed 's/"[^"]*"/quoted/g' | tr ',' '\n' | wc -l; }
+[ "$(head -1 "$work/s.csv" | columns)" = "$(tail -1 "$work/s.csv" | columns)" ] || fail "csv columns"
+# case, stage, backend are named in every row; the reference has all four stages of all cases.
+[ "$(grep -c ',c,' "$work/s.csv")" -ge 80 ] || fail "csv rows"
+status 0 "$hnbrdf" stability "$model" --blocks 1 --csv -
+head -1 "$work/out" | grep -q '^model,case' || fail "csv to stdout"
+status 2 "$hnbrdf" stability
+status 2 "$hnbrdf" stability "$model" --blocks 0
+status 1 "$hnbrdf" stability "$work/missing.safetensors"
+status 1 "$hnbrdf" stability "$model" --blocks 1 --csv "$work/no/such/place.csv"
+echo ok
