@@ -28,7 +28,11 @@ static size_t wrong(const stability_row *row)
 
 static const char *verdict(const stability_row *row)
 {
-    return !row->within ? (wrong(row) ? "INVALID" : "OUTSIDE") : isfinite(row->bar) ? "ok" : "finite";
+    return !row->within         ? wrong(row)                       ? "INVALID"
+                                  : row->exact && row->differs > 0 ? "OTHER BITS"
+                                                                   : "OUTSIDE"
+           : isfinite(row->bar) ? "ok"
+                                : "finite";
 }
 
 /* ---- For people
@@ -49,7 +53,7 @@ static void print_place(const stability_row *row, FILE *file)
 
 static void print_row(const stability_row *row, int brief, FILE *file)
 {
-    fprintf(file, "  %-16s %-9s %-32.32s %8zu %6zu ", row->what->name, stability_stage_name(row->stage),
+    fprintf(file, "  %-16s %-9s %-36.36s %8zu %6zu ", row->what->name, stability_stage_name(row->stage),
             row->backend, row->values, wrong(row));
     if (row->what->not_a_number)
         fprintf(file, "%9s %9s %9s  %s\n", "", "", "", verdict(row));
@@ -91,26 +95,46 @@ static void print_case(const stability_result *result, int what, int brief, FILE
     }
 }
 
+/* Over all cases of one backend and stage. */
+typedef struct stage_sum {
+    double worst; /* of the cases that have the plain bars */
+    size_t values, invalid, differs;
+} stage_sum;
+
+static stage_sum sum_stage(const stability_result *result, int backend, int stage)
+{
+    stage_sum sum = {0};
+    for (int k = 0; k < stability_case_count; k++) {
+        const stability_row *row = row_at(result, k, backend, stage);
+        sum.values += row->values;
+        sum.invalid += wrong(row);
+        sum.differs += row->differs;
+        if (isfinite(row->bar) && stability_cases[k].demand == STABILITY_ACCURATE)
+            sum.worst = fmax(sum.worst, row->worst_scale);
+    }
+    return sum;
+}
+
+/* Those that must have C's bits and do get one line together. */
 static void print_summary(const stability_result *result, FILE *file)
 {
-    fprintf(file, "worst of the cases that have a bar, and the numbers that differ from C's bits\n");
-    for (int b = 0; b < result->backend_count; b++)
-        for (int stage = 0; stage < STABILITY_STAGES; stage++) {
-            double worst = 0.0;
-            size_t values = 0, invalid = 0, differs = 0;
-            for (int k = 0; k < stability_case_count; k++) {
-                const stability_row *row = row_at(result, k, b, stage);
-                values += row->values;
-                invalid += wrong(row);
-                differs += row->differs;
-                if (isfinite(row->bar) && stability_cases[k].demand == STABILITY_ACCURATE)
-                    worst = fmax(worst, row->worst_scale);
-            }
-            if (values)
-                fprintf(file, "  %-9s %-32.32s %9zu %6zu invalid  worst %-9.2g %zu differ\n",
-                        stability_stage_name((stability_stage)stage),
-                        row_at(result, 0, b, stage)->backend, values, invalid, worst, differs);
+    fputs("the worst of all cases that have a bar\n", file);
+    for (int stage = 0; stage < STABILITY_STAGES; stage++) {
+        int same = 0;
+        for (int b = 0; b < result->backend_count; b++) {
+            const stability_row *row = row_at(result, 0, b, stage);
+            stage_sum sum = sum_stage(result, b, stage);
+            same += b > 0 && row->applies && row->exact && sum.differs == 0;
+            if (!row->applies || (b > 0 && row->exact && sum.differs == 0))
+                continue;
+            fprintf(file, "  %-9s %-36.36s %9zu numbers %6zu wrong  worst %-9.2g",
+                    stability_stage_name(row->stage), row->backend, sum.values, sum.invalid, sum.worst);
+            fprintf(file, b > 0 ? " %zu not C's bits\n" : "\n", sum.differs);
         }
+        if (same > 0)
+            fprintf(file, "  %-9s %d other ways of computing it: C's bits in every case\n",
+                    stability_stage_name((stability_stage)stage), same);
+    }
 }
 
 void stability_print(const stability_result *results, int count, int brief, FILE *file)
@@ -122,7 +146,7 @@ void stability_print(const stability_result *results, int count, int brief, FILE
         "ulp of f.\nBars: analytic and pdf %.2g, value %.2g; four times that in directed rounding.\n\n",
         oracle_arithmetic(), STABILITY_ANALYTIC_BAR, STABILITY_VALUE_BAR);
     for (int m = 0; m < count; m++) {
-        fprintf(file, "%s\n  %-16s %-9s %-32s %8s %6s %9s %9s %9s\n", results[m].path, "case", "stage",
+        fprintf(file, "%s\n  %-16s %-9s %-36s %8s %6s %9s %9s %9s\n", results[m].path, "case", "stage",
                 "backend", "numbers", "wrong", "worst", "of f", "ulp");
         for (int k = 0; k < stability_case_count; k++)
             print_case(&results[m], k, brief, file);

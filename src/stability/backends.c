@@ -44,100 +44,196 @@ static void leave(int mode, unsigned before)
 #endif
 }
 
-static void evaluate(const hnbrdf_model *model, stability_stage stage, const hnbrdf_material *material,
-                     const float pair[6], const float u[3], float values[STABILITY_NUMBERS])
+/* How the library is called. Single calls are those a backend without a form makes. */
+typedef enum call_form {
+    FORM_SINGLE = 0,
+    FORM_PREPARED, /* the material prepared once: value, pdf, sample */
+    FORM_BATCH,    /* hnbrdf_eval_batch(), hnbrdf_eval_analytic_batch() */
+    FORM_MANY,     /* hnbrdf_eval_many(): materials and pairs in an order of their own */
+    FORMS
+} call_form;
+
+static void put_sample(const hnbrdf_sample_result *sample, float pdf, float values[STABILITY_NUMBERS])
 {
-    hnbrdf_sample_result sample;
-    switch (stage) {
-    case STABILITY_ANALYTIC:
-        hnbrdf_eval_analytic(model, material, pair, pair + 3, values);
-        break;
-    case STABILITY_VALUE:
-        hnbrdf_eval(model, material, pair, pair + 3, values);
-        break;
-    case STABILITY_PDF:
-        values[0] = hnbrdf_pdf(model, material, pair, pair + 3);
-        break;
-    case STABILITY_SAMPLE:
-    default:
-        hnbrdf_sample(model, material, pair + 3, u, &sample);
-        memcpy(values, sample.wi, sizeof sample.wi);
-        memcpy(values + 3, sample.weight, sizeof sample.weight);
-        values[6] = sample.pdf;
-        values[7] = hnbrdf_pdf(model, material, sample.wi, pair + 3);
-        break;
+    memcpy(values, sample->wi, sizeof sample->wi);
+    memcpy(values + 3, sample->weight, sizeof sample->weight);
+    values[6] = sample->pdf;
+    values[7] = pdf;
+}
+
+static void run_single(const hnbrdf_model *model, stability_stage stage, const stability_block *block,
+                       float values[STABILITY_BLOCK][STABILITY_NUMBERS])
+{
+    const hnbrdf_material *material = &block->material;
+    for (int k = 0; k < STABILITY_BLOCK; k++) {
+        const float *wi = block->pairs[k], *wo = wi + 3;
+        hnbrdf_sample_result sample;
+        if (stage == STABILITY_ANALYTIC)
+            hnbrdf_eval_analytic(model, material, wi, wo, values[k]);
+        else if (stage == STABILITY_VALUE)
+            hnbrdf_eval(model, material, wi, wo, values[k]);
+        else if (stage == STABILITY_PDF)
+            values[k][0] = hnbrdf_pdf(model, material, wi, wo);
+        else {
+            hnbrdf_sample(model, material, wo, block->u[k], &sample);
+            put_sample(&sample, hnbrdf_pdf(model, material, sample.wi, wo), values[k]);
+        }
     }
+}
+
+static void run_prepared(const hnbrdf_model *model, stability_stage stage, const stability_block *block,
+                         float values[STABILITY_BLOCK][STABILITY_NUMBERS])
+{
+    hnbrdf_prepared prepared;
+    hnbrdf_prepare(model, &block->material, &prepared);
+    for (int k = 0; k < STABILITY_BLOCK; k++) {
+        const float *wi = block->pairs[k], *wo = wi + 3;
+        hnbrdf_sample_result sample;
+        if (stage == STABILITY_VALUE)
+            hnbrdf_prepared_eval(&prepared, wi, wo, values[k]);
+        else if (stage == STABILITY_PDF)
+            values[k][0] = hnbrdf_prepared_pdf(&prepared, wi, wo);
+        else {
+            hnbrdf_prepared_sample(&prepared, wo, block->u[k], &sample);
+            put_sample(&sample, hnbrdf_prepared_pdf(&prepared, sample.wi, wo), values[k]);
+        }
+    }
+}
+
+static void run_batch(const hnbrdf_model *model, stability_stage stage, const stability_block *block,
+                      float values[STABILITY_BLOCK][STABILITY_NUMBERS])
+{
+    const size_t pair = sizeof block->pairs[0], value = sizeof values[0];
+    const float *wi = block->pairs[0], *wo = wi + 3;
+    if (stage == STABILITY_ANALYTIC)
+        hnbrdf_eval_analytic_batch(model, &block->material, STABILITY_BLOCK, wi, pair, wo, pair,
+                                   values[0], value);
+    else
+        hnbrdf_eval_batch(model, &block->material, STABILITY_BLOCK, wi, pair, wo, pair, values[0],
+                          value);
+}
+
+/* Every third pair has another material beside it, so that lanes do not share theirs. */
+static void run_many(const hnbrdf_model *model, const stability_block *block,
+                     float values[STABILITY_BLOCK][STABILITY_NUMBERS])
+{
+    hnbrdf_material materials[2] = {block->material};
+    int index[2 * STABILITY_BLOCK], from[2 * STABILITY_BLOCK], count = 0;
+    float pairs[2 * STABILITY_BLOCK][6], f[2 * STABILITY_BLOCK][3];
+    hnbrdf_material_init(&materials[1]);
+    for (int k = 0; k < STABILITY_BLOCK; k++)
+        for (int other = 0; other <= (k % 3 == 0); other++) {
+            index[count] = other;
+            from[count] = k;
+            memcpy(pairs[count++], block->pairs[k], sizeof pairs[0]);
+        }
+    hnbrdf_eval_many(model, materials, index, (size_t)count, pairs[0], sizeof pairs[0], pairs[0] + 3,
+                     sizeof pairs[0], f[0], sizeof f[0]);
+    for (int k = 0; k < count; k++)
+        if (index[k] == 0)
+            memcpy(values[from[k]], f[k], sizeof f[0]);
+}
+
+static void end(stability_backend *backend)
+{
+    hnbrdf_model_free(backend->model);
+    backend->model = NULL;
 }
 
 static hnbrdf_result begin(stability_backend *backend, const hnbrdf_model *model, hnbrdf_error *error)
 {
-    (void)error;
-    backend->model = model;
-    return HNBRDF_OK;
+    hnbrdf_model_desc desc;
+    hnbrdf_model_describe(model, &desc);
+    desc.variant = (hnbrdf_variant)backend->variant;
+    return hnbrdf_model_create(&desc, NULL, &backend->model, error);
 }
 
-static hnbrdf_result run_single(stability_backend *backend, stability_stage stage,
-                                const stability_block *block,
-                                float values[STABILITY_BLOCK][STABILITY_NUMBERS], hnbrdf_error *error)
+static hnbrdf_result run(stability_backend *backend, stability_stage stage,
+                         const stability_block *block, float values[STABILITY_BLOCK][STABILITY_NUMBERS],
+                         hnbrdf_error *error)
 {
     (void)error;
     unsigned before = enter(backend->mode);
-    for (int k = 0; k < STABILITY_BLOCK; k++)
-        evaluate(backend->model, stage, &block->material, block->pairs[k], block->u[k], values[k]);
+    switch ((call_form)backend->form) {
+    case FORM_PREPARED:
+        run_prepared(backend->model, stage, block, values);
+        break;
+    case FORM_BATCH:
+        run_batch(backend->model, stage, block, values);
+        break;
+    case FORM_MANY:
+        run_many(backend->model, block, values);
+        break;
+    default:
+        run_single(backend->model, stage, block, values);
+        break;
+    }
     leave(backend->mode, before);
     return HNBRDF_OK;
 }
 
-static hnbrdf_result run_batch(stability_backend *backend, stability_stage stage,
-                               const stability_block *block,
-                               float values[STABILITY_BLOCK][STABILITY_NUMBERS], hnbrdf_error *error)
+/* ---- The list
+ * ---------------------------------------------------------------------------------------- */
+
+static const struct {
+    const char *suffix;
+    int stages;
+} forms[FORMS] = {
+    [FORM_SINGLE] = {"", (1 << STABILITY_STAGES) - 1},
+    [FORM_PREPARED] = {", prepared", 1 << STABILITY_VALUE | 1 << STABILITY_PDF | 1 << STABILITY_SAMPLE},
+    [FORM_BATCH] = {", batch", 1 << STABILITY_ANALYTIC | 1 << STABILITY_VALUE},
+    [FORM_MANY] = {", many", 1 << STABILITY_VALUE},
+};
+
+static void add(stability_backend *backends, int *count, hnbrdf_variant variant, call_form form,
+                int mode, const char *suffix)
 {
-    (void)stage;
-    (void)error;
-    hnbrdf_eval_batch(backend->model, &block->material, STABILITY_BLOCK, block->pairs[0],
-                      sizeof block->pairs[0], block->pairs[0] + 3, sizeof block->pairs[0], values[0],
-                      sizeof values[0]);
-    return HNBRDF_OK;
+    stability_backend *b = &backends[(*count)++];
+    *b = (stability_backend){.stages = forms[form].stages,
+                             .loosen = mode == FE_TONEAREST || mode == MODE_FLUSH ? 1.0 : DIRECTED,
+                             .exact = mode == FE_TONEAREST,
+                             .begin = begin,
+                             .run = run,
+                             .end = end,
+                             .variant = variant,
+                             .form = form,
+                             .mode = mode};
+    snprintf(b->name, sizeof b->name, "c %s%s%s", hnbrdf_variant_name(variant), forms[form].suffix,
+             suffix);
 }
 
 int stability_c_backends(stability_backend backends[STABILITY_C_BACKENDS])
 {
     static const struct {
-        const char *name;
+        const char *suffix;
         int mode;
-        double loosen;
     } modes[] = {
-        {"c", FE_TONEAREST, 1.0},
 #ifdef FE_UPWARD
-        {"c, rounding up", FE_UPWARD, DIRECTED},
+        {", rounding up", FE_UPWARD},
 #endif
 #ifdef FE_DOWNWARD
-        {"c, rounding down", FE_DOWNWARD, DIRECTED},
+        {", rounding down", FE_DOWNWARD},
 #endif
 #ifdef FE_TOWARDZERO
-        {"c, rounding to zero", FE_TOWARDZERO, DIRECTED},
+        {", rounding to zero", FE_TOWARDZERO},
 #endif
 #if CAN_FLUSH
-        {"c, subnormals flushed", MODE_FLUSH, 1.0},
+        {", flushing subnormals", MODE_FLUSH},
 #endif
     };
     int count = 0;
-    for (size_t k = 0; k < sizeof modes / sizeof modes[0]; k++) {
-        stability_backend single = {.stages = (1 << STABILITY_STAGES) - 1,
-                                    .loosen = modes[k].loosen,
-                                    .begin = begin,
-                                    .run = run_single,
-                                    .mode = modes[k].mode};
-        snprintf(single.name, sizeof single.name, "%s", modes[k].name);
-        backends[count++] = single;
-        if (k > 0)
+    hnbrdf_variant fastest = HNBRDF_VARIANT_PLAIN;
+    for (int v = HNBRDF_VARIANT_PLAIN; hnbrdf_variant_name((hnbrdf_variant)v); v++) {
+        if (!hnbrdf_variant_available((hnbrdf_variant)v))
             continue;
-        stability_backend batch = {.name = "c-batch",
-                                   .stages = 1 << STABILITY_VALUE,
-                                   .loosen = 1.0,
-                                   .begin = begin,
-                                   .run = run_batch};
-        backends[count++] = batch;
+        fastest = (hnbrdf_variant)v;
+        for (int f = 0; f < FORMS; f++)
+            add(backends, &count, fastest, (call_form)f, FE_TONEAREST, "");
+    }
+    for (size_t k = 0; k < sizeof modes / sizeof modes[0]; k++) {
+        add(backends, &count, HNBRDF_VARIANT_PLAIN, FORM_SINGLE, modes[k].mode, modes[k].suffix);
+        if (fastest != HNBRDF_VARIANT_PLAIN)
+            add(backends, &count, fastest, FORM_BATCH, modes[k].mode, modes[k].suffix);
     }
     return count;
 }

@@ -150,24 +150,29 @@ static void judge_sample(stability_row *row, const hnbrdf_model_desc *desc,
           pdf, &point);
 }
 
+/* What has the bits of the first backend has its errors too: see close_row(). */
 static void judge_block(stability_row *row, const hnbrdf_model_desc *desc,
-                        const stability_backend *backend, const stability_block *block,
+                        const stability_backend *backend, int is_first, const stability_block *block,
                         float values[STABILITY_BLOCK][STABILITY_NUMBERS],
                         float first[STABILITY_BLOCK][STABILITY_NUMBERS], const oracle_point *points)
 {
     int numbers = stability_stage_numbers(row->stage);
     for (int k = 0; k < STABILITY_BLOCK; k++) {
         double bar = bar_of(row->what, backend, row->stage, &block->material, block->pairs[k]);
+        size_t differs = 0;
         int valid = 1;
         for (int n = 0; n < numbers; n++) {
-            int same = memcmp(&values[k][n], &first[k][n], sizeof(float)) == 0;
-            row->differs += !same;
+            differs += memcmp(&values[k][n], &first[k][n], sizeof(float)) != 0;
             valid &= is_valid(row, block, k, n, values[k][n]);
-            if (valid && row->stage != STABILITY_SAMPLE && !row->what->not_a_number)
-                judge(row, block, k, n, bar, values[k][n], &points[k]);
         }
-        if (valid && row->stage == STABILITY_SAMPLE)
+        row->differs += differs;
+        if (!valid || (row->exact && !is_first && differs == 0))
+            continue;
+        if (row->stage == STABILITY_SAMPLE)
             judge_sample(row, desc, block, k, backend, values[k]);
+        else
+            for (int n = 0; n < numbers && !row->what->not_a_number; n++)
+                judge(row, block, k, n, bar, values[k][n], &points[k]);
     }
 }
 
@@ -230,7 +235,7 @@ static hnbrdf_result run_block(const runner *r, const hnbrdf_model_desc *desc,
             if (b == 0)
                 memcpy(first, values, sizeof first);
             row->applies = 1;
-            judge_block(row, desc, backend, block, values, first, points);
+            judge_block(row, desc, backend, b == 0, block, values, first, points);
         }
     }
     return HNBRDF_OK;
@@ -245,15 +250,27 @@ static void open_rows(const runner *r, const stability_case *what, stability_row
             row->what = what;
             memcpy(row->backend, r->backends[b].name, sizeof row->backend);
             row->stage = (stability_stage)stage;
+            row->exact = r->backends[b].exact;
             row->bar = (double)INFINITY;
         }
 }
 
-static void close_row(const hnbrdf_model_desc *desc, stability_row *row)
+/* first: the row of the first backend for the same case and stage. */
+static void close_row(const hnbrdf_model_desc *desc, const stability_row *first, stability_row *row)
 {
-    row->within = row->not_finite + row->negative + row->inconsistent == 0 && row->worst_share <= 1.0;
-    if (row->applies && row->worst_scale > 0.0 && isfinite(row->place.expected))
+    if (row != first && row->exact && row->differs == 0) {
+        row->inconsistent = first->inconsistent;
+        row->worst_own = first->worst_own;
+        row->worst_scale = first->worst_scale;
+        row->worst_ulp = first->worst_ulp;
+        row->worst_share = first->worst_share;
+        row->bar = first->bar;
+        row->place = first->place;
+    } else if (row->applies && row->worst_scale > 0.0 && isfinite(row->place.expected)) {
         row->place.sensitivity = sensitivity(desc, row->stage, &row->place);
+    }
+    row->within = row->not_finite + row->negative + row->inconsistent == 0 && row->worst_share <= 1.0 &&
+                  !(row->exact && row->differs > 0);
 }
 
 static hnbrdf_result run_case(const runner *r, const stability_case *what, const hnbrdf_model *model,
@@ -265,13 +282,6 @@ static hnbrdf_result run_case(const runner *r, const stability_case *what, const
     hnbrdf_model_desc desc;
     hnbrdf_model_describe(model, &desc);
     open_rows(r, what, rows);
-    for (int b = 0; b < r->backend_count; b++) {
-        stability_backend *backend = &r->backends[b];
-        hnbrdf_result result =
-            backend->model == model ? HNBRDF_OK : backend->begin(backend, model, r->error);
-        if (result)
-            return result;
-    }
     for (int k = 0; k < blocks; k++) {
         stability_block block;
         oracle_point points[STABILITY_BLOCK];
@@ -283,8 +293,56 @@ static hnbrdf_result run_case(const runner *r, const stability_case *what, const
             return result;
     }
     for (int k = 0; k < r->backend_count * STABILITY_STAGES; k++)
-        close_row(&desc, &rows[k]);
+        close_row(&desc, &rows[k % STABILITY_STAGES], &rows[k]);
     return HNBRDF_OK;
+}
+
+static void end_backends(const runner *r)
+{
+    for (int b = 0; b < r->backend_count; b++)
+        r->backends[b].end(&r->backends[b]);
+}
+
+/* On failure those before the one that failed are ended again. */
+static hnbrdf_result begin_backends(const runner *r, const hnbrdf_model *model)
+{
+    for (int b = 0; b < r->backend_count; b++) {
+        hnbrdf_result result = r->backends[b].begin(&r->backends[b], model, r->error);
+        if (result) {
+            const runner begun = {.backends = r->backends, .backend_count = b};
+            end_backends(&begun);
+            return result;
+        }
+    }
+    return HNBRDF_OK;
+}
+
+/* The cases from `first` on that ask for one factor on the weights; *next receives the first of the
+ * others. */
+static hnbrdf_result run_cases(const runner *r, const hnbrdf_model *model, int first, int *next)
+{
+    float factor = stability_cases[first].weight_factor;
+    hnbrdf_model *scaled = NULL;
+    hnbrdf_result result = HNBRDF_OK;
+    if (factor != 0.0f)
+        result = scaled_model(model, factor, &scaled, r->error);
+    if (!result)
+        result = begin_backends(r, scaled ? scaled : model);
+    if (result) {
+        hnbrdf_model_free(scaled);
+        return result;
+    }
+    int k = first;
+    for (; !result && k < stability_case_count && stability_cases[k].weight_factor == factor; k++) {
+        result = run_case(r, &stability_cases[k], scaled ? scaled : model,
+                          r->rows + k * r->backend_count * STABILITY_STAGES);
+        if (r->options->progress)
+            r->options->progress(r->options->progress_user, (k + 1.0) / stability_case_count);
+    }
+    end_backends(r);
+    hnbrdf_model_free(scaled);
+    *next = k;
+    return result;
 }
 
 hnbrdf_result stability_run(const hnbrdf_model *model, const stability_options *options,
@@ -293,19 +351,7 @@ hnbrdf_result stability_run(const hnbrdf_model *model, const stability_options *
 {
     const runner r = {options, backends, backend_count, rows, error};
     hnbrdf_result result = HNBRDF_OK;
-    for (int k = 0; k < stability_case_count && !result; k++) {
-        const stability_case *what = &stability_cases[k];
-        hnbrdf_model *scaled = NULL;
-        if (what->weight_factor != 0.0f)
-            result = scaled_model(model, what->weight_factor, &scaled, error);
-        if (!result)
-            result = run_case(&r, what, scaled ? scaled : model,
-                              rows + k * backend_count * STABILITY_STAGES);
-        for (int b = 0; b < backend_count && scaled; b++)
-            backends[b].model = NULL;
-        hnbrdf_model_free(scaled);
-        if (options->progress)
-            options->progress(options->progress_user, (k + 1.0) / stability_case_count);
-    }
+    for (int k = 0; k < stability_case_count && !result;)
+        result = run_cases(&r, model, k, &k);
     return result;
 }

@@ -17,24 +17,28 @@ enum { STABILITY_NUMBERS = 8, STABILITY_NAME = 96 };
 const char *stability_stage_name(stability_stage stage);
 int stability_stage_numbers(stability_stage stage);
 
-/* An implementation. begin() is called before run() and whenever the model is another one. */
+/* An implementation. run() is called between begin() with the model and end(). */
 typedef struct stability_backend {
     char name[STABILITY_NAME];
     int stages;    /* sum of 1 << stage */
     double loosen; /* factor on the bars: 1 for correctly rounded operations */
+    int exact;     /* 1: promises the bits of the first backend */
     hnbrdf_result (*begin)(struct stability_backend *backend, const hnbrdf_model *model,
                            hnbrdf_error *error);
     hnbrdf_result (*run)(struct stability_backend *backend, stability_stage stage,
                          const stability_block *block, float values[STABILITY_BLOCK][STABILITY_NUMBERS],
                          hnbrdf_error *error);
+    void (*end)(struct stability_backend *backend);
+    /* What begin() and run() keep; nobody else looks at them. */
     void *user;
-    const hnbrdf_model *model; /* of the last begin() */
-    int mode;                  /* for run() */
+    hnbrdf_model *model;
+    int variant, form, mode;
 } stability_backend;
 
-/* The C library: `c`, the reference; `c-batch`; `c` in every rounding mode and with subnormals flushed,
- * as far as this machine has them. Returns how many; at most STABILITY_C_BACKENDS. */
-enum { STABILITY_C_BACKENDS = 16 };
+/* The C library: every variant this machine runs, called for one pair, prepared and in batches; the
+ * first is the reference, plain and singly. Then the plain and the fastest variant in every rounding
+ * mode and with subnormals flushed. Returns how many; at most STABILITY_C_BACKENDS. */
+enum { STABILITY_C_BACKENDS = 32 };
 int stability_c_backends(stability_backend backends[STABILITY_C_BACKENDS]);
 
 /* The bars, relative: of f_a and pdf to themselves; of f to oracle_point.scale, because where the floor
@@ -63,6 +67,7 @@ typedef struct stability_row {
     size_t
         inconsistent; /* samples below the horizon, or whose density is not hnbrdf_pdf()'s to the bit */
     size_t differs;   /* numbers whose bits are not those of the first backend */
+    int exact;        /* and whether there must be none */
     double worst_own; /* to f itself */
     double worst_scale;    /* to the scale: what is judged */
     double worst_ulp;      /* of f itself, in spacings of floats */
