@@ -27,7 +27,7 @@ static void put_channels(hnbrdf_printer *out, int first, int count)
         hnbrdf_put(out, "vec%d(", count);
     while (count > 0) {
         int part = 4 - first % 4 < count ? 4 - first % 4 : count;
-        hnbrdf_put(out, "t%d.%.*s%s", first / 4, part, "xyzw" + first % 4, part < count ? ", " : "");
+        hnbrdf_put(out, "t%d.%.*s%s", first / 4, part, &"xyzw"[first % 4], part < count ? ", " : "");
         first += part;
         count -= part;
     }
