@@ -7,6 +7,7 @@
 #ifndef WORK
 #define WORK WORK_VALUE
 #endif
+#define HNBRDF_WEIGHTS_BINDING 2
 #include "scene.glsl"
 
 layout(local_size_x = 64) in;

@@ -65,7 +65,8 @@ if(HNBRDF_WITH_VULKAN)
   # A library only so that its tests need not compile it again; it is not installed.
   add_library(hnbrdf_gpu STATIC EXCLUDE_FROM_ALL
     src/gpu/device.c src/gpu/compile.c src/gpu/compute.c src/gpu/probe.c src/gpu/pairs.c
-    src/gpu/bounds.c src/gpu/reference.c src/gpu/verify.c src/gpu/timed.c ${HNBRDF_SHADER_TEXTS})
+    src/gpu/bounds.c src/gpu/reference.c src/gpu/scene.c src/gpu/verify.c src/gpu/timed.c
+    ${HNBRDF_SHADER_TEXTS})
   target_link_libraries(hnbrdf_gpu PRIVATE hnbrdf_flags PUBLIC hnbrdf_measured_static Vulkan::Vulkan)
   target_compile_definitions(hnbrdf_gpu PRIVATE _POSIX_C_SOURCE=200809L)
   target_sources(hnbrdf_cli PRIVATE src/cli/verify_report.c)

@@ -37,7 +37,7 @@ static const gpu_validation VALIDATION = HAS_LEAK_CHECK ? GPU_VALIDATED : GPU_VA
 static gpu_report verify(const hnbrdf_model *model, const char *scene)
 {
     static const int all[SCENE_MATERIALS] = {0, 1, 2};
-    const gpu_verify_options options = {.scene = scene,
+    const gpu_verify_options options = {.scene = {.text = scene},
                                         .materials = all,
                                         .material_count = hnbrdf_model_material_count(model),
                                         .pairs = PAIRS,
@@ -268,7 +268,7 @@ static void a_shader_that_does_not_compile_is_an_error(void **state)
     hnbrdf_model *model = scene_model(&(scene_shape){.kind = HNBRDF_KIND_GGX});
     static const int first[] = {0};
     const gpu_verify_options options = {
-        .scene = "int is_float = 1.0;\n", .materials = first, .material_count = 1, .pairs = 64};
+        .scene = {.text = "int is_float = 1.0;\n"}, .materials = first, .material_count = 1, .pairs = 64};
     gpu_report report = {0};
     hnbrdf_error error = {""};
     assert_int_equal(gpu_verify(&device, model, &options, &report, &error), HNBRDF_ERROR_FORMAT);

@@ -67,7 +67,8 @@ static gpu_item *open_item(gpu_bench_device *on, const char *scene, gpu_work wor
         cli_fail("out of memory");
         return NULL;
     }
-    if (gpu_timed_open(&on->device, &on->buffers, scene, work, &item->timed, &error)) {
+    const gpu_scene exported = {.text = scene};
+    if (gpu_timed_open(&on->device, &on->buffers, &exported, work, &item->timed, &error)) {
         free(item);
         cli_fail("%s: %s", on->name, error.text);
         return NULL;

@@ -9,7 +9,7 @@
 
 static const cli_command command = {
     "verify",
-    "MODEL [--materials A,B] [--device N|all] [--pairs N] [--csv FILE] [--json FILE]",
+    "MODEL [--materials A,B] [--weights STYLE] [--precision P] [--device N|all] [--pairs N] [--csv FILE]",
     "Proves on every Vulkan device that the exported shader gives what the C library gives. Compared "
     "are\n"
     "the encoding, the network alone, the analytic part and the whole BRDF, on random, mirror, "
@@ -24,13 +24,14 @@ static const cli_command command = {
     "Exit status 0 only if every device tried is within the bounds. Needs glslangValidator.",
     "hnbrdf verify model.safetensors\n"
     "hnbrdf verify model.safetensors --device 0 --pairs 100000 --json verify.json\n"
+    "hnbrdf verify model.safetensors --weights uniform --precision half\n"
     "hnbrdf verify --list",
 };
 
 typedef struct settings {
     const char *materials, *device, *csv, *json;
     long pairs, seed;
-    int validate, list, without_timing;
+    int validate, list, without_timing, weights, precision;
 } settings;
 
 /* ---- The scene ------------------------------------------------------------------------------- */
@@ -57,17 +58,24 @@ static int append(void *user, const void *data, size_t size)
     return 0;
 }
 
-/* The exported text, malloc'ed; NULL after a message. */
-static char *export_scene(const hnbrdf_model *model, const int *materials, int count)
+typedef struct exported_scene {
+    growing_text text, weights;
+    hnbrdf_glsl_precision precision;
+} exported_scene;
+
+static int export_scene(const hnbrdf_model *model, const settings *set, const int *materials, int count,
+                        exported_scene *scene)
 {
-    const hnbrdf_glsl_options options = {.materials = materials, .material_count = count};
-    growing_text text = {0};
+    const hnbrdf_glsl_options options = {.materials = materials,
+                                         .material_count = count,
+                                         .weights = (hnbrdf_glsl_weights)set->weights,
+                                         .precision = (hnbrdf_glsl_precision)set->precision};
     hnbrdf_error error;
-    if (hnbrdf_export_glsl(model, &options, append, &text, &error) == HNBRDF_OK)
-        return text.bytes;
-    free(text.bytes);
-    cli_fail("%s", error.text);
-    return NULL;
+    scene->precision = options.precision;
+    hnbrdf_result result = hnbrdf_export_glsl(model, &options, append, &scene->text, &error);
+    if (!result && options.weights == HNBRDF_GLSL_UNIFORM && hnbrdf_weights_size(model) > 0)
+        result = hnbrdf_export_weights(model, &options, append, &scene->weights, &error);
+    return result ? cli_fail("%s", error.text) : CLI_OK;
 }
 
 /* ---- Devices --------------------------------------------------------------------------------- */
@@ -107,11 +115,13 @@ static void on_progress(void *user, double share)
 }
 
 static void verify_device(const gpu_instance *instance, const verification *v, const settings *set,
-                          const char *scene, verified_device *to)
+                          const exported_scene *scene, verified_device *to)
 {
     cli_progress progress;
     gpu_device device;
-    const gpu_verify_options options = {.scene = scene,
+    const gpu_verify_options options = {.scene = {scene->text.bytes, scene->weights.bytes,
+                                                  scene->weights.size},
+                                        .precision = scene->precision,
                                         .materials = v->materials,
                                         .material_count = v->material_count,
                                         .pairs = v->pairs,
@@ -164,7 +174,7 @@ static int write_results(const verification *v, const settings *set)
 }
 
 static int verify_scene(gpu_instance *instance, verification *v, const settings *set, int first,
-                        const char *scene)
+                        const exported_scene *scene)
 {
     v->devices = calloc((size_t)v->device_count, sizeof *v->devices);
     if (!v->devices)
@@ -195,9 +205,12 @@ static int verify_model(gpu_instance *instance, const settings *set, const char 
         result = cli_choose_materials(model, set->materials, &materials, &v.material_count);
     if (result == CLI_OK) {
         v.materials = materials;
-        char *scene = export_scene(model, materials, v.material_count);
-        result = scene ? verify_scene(instance, &v, set, first, scene) : CLI_FAILURE;
-        free(scene);
+        exported_scene scene = {0};
+        result = export_scene(model, set, materials, v.material_count, &scene);
+        if (result == CLI_OK)
+            result = verify_scene(instance, &v, set, first, &scene);
+        free(scene.text.bytes);
+        free(scene.weights.bytes);
     }
     free(materials);
     hnbrdf_model_free(model);
@@ -210,6 +223,10 @@ int cmd_verify(int argc, char **argv)
     const cli_option options[] = {
         {"materials", 'm', CLI_TEXT, &set.materials, 0, 0, "A,B",
          "names of the materials (default: all)"},
+        {"weights", 'w', CLI_CHOICE, &set.weights, 0, 0, "constants|columns|uniform",
+         "style of the exported shader (default constants)"},
+        {"precision", 0, CLI_CHOICE, &set.precision, 0, 0, "float|half",
+         "of its hidden layers (default float)"},
         {"device", 'd', CLI_TEXT, &set.device, 0, 0, "N|all",
          "number of a device, see --list (default: all)"},
         {"pairs", 'n', CLI_INT, &set.pairs, 64, 1 << 22, "N",

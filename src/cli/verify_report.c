@@ -91,6 +91,8 @@ static void print_timing(const gpu_timing *timing, FILE *file)
                 timing->value_ns, timing->copy_ns);
     if (!isnan(alone))
         fprintf(file, " (fast build, %d at once)\n", timing->evaluations);
+    if (isnan(timing->compile_ms))
+        return;
     fprintf(file,
             "  compiling   %.0f ms to %zu bytes of SPIR-V, %.0f ms to the end of the first dispatch\n",
             timing->compile_ms, timing->spirv_bytes, timing->first_ms);

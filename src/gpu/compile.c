@@ -102,19 +102,20 @@ static char *read_in(const workplace *place, const char *name, size_t *size)
 static const char SOURCE[] = "shader.comp", OUTPUT[] = "shader.spv", MESSAGES[] = "messages";
 
 /* Exit status of the compiler, EXIT_NOT_FOUND if it cannot be run. */
-static int run_compiler(const workplace *place, const char *define)
+static int run_compiler(const workplace *place, const char *const *defines)
 {
     char source[PATH_SIZE], output[PATH_SIZE], messages[PATH_SIZE];
-    char include[PATH_SIZE + 2], definition[128] = "";
+    char include[PATH_SIZE + 2], definitions[GPU_MAX_DEFINES][128];
     path_in(place, SOURCE, source);
     path_in(place, OUTPUT, output);
     path_in(place, MESSAGES, messages);
     snprintf(include, sizeof include, "-I%s", place->directory);
-    if (define)
-        snprintf(definition, sizeof definition, "-D%s", define);
     char compiler[] = "glslangValidator", target[] = "-V", to[] = "-o";
-    char *arguments[] = {compiler, target, include, source, to, output, define ? definition : NULL,
-                         NULL};
+    char *arguments[6 + GPU_MAX_DEFINES + 1] = {compiler, target, include, source, to, output};
+    for (int i = 0; defines && i < GPU_MAX_DEFINES && defines[i]; i++) {
+        snprintf(definitions[i], sizeof definitions[i], "-D%s", defines[i]);
+        arguments[6 + i] = definitions[i];
+    }
     posix_spawn_file_actions_t actions;
     if (posix_spawn_file_actions_init(&actions) != 0)
         return EXIT_NOT_FOUND;
@@ -150,7 +151,8 @@ static hnbrdf_result explain(const workplace *place, int status, hnbrdf_error *e
 }
 
 hnbrdf_result gpu_compile(const char *text, const gpu_include *includes, int include_count,
-                          const char *define, uint32_t **spirv, size_t *size, hnbrdf_error *error)
+                          const char *const *defines, uint32_t **spirv, size_t *size,
+                          hnbrdf_error *error)
 {
     workplace place;
     hnbrdf_result result = open_workplace(&place, error);
@@ -160,7 +162,7 @@ hnbrdf_result gpu_compile(const char *text, const gpu_include *includes, int inc
     for (int i = 0; i < include_count && !result; i++)
         result = write_in(&place, includes[i].name, includes[i].text, error);
     if (!result) {
-        int status = run_compiler(&place, define);
+        int status = run_compiler(&place, defines);
         char *bytes = status == 0 ? read_in(&place, OUTPUT, size) : NULL;
         if (bytes)
             *spirv = (uint32_t *)(void *)bytes;

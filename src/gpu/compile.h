@@ -11,13 +11,17 @@ typedef struct gpu_include {
     const char *name, *text;
 } gpu_include;
 
+enum { GPU_MAX_DEFINES = 3 };
+
 /* 1 if glslangValidator is in PATH. */
 int gpu_compiler_found(void);
 
-/* Compiles a Vulkan compute shader. define is "NAME=VALUE" or NULL. *spirv is malloc'ed, *size in
+/* Compiles a Vulkan compute shader. defines are "NAME=VALUE", up to
+ * GPU_MAX_DEFINES, the last followed by NULL; or NULL for none. *spirv is malloc'ed, *size in
  * bytes. On a compile error what the compiler says goes to stderr, and the first error line into
  * `error`. */
 hnbrdf_result gpu_compile(const char *text, const gpu_include *includes, int include_count,
-                          const char *define, uint32_t **spirv, size_t *size, hnbrdf_error *error);
+                          const char *const *defines, uint32_t **spirv, size_t *size,
+                          hnbrdf_error *error);
 
 #endif

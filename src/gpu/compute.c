@@ -97,20 +97,23 @@ static hnbrdf_result make_buffer(const gpu_device *device, size_t size, VkBuffer
 
 /* Host-visible, coherent and cached at once is what software and integrated devices offer; elsewhere
  * (discrete ones, even with a window onto their memory, are slow to read) a copy stands between. */
-hnbrdf_result gpu_buffer_open(const gpu_device *device, size_t size, gpu_buffer *buffer,
-                              hnbrdf_error *error)
+static hnbrdf_result open_buffer(const gpu_device *device, VkDescriptorType type, size_t size,
+                                 gpu_buffer *buffer, hnbrdf_error *error)
 {
     const VkMemoryPropertyFlags visible =
         VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
     const VkMemoryPropertyFlags direct = visible | VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
     const VkBufferUsageFlags copies =
         VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+    const VkBufferUsageFlags use = type == VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER
+                                       ? VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT
+                                       : VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
     VkMemoryPropertyFlags flags = 0;
     memset(buffer, 0, sizeof *buffer);
+    buffer->type = type;
     buffer->size = size;
-    hnbrdf_result result = make_buffer(device, size, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | copies,
-                                       VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, direct, &buffer->handle,
-                                       &buffer->memory, &flags, error);
+    hnbrdf_result result = make_buffer(device, size, use | copies, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT,
+                                       direct, &buffer->handle, &buffer->memory, &flags, error);
     VkDeviceMemory mapped = buffer->memory;
     if (!result && (flags & direct) != direct) {
         result = make_buffer(device, size, copies, visible, VK_MEMORY_PROPERTY_HOST_CACHED_BIT,
@@ -123,6 +126,12 @@ hnbrdf_result gpu_buffer_open(const gpu_device *device, size_t size, gpu_buffer 
     if (result)
         gpu_buffer_close(device, buffer);
     return result;
+}
+
+hnbrdf_result gpu_buffer_open(const gpu_device *device, size_t size, gpu_buffer *buffer,
+                              hnbrdf_error *error)
+{
+    return open_buffer(device, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, size, buffer, error);
 }
 
 void gpu_buffer_close(const gpu_device *device, gpu_buffer *buffer)
@@ -165,15 +174,31 @@ hnbrdf_result gpu_download(const gpu_device *device, gpu_buffer *buffer, void *d
     return result;
 }
 
+hnbrdf_result gpu_uniform_open(const gpu_device *device, const void *data, size_t size,
+                               gpu_buffer *buffer, hnbrdf_error *error)
+{
+    uint32_t most = device->properties.limits.maxUniformBufferRange;
+    if (size > most)
+        return hnbrdf_fail(error, HNBRDF_ERROR_UNSUPPORTED,
+                           "%s: a uniform block of %zu bytes, this device takes up to %u",
+                           device->properties.deviceName, size, most);
+    hnbrdf_result result = open_buffer(device, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, size, buffer, error);
+    if (!result)
+        result = gpu_upload(device, buffer, data, size, error);
+    if (result)
+        gpu_buffer_close(device, buffer);
+    return result;
+}
+
 /* ---- Programs -------------------------------------------------------------------------------- */
 
-static hnbrdf_result make_layouts(const gpu_device *device, uint32_t buffer_count, gpu_program *program,
-                                  hnbrdf_error *error)
+static hnbrdf_result make_layouts(const gpu_device *device, const gpu_buffer *const *buffers,
+                                  uint32_t buffer_count, gpu_program *program, hnbrdf_error *error)
 {
     VkDescriptorSetLayoutBinding bindings[GPU_MAX_BUFFERS] = {{0}};
     for (uint32_t i = 0; i < buffer_count; i++) {
         bindings[i].binding = i;
-        bindings[i].descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+        bindings[i].descriptorType = buffers[i]->type;
         bindings[i].descriptorCount = 1;
         bindings[i].stageFlags = VK_SHADER_STAGE_COMPUTE_BIT;
     }
@@ -198,11 +223,13 @@ static hnbrdf_result make_layouts(const gpu_device *device, uint32_t buffer_coun
 static hnbrdf_result make_set(const gpu_device *device, const gpu_buffer *const *buffers,
                               uint32_t count, gpu_program *program, hnbrdf_error *error)
 {
-    VkDescriptorPoolSize size = {.type = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, .descriptorCount = count};
+    const VkDescriptorPoolSize sizes[] = {
+        {.type = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, .descriptorCount = count},
+        {.type = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, .descriptorCount = count}};
     VkDescriptorPoolCreateInfo pool = {.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
                                        .maxSets = 1,
-                                       .poolSizeCount = 1,
-                                       .pPoolSizes = &size};
+                                       .poolSizeCount = 2,
+                                       .pPoolSizes = sizes};
     hnbrdf_result result =
         gpu_check(vkCreateDescriptorPool(device->handle, &pool, NULL, &program->pool),
                   "creating a descriptor pool", error);
@@ -222,7 +249,7 @@ static hnbrdf_result make_set(const gpu_device *device, const gpu_buffer *const 
                                       .dstSet = program->set,
                                       .dstBinding = i,
                                       .descriptorCount = 1,
-                                      .descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+                                      .descriptorType = buffers[i]->type,
                                       .pBufferInfo = &range};
         vkUpdateDescriptorSets(device->handle, 1, &write, 0, NULL);
     }
@@ -241,7 +268,7 @@ hnbrdf_result gpu_program_open(const gpu_device *device, const uint32_t *spirv, 
         gpu_check(vkCreateShaderModule(device->handle, &module, NULL, &program->module),
                   "creating a shader module", error);
     if (!result)
-        result = make_layouts(device, buffer_count, program, error);
+        result = make_layouts(device, buffers, buffer_count, program, error);
     if (!result)
         result = make_set(device, buffers, buffer_count, program, error);
     if (result)

@@ -8,8 +8,9 @@
 
 enum { GPU_MAX_BUFFERS = 4, GPU_GROUP_SIZE = 64 };
 
-/* A storage buffer in device memory, and where the host does not see that a second one it does see. */
+/* A buffer in device memory, and where the host does not see that a second one it does see. */
 typedef struct gpu_buffer {
+    VkDescriptorType type; /* storage or uniform buffer */
     VkBuffer handle, staging;
     VkDeviceMemory memory, staging_memory;
     void *mapped;
@@ -18,6 +19,10 @@ typedef struct gpu_buffer {
 
 hnbrdf_result gpu_buffer_open(const gpu_device *device, size_t size, gpu_buffer *buffer,
                               hnbrdf_error *error);
+/* A uniform buffer with these bytes. HNBRDF_ERROR_UNSUPPORTED if the device takes no uniform block of
+ * this size. */
+hnbrdf_result gpu_uniform_open(const gpu_device *device, const void *data, size_t size,
+                               gpu_buffer *buffer, hnbrdf_error *error);
 void gpu_buffer_close(const gpu_device *device, gpu_buffer *buffer);
 /* The first `size` bytes, at most buffer->size. */
 hnbrdf_result gpu_upload(const gpu_device *device, gpu_buffer *buffer, const void *data, size_t size,
@@ -25,7 +30,7 @@ hnbrdf_result gpu_upload(const gpu_device *device, gpu_buffer *buffer, const voi
 hnbrdf_result gpu_download(const gpu_device *device, gpu_buffer *buffer, void *data, size_t size,
                            hnbrdf_error *error);
 
-/* A shader with its storage buffers at set 0, binding 0, 1 ... and push constants. */
+/* A shader with its buffers at set 0, binding 0, 1 ... and push constants. */
 typedef struct gpu_program {
     VkShaderModule module;
     VkDescriptorSetLayout set_layout;

@@ -213,6 +213,20 @@ static hnbrdf_result make_pools(gpu_device *device, uint32_t family, hnbrdf_erro
                      "creating a query pool", error);
 }
 
+/* What to ask for: half precision in arithmetic where the device has it, and no more. */
+static VkPhysicalDeviceShaderFloat16Int8Features
+offered_half(VkPhysicalDevice physical, const VkPhysicalDeviceProperties *properties)
+{
+    VkPhysicalDeviceShaderFloat16Int8Features half = {
+        .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SHADER_FLOAT16_INT8_FEATURES};
+    VkPhysicalDeviceFeatures2 features = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2,
+                                          .pNext = &half};
+    if (properties->apiVersion >= VK_API_VERSION_1_2)
+        vkGetPhysicalDeviceFeatures2(physical, &features);
+    half.shaderInt8 = VK_FALSE;
+    return half;
+}
+
 hnbrdf_result gpu_device_open(const gpu_instance *instance, int index, gpu_device *device,
                               hnbrdf_error *error)
 {
@@ -233,7 +247,10 @@ hnbrdf_result gpu_device_open(const gpu_instance *instance, int index, gpu_devic
                                      .queueFamilyIndex = (uint32_t)family,
                                      .queueCount = 1,
                                      .pQueuePriorities = &priority};
+    VkPhysicalDeviceShaderFloat16Int8Features half = offered_half(physical, &device->properties);
+    device->has_half = half.shaderFloat16 == VK_TRUE;
     VkDeviceCreateInfo info = {.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
+                               .pNext = device->has_half ? &half : NULL,
                                .queueCreateInfoCount = 1,
                                .pQueueCreateInfos = &queue};
     hnbrdf_result result =

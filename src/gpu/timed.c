@@ -68,20 +68,24 @@ void gpu_timed_buffers_close(const gpu_device *device, gpu_timed_buffers *buffer
 /* ---- Scenes -------------------------------------------------------------------------------------- */
 
 static hnbrdf_result open_program(const gpu_device *device, const gpu_timed_buffers *buffers,
-                                  const char *scene, gpu_work work, gpu_timed *timed,
+                                  const gpu_scene *scene, gpu_work work, gpu_timed *timed,
                                   hnbrdf_error *error)
 {
-    static const char *const defines[] = {"WORK=0", "WORK=1", "WORK=2"};
-    const gpu_include include = {"scene.glsl", scene};
-    const gpu_buffer *const bound[] = {&buffers->directions, &buffers->values};
+    static const char *const works[] = {"WORK=0", "WORK=1", "WORK=2"};
+    const char *const defines[] = {
+        works[work], device->has_half ? "HNBRDF_HALF_NATIVE=1" : "HNBRDF_HALF_NATIVE=0", NULL};
+    const gpu_include include = {"scene.glsl", scene->text};
+    const gpu_buffer *const bound[] = {&buffers->directions, &buffers->values, &timed->weights};
     uint32_t *spirv = NULL;
     double started = milliseconds();
     hnbrdf_result result =
-        gpu_compile(hnbrdf_bench_comp, &include, 1, defines[work], &spirv, &timed->spirv_bytes, error);
+        gpu_compile(hnbrdf_bench_comp, &include, 1, defines, &spirv, &timed->spirv_bytes, error);
     timed->compile_ms = milliseconds() - started;
+    if (!result && scene->weights)
+        result = gpu_uniform_open(device, scene->weights, scene->weights_size, &timed->weights, error);
     if (!result)
-        result = gpu_program_open(device, spirv, timed->spirv_bytes, bound, 2, sizeof(push_constants),
-                                  &timed->program, error);
+        result = gpu_program_open(device, spirv, timed->spirv_bytes, bound, scene->weights ? 3 : 2,
+                                  sizeof(push_constants), &timed->program, error);
     free(spirv);
     return result;
 }
@@ -99,7 +103,8 @@ static hnbrdf_result open_pipeline(const gpu_device *device, gpu_timed *timed, h
 }
 
 hnbrdf_result gpu_timed_open(const gpu_device *device, const gpu_timed_buffers *buffers,
-                             const char *scene, gpu_work work, gpu_timed *timed, hnbrdf_error *error)
+                             const gpu_scene *scene, gpu_work work, gpu_timed *timed,
+                             hnbrdf_error *error)
 {
     memset(timed, 0, sizeof *timed);
     hnbrdf_result result = open_program(device, buffers, scene, work, timed, error);
@@ -115,6 +120,7 @@ void gpu_timed_close(const gpu_device *device, gpu_timed *timed)
     vkDestroyPipeline(device->handle, timed->pipeline, NULL);
     timed->pipeline = VK_NULL_HANDLE;
     gpu_program_close(device, &timed->program);
+    gpu_buffer_close(device, &timed->weights);
 }
 
 hnbrdf_result gpu_timed_run(const gpu_device *device, const gpu_timed_buffers *buffers,

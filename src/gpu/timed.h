@@ -2,7 +2,7 @@
 #ifndef HNBRDF_GPU_TIMED_H
 #define HNBRDF_GPU_TIMED_H
 
-#include "gpu/compute.h"
+#include "gpu/scene.h"
 
 /* Also the values of WORK in shaders/bench.comp. */
 typedef enum gpu_work {
@@ -24,15 +24,17 @@ void gpu_timed_buffers_close(const gpu_device *device, gpu_timed_buffers *buffer
 
 typedef struct gpu_timed {
     gpu_program program;
+    gpu_buffer weights; /* if the scene has them in a buffer */
     VkPipeline pipeline;
     double compile_ms;  /* GLSL to SPIR-V */
     double first_ms;    /* pipeline and first dispatch; less if the driver keeps a cache */
     size_t spirv_bytes; /* of the shader with nothing but this work in it */
 } gpu_timed;
 
-/* scene is a standalone text with hnbrdf_scene_material() and hnbrdf_eval(), as exports are. */
+/* The scene's text is standalone, with hnbrdf_scene_material() and hnbrdf_eval(), as exports are. */
 hnbrdf_result gpu_timed_open(const gpu_device *device, const gpu_timed_buffers *buffers,
-                             const char *scene, gpu_work work, gpu_timed *timed, hnbrdf_error *error);
+                             const gpu_scene *scene, gpu_work work, gpu_timed *timed,
+                             hnbrdf_error *error);
 void gpu_timed_close(const gpu_device *device, gpu_timed *timed);
 
 /* Nanoseconds that `repeats` dispatches over all pairs took on the device; NaN without timestamps. */

@@ -4,22 +4,7 @@
 
 #include "gpu/pairs.h"
 #include "gpu/probe.h"
-
-/* Also the values of STAGE in shaders/verify.comp. */
-typedef enum gpu_stage {
-    GPU_STAGE_ENCODING = 0,
-    GPU_STAGE_NETWORK, /* alone: its inputs are those that C encoded */
-    GPU_STAGE_ANALYTIC,
-    GPU_STAGE_VALUE,
-    GPU_STAGES,
-    GPU_STAGE_COPY = GPU_STAGES
-} gpu_stage;
-
-typedef enum gpu_build {
-    GPU_BUILD_EXACT = 0, /* HNBRDF_EXACT 1 */
-    GPU_BUILD_FAST,      /* built-in exp and log, contraction allowed */
-    GPU_BUILDS
-} gpu_build;
+#include "gpu/scene.h"
 
 /* "encoding", "network", "analytic", "value"; "exact", "fast". */
 const char *gpu_stage_name(gpu_stage stage);
@@ -53,18 +38,10 @@ typedef struct gpu_comparison {
 /* Sums over several comparisons of one stage. */
 void gpu_comparison_add(gpu_comparison *sum, const gpu_comparison *more);
 
-typedef struct gpu_timing {
-    int evaluations; /* per measurement */
-    double value_ns,
-        copy_ns;       /* of one evaluation; of its buffer traffic alone. NaN without timestamps */
-    double compile_ms; /* GLSL to SPIR-V, fast build */
-    double first_ms;   /* pipeline and first dispatch, fast build; less if the driver keeps a cache */
-    size_t spirv_bytes;
-} gpu_timing;
-
 typedef struct gpu_verify_options {
-    const char *scene;    /* what hnbrdf_export_glsl() wrote, not standalone */
-    const int *materials; /* indices of the exported materials, in order */
+    gpu_scene scene;
+    hnbrdf_glsl_precision precision; /* of the scene */
+    const int *materials;            /* indices of the exported materials, in order */
     int material_count;
     size_t pairs; /* per material */
     uint64_t seed;
@@ -75,7 +52,7 @@ typedef struct gpu_verify_options {
 
 typedef struct gpu_report {
     gpu_arithmetic arithmetic;
-    gpu_timing timing;
+    gpu_timing timing; /* times are NaN if it was not asked for */
     int within; /* every comparison within its bounds, and exp and log as accurate as the bounds assume
                  */
     int material_count;
