@@ -34,7 +34,7 @@ expect_failure "a file in the way" "file: cannot make this folder"
 
 # ---- a small grid -----------------------------------------------------------------------------------
 materials="builtin:glossy-plastic-green builtin:gold-two-lobe builtin:velvet-crimson"
-small="--quick --steps 200 --pairs 1000 --pool 2048"
+small="--quick --steps 200 --pairs 1000 --pool 2048 --images 32"
 report() {
     run "$HNBRDF" report accuracy $materials $small -o r "$@"
     [ "$rc" -eq 0 ] || fail "report $*: exit $rc"
@@ -47,7 +47,7 @@ column() {
 header=kind,net,encoding,latent,steps,seconds,pairs_per_s,weights,mults,smape_grid,smape_uniform,smape_analytic
 
 report --nets 8x2
-for name in accuracy.csv materials.csv report.md errors-8x2.svg models/hybrid-8x2-l4.safetensors \
+for name in accuracy.csv materials.csv ggx.csv ggx.svg report.md errors-8x2.svg models/hybrid-8x2-l4.safetensors \
     models/paper-8x2-l4.safetensors models/neural-8x2-l12.safetensors models/ggx.safetensors; do
     [ -s "r/$name" ] || fail "no $name"
 done
@@ -63,13 +63,19 @@ column weights | grep -qx "hybrid-8x2-l4 214" || fail "weights"
     fail "analytic part and GGX alone differ"
 column smape_analytic | grep -qx "neural-8x2-l12 " || fail "a neural model has an analytic part"
 column smape_grid | awk '!($2 > 0 && $2 < 2) { exit 1 }' || fail "errors out of their range"
+column psnr | awk '!($2 > 5 && $2 < 120) { exit 1 }' || fail "PSNR out of its range"
+# The fits of GGX alone: all materials by rising error, and never worse than the second best start.
+sed 1d r/ggx.csv | awk -F, '$2 < last || $11 != 8 || $12 > $13 { exit 1 } { last = $2 } END { exit NR != 3 }' ||
+    fail "ggx.csv: $(cat r/ggx.csv)"
+[ "$(grep -c "class='mark'" r/ggx.svg)" -eq 12 ] || fail "ggx.svg has not 4 panels of 3 materials"
 # The same figures as `compare`.
 "$HNBRDF" compare r/models/hybrid-8x2-l4.safetensors $materials --sampler grid --pairs 1000 --csv - >compared
 alone=$(awk -F, '$1 == "mean" { printf "%.5f", $2 }' compared)
 table=$(column smape_grid | awk '/^hybrid/ { printf "%.5f", $2 }')
 [ "$alone" = "$table" ] || fail "compare says $alone, the report $table"
 for text in 'grid sampler' 'uniform sampler' '1000 valid pairs' 'seed 1' 'sampler unknown' '| 16x2 | 0.2815 |' \
-    'hnbrdf report accuracy builtin:glossy' '| net | hybrid l=4 | paper.s form l=4 | neural l=12 |' ' of 3 |'; do
+    'hnbrdf report accuracy builtin:glossy' 'Mean PSNR' 'at equal numbers' '| 8x2 | 12 |' 'materials the second best ends' \
+    '| hybrid-8x2-l4 | 1.000 |' '| net | hybrid l=4 | paper.s form l=4 | neural l=12 |' ' of 3 |'; do
     grep -q -e "$text" r/report.md || fail "report.md has no '$text'"
 done
 if command -v xmllint >/dev/null; then
@@ -82,15 +88,18 @@ fi
 
 # ---- going on ---------------------------------------------------------------------------------------
 cp r/models/hybrid-8x2-l4.safetensors first
+cp r/ggx.csv first.csv
 ls -i r/models/hybrid-8x2-l4.safetensors r/models/ggx.safetensors >before
 report --nets 8x2,8x1 --resume
 ls -i r/models/hybrid-8x2-l4.safetensors r/models/ggx.safetensors >after
 cmp -s before after || fail "--resume made finished models again"
+cmp -s first.csv r/ggx.csv || fail "--resume forgot how the fits of GGX went"
 [ "$(wc -l <r/accuracy.csv)" -eq 8 ] || fail "--resume did not add the new ones"
 [ "$(column smape_grid | awk '$1 == "hybrid-8x2-l4" { printf "%.5f", $2 }')" = "$alone" ] ||
     fail "--resume changed a figure"
 rm r/models/hybrid-8x2-l4.txt # as if the run had ended while it was at it
-report --nets 8x2 --resume --threads 1
+report --nets 8x2 --resume --threads 1 --images 0
+column psnr | grep -qx 'hybrid-8x2-l4 ' || fail "--images 0 makes pictures"
 cmp -s first r/models/hybrid-8x2-l4.safetensors || fail "the model made again is another one"
 report --nets 8x2 --resume --seed 2
 cmp -s first r/models/hybrid-8x2-l4.safetensors && fail "--resume reused a model of another seed"

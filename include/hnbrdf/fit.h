@@ -49,6 +49,15 @@ typedef struct hnbrdf_fit_progress {
  * network's first step there is none: a new fit then returns HNBRDF_ERROR_CANCELLED. */
 typedef int (*hnbrdf_fit_progress_fn)(void *user, const hnbrdf_fit_progress *progress);
 
+/* What the GGX fit of one material found. Its loss, 0.7 SMAPE + 0.3 |ln(f + 1e-3) - ln(F + 1e-3)| over
+ * the training pairs, has several minima: every start is followed a little, the three best ones to the
+ * end. Two that end alike speak for the global minimum. */
+typedef struct hnbrdf_fit_search {
+    int starts;            /* 0: no GGX fit was made */
+    double best, second;   /* losses at the end of the best two; infinite if there is no second */
+    float second_alpha[2]; /* where the second best ended */
+} hnbrdf_fit_search;
+
 /* Zero-initialise for defaults; then set hybrid 32x2 etc. as wanted. */
 typedef struct hnbrdf_fit_options {
     hnbrdf_kind kind;   /* default hybrid */
@@ -64,11 +73,12 @@ typedef struct hnbrdf_fit_options {
     /* [count], each passes hnbrdf_material_check(), or NULL. Their kd, eta, alpha and rotation are
      * taken instead of a GGX fit: kept as they are (faithful) or where training starts (joint). */
     const hnbrdf_material *materials;
-    long steps;          /* network steps; 0 stands for 32000 */
-    double seconds;      /* time budget for the network stage instead of steps */
-    int batch;           /* pairs a step; 0 stands for 2048; rounded up to a multiple of 1024 */
-    int pool;            /* pairs drawn per material before training; 0: 131072 */
-    float learning_rate; /* Adam's peak rate; 0 stands for 1e-2 */
+    hnbrdf_fit_search *search; /* [count] written: how the GGX fit of each material went, or NULL */
+    long steps;                /* network steps; 0 stands for 32000 */
+    double seconds;            /* time budget for the network stage instead of steps */
+    int batch;                 /* pairs a step; 0 stands for 2048; rounded up to a multiple of 1024 */
+    int pool;                  /* pairs drawn per material before training; 0: 131072 */
+    float learning_rate;       /* Adam's peak rate; 0 stands for 1e-2 */
     hnbrdf_fit_loss loss;
     hnbrdf_fit_schedule schedule;
     float uniform_share; /* of the pairs, drawn by the uniform sampler, the others by grid; 0 stands
@@ -89,15 +99,15 @@ typedef struct hnbrdf_fit_options {
     int resume;
 } hnbrdf_fit_options;
 
-/* Where the time of a fit went, in processor seconds summed over its threads; all but `waiting` is work,
- * whatever else the machine was busy with. */
+/* Where the time of a fit went, in processor seconds summed over its threads; all but `waiting` is
+ * work, whatever else the machine was busy with. */
 typedef struct hnbrdf_fit_times {
     double drawing;  /* random directions and their measured values */
     double ggx;      /* the GGX fits */
     double encoding; /* what the network sees, and f_a where it is frozen */
     double network;  /* forward and backward passes */
     double update;   /* choice of pairs, sum of the gradients, Adam, checkpoints: on one thread */
-    double waiting;  /* threads times elapsed time less all of these: idle, or taken by other programs */
+    double waiting; /* threads times elapsed time less all of these: idle, or taken by other programs */
 } hnbrdf_fit_times;
 
 typedef struct hnbrdf_fit_report {
@@ -107,8 +117,8 @@ typedef struct hnbrdf_fit_report {
     long steps;         /* network steps done, those before a resume included */
     int stopped;        /* 1: the progress callback asked to stop */
     double pairs;       /* direction pairs that the network was trained on in this call */
-    double flops;       /* floating-point operations of its passes in this call: the products alone, two a
-                           multiply-add, none for padding */
+    double flops; /* floating-point operations of its passes in this call: the products alone, two a
+                     multiply-add, none for padding */
     hnbrdf_fit_times times;
     int threads;
     const char *instructions; /* of the kernels: "plain", "avx2" or "avx512" */

@@ -15,7 +15,9 @@ static const cli_command command = {
     "paper's form of it (encoding directions, no floor); neural models that store as many numbers a\n"
     "material (l = 4 against 12, 8 against 16); GGX alone. DIR gets report.md, accuracy.csv (a row a "
     "model),\n"
-    "materials.csv (a row a material and model), errors-NET.svg, and the models in models/.\n"
+    "materials.csv (a row a material and model), ggx.csv and ggx.svg (how the fits of GGX went),\n"
+    "errors-NET.svg, and the models in models/. Beside SMAPE stands the PSNR of spheres under the\n"
+    "built-in sky.\n"
     "Everything is written anew after each model: what an interrupted run has done stays, and "
     "--resume\n"
     "goes on with it. A model made with other settings is not reused.",
@@ -164,6 +166,10 @@ static int write_results(const report *r)
     if (result == CLI_OK)
         result = write_result(r, "materials.csv", report_write_materials);
     if (result == CLI_OK)
+        result = write_result(r, "ggx.csv", report_write_ggx);
+    if (result == CLI_OK)
+        result = write_result(r, "ggx.svg", report_write_ggx_plot);
+    if (result == CLI_OK)
         result = write_result(r, "report.md", report_write_markdown);
     for (int n = 0; n < r->net_count && result == CLI_OK; n++)
         result = write_plot(r, r->nets[n]);
@@ -173,9 +179,14 @@ static int write_results(const report *r)
 static int finished(const report *r, const report_entry *e)
 {
     if (e == r->entries)
-        printf("%-20s  %8s  %8s  %8s  %8s\n", "model", "grid", "uniform", "cosine", "seconds");
-    printf("%-20s  %8.4f  %8.4f  %8.4f  %8.1f\n", e->name, e->mean[HNBRDF_SAMPLER_GRID].smape,
-           e->mean[HNBRDF_SAMPLER_UNIFORM].smape, e->mean[HNBRDF_SAMPLER_COSINE].smape, e->seconds);
+        printf("%-20s  %8s  %8s  %8s  %8s  %8s\n", "model", "grid", "uniform", "cosine",
+               r->image_size ? "PSNR" : "", "seconds");
+    printf("%-20s  %8.4f  %8.4f  %8.4f  ", e->name, e->mean[HNBRDF_SAMPLER_GRID].smape,
+           e->mean[HNBRDF_SAMPLER_UNIFORM].smape, e->mean[HNBRDF_SAMPLER_COSINE].smape);
+    if (r->image_size)
+        printf("%8.2f  %8.1f\n", e->mean_psnr, e->seconds);
+    else
+        printf("%8s  %8.1f\n", "", e->seconds);
     fflush(stdout);
     return write_results(r);
 }
@@ -216,7 +227,7 @@ static void fill_defaults(report *r, int quick, const char **nets, const char **
 
 int cmd_report(int argc, char **argv)
 {
-    report r = {.sampler = HNBRDF_SAMPLER_GRID, .seed = 1};
+    report r = {.sampler = HNBRDF_SAMPLER_GRID, .seed = 1, .image_size = 64};
     const char *nets = NULL, *latents = NULL, *models = "hybrid,paper,neural";
     int quick = 0, count;
     const cli_option options[] = {
@@ -236,6 +247,8 @@ int cmd_report(int argc, char **argv)
          "of plots, wins and analytic part (default grid); the tables have all three"},
         {"pairs", 'n', CLI_INT, &r.pairs, 1, 1e9, "N",
          "pairs of directions a material (default 200000)"},
+        {"images", 0, CLI_INT, &r.image_size, 0, 2048, "N",
+         "pixels a side of the spheres whose PSNR is measured; 0: none (default 64)"},
         {"pool", 0, CLI_INT, &r.pool, 64, 1 << 26, "N",
          "direction pairs drawn a material for training"},
         {"seed", 0, CLI_INT, &r.seed, 0, 9e15, "N", "seed of everything random (default 1)"},

@@ -65,6 +65,10 @@ static int write_record(const report *r, const report_entry *e)
     describe_settings(r, e, settings, sizeof settings);
     fprintf(output.file, "%ssteps %ld\nseconds %.3f\npairs_per_s %.0f\n", settings, e->steps,
             e->seconds, e->pairs_per_s);
+    for (int m = 0; e->form == REPORT_GGX && m < r->data.count; m++)
+        fprintf(output.file, "search %d %.9g %.9g %.9g %.9g\n", r->search[m].starts, r->search[m].best,
+                r->search[m].second, (double)r->search[m].second_alpha[0],
+                (double)r->search[m].second_alpha[1]);
     return cli_output_close(&output);
 }
 
@@ -81,6 +85,11 @@ static int read_record(const report *r, report_entry *e)
     int same = fgets(found, sizeof found, file) && strcmp(found, settings) == 0 &&
                fscanf(file, "steps %ld seconds %lf pairs_per_s %lf", &e->steps, &e->seconds,
                       &e->pairs_per_s) == 3;
+    for (int m = 0; same && e->form == REPORT_GGX && m < r->data.count; m++) {
+        hnbrdf_fit_search *s = &r->search[m];
+        same = fscanf(file, " search %d %lf %lf %f %f", &s->starts, &s->best, &s->second,
+                      &s->second_alpha[0], &s->second_alpha[1]) == 5;
+    }
     fclose(file);
     return same;
 }
@@ -188,6 +197,7 @@ static int fit_entry(const report *r, report_entry *e, watch *w, hnbrdf_model **
     }
     forget(r, e, "txt");
     set_options(r, e, &options);
+    options.search = e->form == REPORT_GGX ? r->search : NULL;
     options.progress = show;
     options.progress_user = w;
     if (e->form != REPORT_GGX) {
@@ -288,7 +298,7 @@ static int measure(const report *r, report_entry *e, const hnbrdf_model *model)
 
 /* ---- The whole grid ------------------------------------------------------------------------------ */
 
-static int finish_entry(const report *r, report_entry *e, const hnbrdf_model *model)
+static int finish_entry(report *r, report_entry *e, const hnbrdf_model *model)
 {
     hnbrdf_model_desc desc;
     hnbrdf_model_describe(model, &desc);
@@ -299,11 +309,16 @@ static int finish_entry(const report *r, report_entry *e, const hnbrdf_model *mo
     e->mults = hnbrdf_model_multiplications(model);
     if (measure(r, e, model) != CLI_OK)
         return CLI_FAILURE;
+    for (int m = 0; e->form == REPORT_GGX && m < r->data.count; m++)
+        r->ggx[m] = *hnbrdf_model_material(model, m);
+    if (r->image_size && ((e->form == REPORT_GGX && report_images_begin(r, model) != CLI_OK) ||
+                          report_images_measure(r, e, model) != CLI_OK))
+        return CLI_FAILURE;
     e->done = 1;
     return CLI_OK;
 }
 
-static int run_entry(const report *r, report_entry *e, watch *w)
+static int run_entry(report *r, report_entry *e, watch *w)
 {
     hnbrdf_model *model = reuse(r, e);
     watch_entry(w, e);
@@ -336,5 +351,6 @@ int report_run(report *r, int (*finished)(const report *r, const report_entry *e
     }
     signal(SIGINT, SIG_DFL);
     signal(SIGTERM, SIG_DFL);
+    report_images_end(r);
     return result;
 }

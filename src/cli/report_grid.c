@@ -42,19 +42,26 @@ int report_make_entries(report *r)
                 if (r->forms[form])
                     add_entry(r, form, r->nets[n], r->latents[l]);
     for (int k = 0; k < r->count; k++) {
-        r->entries[k].errors =
-            calloc((size_t)r->data.count * REPORT_SAMPLERS, sizeof(hnbrdf_comparison));
-        if (!r->entries[k].errors)
+        report_entry *e = &r->entries[k];
+        e->errors = calloc((size_t)r->data.count * REPORT_SAMPLERS, sizeof *e->errors);
+        e->psnr = calloc((size_t)r->data.count, sizeof *e->psnr);
+        if (!e->errors || !e->psnr)
             return cli_fail("out of memory");
     }
-    return CLI_OK;
+    r->ggx = calloc((size_t)r->data.count, sizeof *r->ggx);
+    r->search = calloc((size_t)r->data.count, sizeof *r->search);
+    return r->ggx && r->search ? CLI_OK : cli_fail("out of memory");
 }
 
 void report_free_entries(report *r)
 {
-    for (int k = 0; k < r->count; k++)
+    for (int k = 0; k < r->count; k++) {
         free(r->entries[k].errors);
+        free(r->entries[k].psnr);
+    }
     free(r->entries);
+    free(r->ggx);
+    free(r->search);
 }
 
 const report_entry *report_find(const report *r, report_form form, const int net[2], int latent)
@@ -80,6 +87,14 @@ int report_wins(const report *r, const report_entry *a, const report_entry *b)
     int wins = 0;
     for (int m = 0; m < r->data.count; m++)
         wins += report_error(r, a, m) < report_error(r, b, m);
+    return wins;
+}
+
+int report_image_wins(const report *r, const report_entry *a, const report_entry *b)
+{
+    int wins = 0;
+    for (int m = 0; m < r->data.count; m++)
+        wins += a->psnr[m] > b->psnr[m];
     return wins;
 }
 

@@ -26,10 +26,19 @@ static void write_analytic_column(const report_entry *e, const hnbrdf_comparison
         fprintf(file, ",%.6g", error->smape_analytic);
 }
 
+/* Empty if no pictures are made. */
+static void write_psnr_column(const report *r, double psnr, FILE *file)
+{
+    if (r->image_size)
+        fprintf(file, ",%.6g", psnr);
+    else
+        putc(',', file);
+}
+
 void report_write_accuracy(const report *r, FILE *file)
 {
     fputs("kind,net,encoding,latent,steps,seconds,pairs_per_s,weights,mults,smape_grid,smape_uniform,"
-          "smape_analytic,smape_cosine,floor,name\n",
+          "smape_analytic,smape_cosine,floor,psnr,name\n",
           file);
     for (int k = 0; k < r->count; k++) {
         const report_entry *e = &r->entries[k];
@@ -40,17 +49,18 @@ void report_write_accuracy(const report *r, FILE *file)
                 e->weights, e->mults, e->mean[HNBRDF_SAMPLER_GRID].smape,
                 e->mean[HNBRDF_SAMPLER_UNIFORM].smape);
         write_analytic_column(e, &e->mean[r->sampler], file);
-        fprintf(file, ",%.6g,%.6g,%s\n", e->mean[HNBRDF_SAMPLER_COSINE].smape, (double)e->floor,
-                e->name);
+        fprintf(file, ",%.6g,%.6g", e->mean[HNBRDF_SAMPLER_COSINE].smape, (double)e->floor);
+        write_psnr_column(r, e->mean_psnr, file);
+        fprintf(file, ",%s\n", e->name);
     }
 }
 
 void report_write_materials(const report *r, FILE *file)
 {
     int n = r->data.count;
-    fputs(
-        "material,kind,net,encoding,latent,smape_grid,smape_uniform,smape_analytic,smape_cosine,name\n",
-        file);
+    fputs("material,kind,net,encoding,latent,smape_grid,smape_uniform,smape_analytic,smape_cosine,psnr,"
+          "name\n",
+          file);
     for (int k = 0; k < r->count; k++)
         for (int m = 0; r->entries[k].done && m < n; m++) {
             const report_entry *e = &r->entries[k];
@@ -60,7 +70,9 @@ void report_write_materials(const report *r, FILE *file)
             fprintf(file, ",%.6g,%.6g", e->errors[HNBRDF_SAMPLER_GRID * n + m].smape,
                     e->errors[HNBRDF_SAMPLER_UNIFORM * n + m].smape);
             write_analytic_column(e, &e->errors[r->sampler * n + m], file);
-            fprintf(file, ",%.6g,%s\n", e->errors[HNBRDF_SAMPLER_COSINE * n + m].smape, e->name);
+            fprintf(file, ",%.6g", e->errors[HNBRDF_SAMPLER_COSINE * n + m].smape);
+            write_psnr_column(r, e->psnr[m], file);
+            fprintf(file, ",%s\n", e->name);
         }
 }
 
@@ -114,6 +126,33 @@ static void write_errors(const report *r, int sampler, FILE *file)
     }
 }
 
+/* The paper's second table. */
+static void write_images(const report *r, FILE *file)
+{
+    if (!r->image_size)
+        return;
+    fprintf(file,
+            "\n## Mean PSNR, dB\n\nOf a sphere of each material under the built-in sky, %ld pixels a "
+            "side, %d "
+            "samples a pixel, the same random\ndirections for all models; peak: the reference's "
+            "largest value. "
+            "GGX alone: %.2f.\n\n",
+            r->image_size, (int)REPORT_IMAGE_SAMPLES, r->entries[0].mean_psnr);
+    write_form_header(r, file);
+    for (int n = 0; n < r->net_count; n++) {
+        fprintf(file, "| %dx%d |", r->nets[n][0], r->nets[n][1]);
+        for (int l = 0; l < r->latent_count; l++)
+            for (report_form form = REPORT_HYBRID; form < REPORT_FORMS; form++) {
+                const report_entry *e = report_find(r, form, r->nets[n], r->latents[l]);
+                if (r->forms[form] && e && e->done)
+                    fprintf(file, " %.2f |", e->mean_psnr);
+                else if (r->forms[form])
+                    fputs(" |", file);
+            }
+        putc('\n', file);
+    }
+}
+
 /* ---- Markdown: hybrids against the others -------------------------------------------------------- */
 
 static void write_ratio_cell(const report *r, const report_entry *e, const report_entry *other,
@@ -150,6 +189,56 @@ static void write_wins(const report *r, FILE *file)
             write_ratio_cell(r, e, report_find(r, REPORT_NEURAL, r->nets[n], r->latents[l]), file);
             fprintf(file, " %.3f |\n",
                     e->mean[r->sampler].smape_analytic / ggx->mean[r->sampler].smape);
+        }
+}
+
+/* Hybrid and neural where a material stores as many numbers. */
+static void write_equal_numbers(const report *r, FILE *file)
+{
+    fprintf(
+        file,
+        "\n## Hybrid against neural at equal numbers a material, %s sampler\n\n"
+        "Same encoding, floor, network size and training; wins: for how many materials the hybrid is "
+        "better.\n\n| net | numbers | SMAPE hybrid | neural | wins |%s\n|---|---|---|---|---|%s\n",
+        hnbrdf_sampler_name((hnbrdf_sampler)r->sampler),
+        r->image_size ? " PSNR hybrid | neural | wins |" : "", r->image_size ? "---|---|---|" : "");
+    for (int n = 0; n < r->net_count; n++)
+        for (int l = 0; l < r->latent_count; l++) {
+            const report_entry *a = report_find(r, REPORT_HYBRID, r->nets[n], r->latents[l]);
+            const report_entry *b = report_find(r, REPORT_NEURAL, r->nets[n], r->latents[l]);
+            if (!a || !b || !a->done || !b->done)
+                continue;
+            fprintf(file, "| %dx%d | %d | %.4f | %.4f | %d of %d |", a->net[0], a->net[1],
+                    a->latent + REPORT_ANALYTIC_NUMBERS, a->mean[r->sampler].smape,
+                    b->mean[r->sampler].smape, report_wins(r, a, b), r->data.count);
+            if (r->image_size)
+                fprintf(file, " %.2f | %.2f | %d of %d |", a->mean_psnr, b->mean_psnr,
+                        report_image_wins(r, a, b), r->data.count);
+            putc('\n', file);
+        }
+}
+
+/* How many materials each model of a network's size is the best for. */
+static void write_best(const report *r, FILE *file)
+{
+    fprintf(file, "\n## For how many materials a model is the best of its row, %s sampler\n\n",
+            hnbrdf_sampler_name((hnbrdf_sampler)r->sampler));
+    fputs("| net | GGX alone | hybrid | paper's form | neural |\n|---|---|---|---|---|\n", file);
+    for (int n = 0; n < r->net_count; n++)
+        for (int l = 0; l < r->latent_count; l++) {
+            int wins[REPORT_FORMS] = {0};
+            for (int m = 0; m < r->data.count; m++) {
+                const report_entry *best = &r->entries[0];
+                for (report_form form = REPORT_HYBRID; form < REPORT_FORMS; form++) {
+                    const report_entry *e = report_find(r, form, r->nets[n], r->latents[l]);
+                    if (e && e->done && report_error(r, e, m) < report_error(r, best, m))
+                        best = e;
+                }
+                wins[best->form]++;
+            }
+            fprintf(file, "| %dx%d l=%d | %d | %d | %d | %d |\n", r->nets[n][0], r->nets[n][1],
+                    r->latents[l], wins[REPORT_GGX], wins[REPORT_HYBRID], wins[REPORT_PAPER],
+                    wins[REPORT_NEURAL]);
         }
 }
 
@@ -211,7 +300,15 @@ static void write_papers_figures(FILE *file)
         "| 32x2 | 0.2470 | 0.3524 | 0.5899 | 0.6293 | 0.0778 | 0.1046 |\n"
         "| 32x3 | 0.2003 | 0.2537 | 0.5687 | 0.6549 | 0.0677 | 0.0833 |\n"
         "| 64x2 | 0.2174 | 0.2681 | 0.5925 | 0.5942 | 0.0634 | 0.0878 |\n"
-        "| 64x3 | 0.1800 | 0.2085 | 0.5100 | 0.5376 | 0.0483 | 0.0657 |\n",
+        "| 64x3 | 0.1800 | 0.2085 | 0.5100 | 0.5376 | 0.0483 | 0.0657 |\n"
+        "\nMean image PSNR as published (spheres under another light):\n\n"
+        "| net | MERL hybrid l=4 | neural l=12 | RGL hybrid l=4 | neural l=12 | UTIA hybrid l=4 | "
+        "neural l=12 |\n"
+        "|---|---|---|---|---|---|---|\n"
+        "| GGX alone | 32.89 | | 33.51 | | 32.58 | |\n"
+        "| 16x3 | 39.37 | 35.75 | 35.54 | 34.78 | 38.17 | 36.43 |\n"
+        "| 32x3 | 40.50 | 38.79 | 37.54 | 36.06 | 38.90 | 38.35 |\n"
+        "| 64x3 | 41.19 | 40.71 | 39.18 | 39.43 | 39.62 | 39.12 |\n",
         file);
 }
 
@@ -281,8 +378,12 @@ void report_write_markdown(const report *r, FILE *file)
     write_method(r, file);
     for (int k = 0; k < REPORT_SAMPLERS; k++)
         write_errors(r, order[k], file);
+    write_images(r, file);
     write_wins(r, file);
     write_smallest_against_largest(r, file);
+    write_equal_numbers(r, file);
+    write_best(r, file);
+    report_write_ggx_section(r, file);
     write_costs(r, file);
     write_plots(r, file);
     write_papers_figures(file);

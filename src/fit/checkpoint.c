@@ -38,12 +38,24 @@ static uint64_t hash_number(uint64_t h, double value)
 static uint64_t fingerprint(const trainer *t)
 {
     const hnbrdf_fit_options *o = &t->options;
-    const double numbers[] = {o->kind,           o->hidden,        o->layers,
-                              o->latent,         o->encoding,      (double)o->floor,
-                              o->analytic,       (double)o->steps, o->seconds,
-                              t->tiles_per_step, t->pool.tiles,    (double)o->learning_rate,
-                              (double)o->seed,   t->count,         o->freeze != NULL,
-                              o->loss,           o->schedule,      (double)o->uniform_share,
+    const double numbers[] = {o->kind,
+                              o->hidden,
+                              o->layers,
+                              o->latent,
+                              o->encoding,
+                              (double)o->floor,
+                              o->analytic,
+                              (double)o->steps,
+                              o->seconds,
+                              t->tiles_per_step,
+                              t->pool.tiles,
+                              (double)o->learning_rate,
+                              (double)o->seed,
+                              t->count,
+                              o->freeze != NULL,
+                              o->loss,
+                              o->schedule,
+                              (double)o->uniform_share,
                               o->materials != NULL};
     uint64_t h = UINT64_C(14695981039346656037);
     for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++)

@@ -81,14 +81,17 @@ static void fit_one(void *context, int material, int worker)
 {
     trainer *t = context;
     hnbrdf_material_init(&t->materials[material]);
+    if (t->options.search)
+        memset(t->options.search + material, 0, sizeof *t->options.search);
     int neural = t->options.kind == HNBRDF_KIND_NEURAL;
     if (!neural || !t->isotropic[material]) {
         float *p = t->parameters + t->layout.analytic + (size_t)material * FIT_ANALYTIC;
         hnbrdf_material fitted = t->materials[material];
+        hnbrdf_fit_search *search = t->options.search ? t->options.search + material : NULL;
         if (t->options.materials) {
             take_analytic(&t->options.materials[material], p, &fitted);
         } else {
-            hnbrdf_fit_ggx(t->kernel, &t->pool, material, t->isotropic[material], p);
+            hnbrdf_fit_ggx(t->kernel, &t->pool, material, t->isotropic[material], p, search);
             hnbrdf_fit_ggx_material(p, &fitted);
         }
         if (neural) /* of GGX it takes the tangent frame alone */

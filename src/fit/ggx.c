@@ -200,50 +200,75 @@ static int start(int k, int isotropic, const float mean[3], float *p)
     return 1;
 }
 
-double hnbrdf_fit_ggx(const fit_kernel *kernel, const fit_pool *pool, int material, int isotropic,
-                      float *parameters)
-{
-    int scouts = SCOUT_TILES < pool->tiles ? SCOUT_TILES : pool->tiles;
-    int refiners = REFINE_TILES < pool->tiles ? REFINE_TILES : pool->tiles;
-    float kept[KEEP][FIT_ANALYTIC], p[FIT_ANALYTIC], mean[3];
+/* The best of several states, best first. */
+typedef struct ranking {
     double losses[KEEP];
+    float states[KEEP][FIT_ANALYTIC];
+} ranking;
+
+static void rank(ranking *r, double loss, const float *p)
+{
+    int i = 0;
+    while (i < KEEP && !(loss < r->losses[i]))
+        i++;
+    for (int j = KEEP - 1; j > i; j--) {
+        r->losses[j] = r->losses[j - 1];
+        memcpy(r->states[j], r->states[j - 1], sizeof r->states[j]);
+    }
+    if (i < KEEP) {
+        r->losses[i] = loss;
+        memcpy(r->states[i], p, sizeof r->states[i]);
+    }
+}
+
+static void rank_nothing(ranking *r)
+{
     for (int i = 0; i < KEEP; i++)
-        losses[i] = INFINITY;
-    for (int c = 0; c < 3; c++) { /* geometric mean of f, times pi: a robust albedo */
+        r->losses[i] = INFINITY;
+}
+
+/* Geometric mean of f, times pi: a robust albedo. */
+static void mean_albedo(const fit_pool *pool, int material, int tiles, float mean[3])
+{
+    for (int c = 0; c < 3; c++) {
         double sum = 0.0;
-        for (int t = 0; t < scouts; t++)
+        for (int t = 0; t < tiles; t++)
             for (int b = 0; b < FIT_TILE; b++)
                 sum += log((double)hnbrdf_fit_pool_view(pool, material, t).target[c * FIT_TILE + b] +
                            1e-4);
-        mean[c] = 3.14159265f * (float)exp(sum / (scouts * FIT_TILE));
+        mean[c] = 3.14159265f * (float)exp(sum / (tiles * FIT_TILE));
     }
-    for (int k = 0; start(k, isotropic, mean, p); k++) {
+}
+
+double hnbrdf_fit_ggx(const fit_kernel *kernel, const fit_pool *pool, int material, int isotropic,
+                      float *parameters, hnbrdf_fit_search *search)
+{
+    int scouts = SCOUT_TILES < pool->tiles ? SCOUT_TILES : pool->tiles;
+    int refiners = REFINE_TILES < pool->tiles ? REFINE_TILES : pool->tiles, starts;
+    float p[FIT_ANALYTIC], mean[3];
+    ranking scouted, refined;
+    rank_nothing(&scouted);
+    rank_nothing(&refined);
+    mean_albedo(pool, material, scouts, mean);
+    for (starts = 0; start(starts, isotropic, mean, p); starts++) {
         double loss = descend(kernel, pool, material, isotropic, scouts, SCOUT_STEPS, 0.1, p);
-        for (int i = 0; i < KEEP; i++)
-            if (loss < losses[i]) { /* insert, shift the worse ones down */
-                for (int j = KEEP - 1; j > i; j--) {
-                    losses[j] = losses[j - 1];
-                    memcpy(kept[j], kept[j - 1], sizeof kept[j]);
-                }
-                losses[i] = loss;
-                memcpy(kept[i], p, sizeof kept[i]);
-                break;
-            }
+        rank(&scouted, loss, p);
     }
-    int best = -1;
-    double least = INFINITY;
-    for (int i = 0; i < KEEP && losses[i] < INFINITY; i++) {
-        search_channels(pool, material, scouts, kept[i]);
-        double loss = descend(kernel, pool, material, isotropic, refiners, REFINE_STEPS, 0.03, kept[i]);
-        if (best < 0 || loss < least) {
-            best = i;
-            least = loss;
-        }
+    for (int i = 0; i < KEEP && scouted.losses[i] < INFINITY; i++) {
+        float *kept = scouted.states[i];
+        search_channels(pool, material, scouts, kept);
+        double loss = descend(kernel, pool, material, isotropic, refiners, REFINE_STEPS, 0.03, kept);
+        rank(&refined, loss, kept);
     }
-    if (best < 0) { /* no start gave a finite loss: the mean colour, rough and faint */
+    if (search) {
+        *search = (hnbrdf_fit_search){starts, refined.losses[0], refined.losses[1], {0.0f, 0.0f}};
+        for (int a = 0; a < 2 && refined.losses[1] < INFINITY; a++)
+            search->second_alpha[a] = expf(refined.states[1][FIT_ALPHA + a]);
+    }
+    if (!(refined.losses[0] < INFINITY)) { /* no finite loss: the mean colour, rough and faint */
         start(3, isotropic, mean, parameters);
         return NAN;
     }
-    memcpy(parameters, kept[best], sizeof kept[best]);
-    return least;
+    memcpy(parameters, refined.states[0], sizeof refined.states[0]);
+    return refined.losses[0];
 }

@@ -3,11 +3,13 @@
 #define HNBRDF_FIT_GGX_H
 
 #include "fit/pool.h"
+#include "hnbrdf/fit.h"
 
 /* Fits parameters[FIT_ANALYTIC] (kernel.h) to the material's tiles: Adam from several starts, the best
- * of them refined. Isotropic data tie the two alphas and keep the rotation 0. Returns the mean loss. */
+ * of them refined. Isotropic data tie the two alphas and keep the rotation 0. Returns the mean loss;
+ * search may be NULL. */
 double hnbrdf_fit_ggx(const fit_kernel *kernel, const fit_pool *pool, int material, int isotropic,
-                      float *parameters);
+                      float *parameters, hnbrdf_fit_search *search);
 
 /* Moves parameters into their ranges: kd [0, 1], eta [1.001, 100], alpha [HNBRDF_MIN_ALPHA, 1]. */
 void hnbrdf_fit_ggx_project(float *parameters, int isotropic);
