@@ -195,8 +195,8 @@ static void add(stability_backend *backends, int *count, hnbrdf_variant variant,
                              .begin = begin,
                              .run = run,
                              .end = end,
-                             .variant = variant,
-                             .form = form,
+                             .variant = (int)variant,
+                             .form = (int)form,
                              .mode = mode};
     snprintf(b->name, sizeof b->name, "c %s%s%s", hnbrdf_variant_name(variant), forms[form].suffix,
              suffix);
