@@ -47,14 +47,15 @@ target_link_libraries(hnbrdf_stability PRIVATE hnbrdf_flags PUBLIC hnbrdf_measur
 
 add_executable(hnbrdf_cli ${HNBRDF_TOOL_SOURCES})
 set_target_properties(hnbrdf_cli PROPERTIES OUTPUT_NAME hnbrdf RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR})
-target_sources(hnbrdf_cli PRIVATE src/cli/cmd_stability.c src/cli/stability_report.c)
+target_sources(hnbrdf_cli PRIVATE src/cli/cmd_stability.c src/cli/stability_report.c
+  src/cli/stability_gpu.c)
 target_link_libraries(hnbrdf_cli PRIVATE hnbrdf_flags hnbrdf_render hnbrdf_fit_static
   hnbrdf_metrics_static hnbrdf_stability)
 target_compile_definitions(hnbrdf_cli PRIVATE _POSIX_C_SOURCE=200809L)
 if(HNBRDF_WITH_VULKAN)
   # What the harness compiles, as texts named hnbrdf_ and the file's name with _ for the dot.
   set(HNBRDF_SHADER_TEXTS "")
-  foreach(shader verify.comp probe.comp bench.comp)
+  foreach(shader verify.comp probe.comp bench.comp evaluate.comp)
     string(REPLACE "." "_" symbol ${shader})
     set(text ${CMAKE_CURRENT_BINARY_DIR}/generated/${symbol}.c)
     add_custom_command(OUTPUT ${text}
@@ -67,7 +68,7 @@ if(HNBRDF_WITH_VULKAN)
   add_library(hnbrdf_gpu STATIC EXCLUDE_FROM_ALL
     src/gpu/device.c src/gpu/compile.c src/gpu/compute.c src/gpu/probe.c src/gpu/pairs.c
     src/gpu/bounds.c src/gpu/reference.c src/gpu/scene.c src/gpu/verify.c src/gpu/timed.c
-    ${HNBRDF_SHADER_TEXTS})
+    src/gpu/evaluate.c     ${HNBRDF_SHADER_TEXTS})
   target_link_libraries(hnbrdf_gpu PRIVATE hnbrdf_flags PUBLIC hnbrdf_measured_static Vulkan::Vulkan)
   target_compile_definitions(hnbrdf_gpu PRIVATE _POSIX_C_SOURCE=200809L)
   target_sources(hnbrdf_cli PRIVATE src/cli/verify_report.c)

@@ -115,6 +115,7 @@ static void mistakes_are_noticed_where_they_show(void **state)
         stability_backend wrong = {.name = "wrong",
                                    .stages = 1 << mistakes[k].stage,
                                    .loosen = 1.0,
+                                   .loosen_value = 1.0,
                                    .begin = begin,
                                    .run = run,
                                    .end = end,

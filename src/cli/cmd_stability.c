@@ -1,6 +1,7 @@
 /* cmd_stability.c: `hnbrdf stability`: every implementation against the oracle, where floats are hard
  * pressed. */
 #include "cli/cli.h"
+#include "cli/stability_gpu.h"
 #include "cli/stability_report.h"
 
 #include <stdlib.h>
@@ -8,7 +9,7 @@
 
 static const cli_command command = {
     "stability",
-    "MODEL... [--blocks N] [--all] [--csv FILE] [--json FILE]",
+    "MODEL... [--blocks N] [--device N|all|none] [--all] [--csv FILE] [--json FILE]",
     "How far from the true value is what the library computes? The formulas in 113 bits (where the "
     "compiler\n"
     "has them) against C, singly and in batches, in every rounding mode and with subnormals flushed, "
@@ -25,9 +26,9 @@ static const cli_command command = {
 };
 
 typedef struct settings {
-    const char *csv, *json;
+    const char *csv, *json, *device;
     long blocks;
-    int all;
+    int all, styles;
 } settings;
 
 static void on_progress(void *user, double share)
@@ -35,25 +36,31 @@ static void on_progress(void *user, double share)
     cli_progress_update(user, share, "");
 }
 
-static int run_model(const char *path, const settings *set, stability_result *result)
+/* Everything that is compared. */
+typedef struct contest {
+    stability_backend backends[STABILITY_C_BACKENDS + STABILITY_GPU_BACKENDS];
+    int count;
+    stability_gpus *gpus;
+} contest;
+
+static int run_model(const char *path, const settings *set, contest *c, stability_result *result)
 {
     hnbrdf_error error;
     hnbrdf_model *model;
-    stability_backend backends[STABILITY_C_BACKENDS];
     cli_progress progress;
     const stability_options options = {
         .blocks = (int)set->blocks, .progress = on_progress, .progress_user = &progress};
     if (hnbrdf_model_load(path, NULL, &model, &error) != HNBRDF_OK)
         return cli_fail("%s", error.text);
     result->path = path;
-    result->backend_count = stability_c_backends(backends);
-    result->rows = calloc((size_t)(stability_case_count * result->backend_count * STABILITY_STAGES),
-                          sizeof *result->rows);
+    result->backend_count = c->count;
+    result->rows =
+        calloc((size_t)(stability_case_count * c->count * STABILITY_STAGES), sizeof *result->rows);
     cli_progress_begin(&progress, "stability");
     hnbrdf_result code = HNBRDF_ERROR_MEMORY;
     snprintf(error.text, sizeof error.text, "out of memory");
     if (result->rows)
-        code = stability_run(model, &options, backends, result->backend_count, result->rows, &error);
+        code = stability_run(model, &options, c->backends, c->count, result->rows, &error);
     cli_progress_end(&progress);
     hnbrdf_model_free(model);
     return code == HNBRDF_OK ? CLI_OK : cli_fail("%s: %s", path, error.text);
@@ -76,15 +83,32 @@ static int is_stdout(const char *path)
     return path && strcmp(path, "-") == 0;
 }
 
+static int compare_all(char **paths, int count, const settings *set, stability_result *results)
+{
+    contest c = {.count = 0};
+    char note[128] = "";
+    int gpu_count = 0;
+    c.count = stability_c_backends(c.backends);
+    int code =
+        stability_gpus_open(set->device, set->styles, &c.gpus, c.backends + c.count, &gpu_count, note);
+    c.count += gpu_count;
+    if (code == CLI_OK && note[0])
+        fprintf(stderr, "%s\n", note);
+    for (int m = 0; m < count && code == CLI_OK; m++)
+        code = run_model(paths[m], set, &c, &results[m]);
+    stability_gpus_close(c.gpus);
+    return code;
+}
+
 static int run(char **paths, int count, const settings *set, stability_result *results)
 {
     const char *const files[] = {set->csv, set->json};
     for (int k = 0; k < 2; k++)
         if (files[k] && cli_output_check(files[k]) != CLI_OK)
             return CLI_FAILURE;
-    for (int m = 0; m < count; m++)
-        if (run_model(paths[m], set, &results[m]) != CLI_OK)
-            return CLI_FAILURE;
+    int code = compare_all(paths, count, set, results);
+    if (code != CLI_OK)
+        return code;
     if (!is_stdout(set->csv) && !is_stdout(set->json))
         stability_print(results, count, !set->all, stdout);
     if (write_file(set->csv, results, count, stability_write_csv) != CLI_OK ||
@@ -95,10 +119,14 @@ static int run(char **paths, int count, const settings *set, stability_result *r
 
 int cmd_stability(int argc, char **argv)
 {
-    settings set = {.blocks = 32};
+    settings set = {.blocks = 32, .device = "all"};
     const cli_option options[] = {
         {"blocks", 0, CLI_INT, &set.blocks, 1, 100000, "N",
          "64 evaluations each, per case; default 32"},
+        {"device", 'd', CLI_TEXT, &set.device, 0, 0, "N|all|none",
+         "Vulkan devices to include; default all"},
+        {"styles", 0, CLI_FLAG, &set.styles, 0, 0, NULL,
+         "every style of weights in shaders (default: constants alone)"},
         {"all", 0, CLI_FLAG, &set.all, 0, 0, NULL,
          "print every backend and the places (default: the worst backend)"},
         {"csv", 0, CLI_TEXT, &set.csv, 0, 0, "FILE",

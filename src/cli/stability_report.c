@@ -109,7 +109,9 @@ static stage_sum sum_stage(const stability_result *result, int backend, int stag
         sum.values += row->values;
         sum.invalid += wrong(row);
         sum.differs += row->differs;
-        if (isfinite(row->bar) && stability_cases[k].demand == STABILITY_ACCURATE)
+        stability_demand demand =
+            stage == STABILITY_VALUE ? row->what->value_demand : row->what->demand;
+        if (row->applies && demand == STABILITY_ACCURATE)
             sum.worst = fmax(sum.worst, row->worst_scale);
     }
     return sum;

@@ -189,8 +189,10 @@ static void add(stability_backend *backends, int *count, hnbrdf_variant variant,
                 int mode, const char *suffix)
 {
     stability_backend *b = &backends[(*count)++];
+    double loosen = mode == FE_TONEAREST || mode == MODE_FLUSH ? 1.0 : DIRECTED;
     *b = (stability_backend){.stages = forms[form].stages,
-                             .loosen = mode == FE_TONEAREST || mode == MODE_FLUSH ? 1.0 : DIRECTED,
+                             .loosen = loosen,
+                             .loosen_value = loosen,
                              .exact = mode == FE_TONEAREST,
                              .begin = begin,
                              .run = run,

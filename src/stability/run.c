@@ -79,7 +79,7 @@ static double bar_of(const stability_case *what, const stability_backend *backen
         return (double)INFINITY;
     if (demand == STABILITY_TURNED)
         bar += turned_bar(material, pair);
-    return bar * backend->loosen;
+    return bar * (stage == STABILITY_VALUE ? backend->loosen_value : backend->loosen);
 }
 
 static double spacing(double size)

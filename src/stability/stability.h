@@ -20,9 +20,10 @@ int stability_stage_numbers(stability_stage stage);
 /* An implementation. run() is called between begin() with the model and end(). */
 typedef struct stability_backend {
     char name[STABILITY_NAME];
-    int stages;    /* sum of 1 << stage */
-    double loosen; /* factor on the bars: 1 for correctly rounded operations */
-    int exact;     /* 1: promises the bits of the first backend */
+    int stages; /* sum of 1 << stage */
+    double loosen,
+        loosen_value; /* factor on the bars, on that of the value: 1 for correctly rounded operations */
+    int exact;        /* 1: promises the bits of the first backend */
     hnbrdf_result (*begin)(struct stability_backend *backend, const hnbrdf_model *model,
                            hnbrdf_error *error);
     hnbrdf_result (*run)(struct stability_backend *backend, stability_stage stage,

@@ -1,0 +1,190 @@
+/* evaluate.c: the exported shader of a model on one device as a function: any material, any directions.
+ */
+#include "gpu/evaluate.h"
+
+#include "core/error.h"
+#include "core/frame.h"
+#include "gpu/compile.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* The texts of shaders/evaluate.comp and shaders/hybrid_brdf.glsl. */
+extern const char hnbrdf_evaluate_comp[], hnbrdf_hybrid_brdf_glsl[];
+
+/* Floats of one evaluation: wi, wo, kd, eta, alpha, cosine and sine of the rotation, latent. */
+enum { AT_KD = 6, AT_ETA = 9, AT_ALPHA = 12, AT_ROTATION = 14, AT_LATENT = 16, INPUTS = 32 };
+
+typedef struct growing {
+    char *bytes;
+    size_t size, room;
+} growing;
+
+static int append(void *user, const void *data, size_t size)
+{
+    growing *text = user;
+    if (text->size + size + 1 > text->room) {
+        size_t room = 2 * (text->size + size + 1);
+        char *grown = realloc(text->bytes, room);
+        if (!grown)
+            return 1;
+        text->bytes = grown;
+        text->room = room;
+    }
+    memcpy(text->bytes + text->size, data, size);
+    text->size += size;
+    text->bytes[text->size] = '\0';
+    return 0;
+}
+
+/* The fields that the exporter gives to the struct of a scene that is anisotropic and turned. */
+static void write_reader(const hnbrdf_model_desc *desc, char text[1024])
+{
+    int vectors = desc->kind == HNBRDF_KIND_GGX ? 0 : (desc->latent + 3) / 4;
+    int length =
+        snprintf(text, 1024, "hnbrdf_material read_material(uint at)\n{\n    hnbrdf_material m;\n");
+    if (desc->kind != HNBRDF_KIND_NEURAL)
+        length += snprintf(text + length, 1024 - (size_t)length,
+                           "    m.kd = read3(at + %d);\n    m.eta = read3(at + %d);\n    m.alpha = "
+                           "read4(at + %d).xy;\n",
+                           AT_KD, AT_ETA, AT_ALPHA);
+    length += snprintf(text + length, 1024 - (size_t)length, "    m.rotation = read4(at + %d).xy;\n",
+                       AT_ROTATION);
+    for (int v = 0; v < vectors; v++)
+        length += snprintf(text + length, 1024 - (size_t)length, "    m.latent%d = read4(at + %d);\n",
+                           v, AT_LATENT + 4 * v);
+    snprintf(text + length, 1024 - (size_t)length, "    return m;\n}\n");
+}
+
+/* The same network with one material that has everything a material can have. */
+static hnbrdf_result general_model(const hnbrdf_model *model, hnbrdf_model **general,
+                                   hnbrdf_error *error)
+{
+    static const char *const name = "any";
+    hnbrdf_model_desc desc;
+    hnbrdf_material material;
+    hnbrdf_model_describe(model, &desc);
+    hnbrdf_material_init(&material);
+    material.alpha[1] = 0.25f;
+    material.rotation = 1.0f;
+    desc.materials = &material;
+    desc.names = &name;
+    desc.material_count = 1;
+    return hnbrdf_model_create(&desc, NULL, general, error);
+}
+
+static hnbrdf_result export_scene(const hnbrdf_model *general, const gpu_style *style, growing *scene,
+                                  growing *weights, hnbrdf_error *error)
+{
+    const hnbrdf_glsl_options options = {.weights = style->weights, .precision = style->precision};
+    hnbrdf_result result = hnbrdf_export_glsl(general, &options, append, scene, error);
+    if (!result && style->weights == HNBRDF_GLSL_UNIFORM && hnbrdf_weights_size(general) > 0)
+        result = hnbrdf_export_weights(general, &options, append, weights, error);
+    return result;
+}
+
+static hnbrdf_result open_program(gpu_evaluator *e, const hnbrdf_model *general, const gpu_style *style,
+                                  const growing *scene, const growing *weights, hnbrdf_error *error)
+{
+    hnbrdf_model_desc desc;
+    char reader[1024];
+    hnbrdf_model_describe(general, &desc);
+    write_reader(&desc, reader);
+    const gpu_include includes[] = {{"hybrid_brdf.glsl", hnbrdf_hybrid_brdf_glsl},
+                                    {"scene.glsl", scene->bytes},
+                                    {"material.glsl", reader}};
+    const char *const defines[] = {
+        style->build == GPU_BUILD_EXACT ? "HNBRDF_EXACT=1" : "HNBRDF_EXACT=0",
+        e->device->has_half ? "HNBRDF_HALF_NATIVE=1" : "HNBRDF_HALF_NATIVE=0", NULL};
+    const gpu_buffer *const buffers[] = {&e->inputs, &e->values, &e->weights};
+    uint32_t *spirv = NULL;
+    size_t size = 0;
+    hnbrdf_result result = HNBRDF_OK;
+    if (weights->size > 0)
+        result = gpu_uniform_open(e->device, weights->bytes, weights->size, &e->weights, error);
+    if (!result)
+        result = gpu_compile(hnbrdf_evaluate_comp, includes, 3, defines, &spirv, &size, error);
+    if (!result)
+        result = gpu_program_open(e->device, spirv, size, buffers, weights->size > 0 ? 3 : 2,
+                                  sizeof(uint32_t), &e->program, error);
+    free(spirv);
+    return result;
+}
+
+hnbrdf_result gpu_evaluator_open(const gpu_device *device, const hnbrdf_model *model,
+                                 const gpu_style *style, size_t capacity, gpu_evaluator *evaluator,
+                                 hnbrdf_error *error)
+{
+    gpu_evaluator e = {.device = device, .capacity = capacity};
+    growing scene = {0}, weights = {0};
+    hnbrdf_model *general = NULL;
+    hnbrdf_result result = general_model(model, &general, error);
+    if (!result)
+        result = export_scene(general, style, &scene, &weights, error);
+    e.packed = calloc(capacity, INPUTS * sizeof *e.packed);
+    if (!result && !e.packed)
+        result =
+            hnbrdf_fail(error, HNBRDF_ERROR_MEMORY, "evaluating: no memory for %zu pairs", capacity);
+    if (!result)
+        result = gpu_buffer_open(device, capacity * INPUTS * sizeof(float), &e.inputs, error);
+    if (!result)
+        result = gpu_buffer_open(device, capacity * 3 * sizeof(float), &e.values, error);
+    if (!result)
+        result = open_program(&e, general, style, &scene, &weights, error);
+    if (!result)
+        result = gpu_pipeline_open(device, &e.program, GPU_STAGE_ANALYTIC, &e.analytic, error);
+    if (!result)
+        result = gpu_pipeline_open(device, &e.program, GPU_STAGE_VALUE, &e.value, error);
+    free(scene.bytes);
+    free(weights.bytes);
+    hnbrdf_model_free(general);
+    if (result)
+        gpu_evaluator_close(&e);
+    else
+        *evaluator = e;
+    return result;
+}
+
+void gpu_evaluator_close(gpu_evaluator *e)
+{
+    if (!e->device)
+        return;
+    vkDestroyPipeline(e->device->handle, e->analytic, NULL);
+    vkDestroyPipeline(e->device->handle, e->value, NULL);
+    gpu_program_close(e->device, &e->program);
+    gpu_buffer_close(e->device, &e->inputs);
+    gpu_buffer_close(e->device, &e->values);
+    gpu_buffer_close(e->device, &e->weights);
+    free(e->packed);
+    memset(e, 0, sizeof *e);
+}
+
+hnbrdf_result gpu_evaluator_run(gpu_evaluator *e, gpu_stage stage, const hnbrdf_material *material,
+                                const float *pairs, size_t count, float *values, hnbrdf_error *error)
+{
+    hnbrdf_frame frame = hnbrdf_frame_of(material);
+    uint32_t push = (uint32_t)count;
+    if (count > e->capacity)
+        return hnbrdf_fail(error, HNBRDF_ERROR_LIMIT, "evaluating: %zu pairs, expected at most %zu",
+                           count, e->capacity);
+    for (size_t k = 0; k < count; k++) {
+        float *to = e->packed + k * INPUTS;
+        memcpy(to, pairs + 6 * k, 6 * sizeof *to);
+        memcpy(to + AT_KD, material->kd, sizeof material->kd);
+        memcpy(to + AT_ETA, material->eta, sizeof material->eta);
+        memcpy(to + AT_ALPHA, material->alpha, sizeof material->alpha);
+        to[AT_ROTATION] = frame.cosine;
+        to[AT_ROTATION + 1] = frame.sine;
+        memcpy(to + AT_LATENT, material->latent, sizeof material->latent);
+    }
+    hnbrdf_result result =
+        gpu_upload(e->device, &e->inputs, e->packed, count * INPUTS * sizeof(float), error);
+    if (!result)
+        result =
+            gpu_dispatch(e->device, &e->program, stage == GPU_STAGE_ANALYTIC ? e->analytic : e->value,
+                         &push, count, 1, NULL, error);
+    if (!result)
+        result = gpu_download(e->device, &e->values, values, count * 3 * sizeof(float), error);
+    return result;
+}
