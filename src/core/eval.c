@@ -1,4 +1,5 @@
-/* eval.c: f(wi, wo) of materials as they are, prepared, and in batches; the model's kernel does the work. */
+/* eval.c: f(wi, wo) of materials as they are, prepared, and in batches; the model's kernel does the
+ * work. */
 #include "core/compose.h"
 #include "core/kernel.h"
 #include "core/prepared.h"
@@ -31,7 +32,8 @@ static void prepare_eval(const hnbrdf_model *model, const hnbrdf_material *mater
         model->kernel->fold(model, material->latent, prepared->first);
 }
 
-void hnbrdf_prepare(const hnbrdf_model *model, const hnbrdf_material *material, hnbrdf_prepared *prepared)
+void hnbrdf_prepare(const hnbrdf_model *model, const hnbrdf_material *material,
+                    hnbrdf_prepared *prepared)
 {
     prepare_eval(model, material, prepared);
     prepared->share = hnbrdf_specular_share(model, material);
@@ -39,7 +41,8 @@ void hnbrdf_prepare(const hnbrdf_model *model, const hnbrdf_material *material, 
 
 /* ---- One pair ---------------------------------------------------------------------------------- */
 
-void hnbrdf_prepared_eval(const hnbrdf_prepared *prepared, const float wi[3], const float wo[3], float f[3])
+void hnbrdf_prepared_eval(const hnbrdf_prepared *prepared, const float wi[3], const float wo[3],
+                          float f[3])
 {
     if (hnbrdf_above_horizon(wi, wo))
         prepared->model->kernel->single(prepared, wi, wo, f);
@@ -100,16 +103,16 @@ void hnbrdf_eval_batch(const hnbrdf_model *model, const hnbrdf_material *materia
 }
 
 void hnbrdf_eval_many(const hnbrdf_model *model, const hnbrdf_material *materials, const int *index,
-                      size_t count, const float *wi, size_t wi_stride, const float *wo, size_t wo_stride,
-                      float *f, size_t f_stride)
+                      size_t count, const float *wi, size_t wi_stride, const float *wo,
+                      size_t wo_stride, float *f, size_t f_stride)
 {
     const hnbrdf_pairs pairs = pairs_of(count, wi, wi_stride, wo, wo_stride, f, f_stride);
     model->kernel->many(model, materials, index, &pairs);
 }
 
-void hnbrdf_eval_analytic_batch(const hnbrdf_model *model, const hnbrdf_material *material, size_t count,
-                                const float *wi, size_t wi_stride, const float *wo, size_t wo_stride,
-                                float *f, size_t f_stride)
+void hnbrdf_eval_analytic_batch(const hnbrdf_model *model, const hnbrdf_material *material,
+                                size_t count, const float *wi, size_t wi_stride, const float *wo,
+                                size_t wo_stride, float *f, size_t f_stride)
 {
     const hnbrdf_pairs pairs = pairs_of(count, wi, wi_stride, wo, wo_stride, f, f_stride);
     hnbrdf_prepared prepared;

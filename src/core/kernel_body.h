@@ -1,10 +1,10 @@
 /* kernel_body.h: the text of the evaluation kernels, included once per instruction set.
  *
  * The includer defines KERNEL_TABLE and KERNEL_VARIANT, the table to fill and what it is called;
- * KERNEL_WIDTH, the floats in a vector (1: plain loops, no compiler extension), KERNEL_ROWS x KERNEL_WIDE
- * vectors, the register tile of the network, and KERNEL_SINGLE, the floats in a vector of the network of
- * one evaluation. Everything but the network is loops over lanes of the same inline functions that define
- * it, which compilers vectorise. */
+ * KERNEL_WIDTH, the floats in a vector (1: plain loops, no compiler extension), KERNEL_ROWS x
+ * KERNEL_WIDE vectors, the register tile of the network, and KERNEL_SINGLE, the floats in a vector of
+ * the network of one evaluation. Everything but the network is loops over lanes of the same inline
+ * functions that define it, which compilers vectorise. */
 #include "core/compose.h"
 #include "core/encoding.h"
 #include "core/kernel.h"
@@ -14,42 +14,83 @@
 
 enum { LANES = HNBRDF_LANES };
 
-#if KERNEL_WIDTH > 1
-#define KERNEL_VECTOR(width) __attribute__((vector_size((width) * sizeof(float)), aligned(4), may_alias))
+#if defined(__GNUC__)
 #define KERNEL_INLINE static inline __attribute__((always_inline))
-typedef float tile_vector KERNEL_VECTOR(KERNEL_WIDTH);
-typedef float unit_vector KERNEL_VECTOR(KERNEL_SINGLE);
-typedef int32_t unit_mask __attribute__((vector_size(KERNEL_SINGLE * sizeof(int32_t))));
+#else
+#define KERNEL_INLINE static inline
+#endif
+
+#if KERNEL_WIDTH > 1
+/* In registers; in memory, where they lie anyhow. */
+typedef float tile_vector __attribute__((vector_size(KERNEL_WIDTH * sizeof(float))));
+typedef float unit_vector __attribute__((vector_size(KERNEL_SINGLE * sizeof(float))));
+typedef float tile_memory
+    __attribute__((vector_size(KERNEL_WIDTH * sizeof(float)), aligned(4), may_alias));
+typedef float unit_memory
+    __attribute__((vector_size(KERNEL_SINGLE * sizeof(float)), aligned(4), may_alias));
+#if defined(__SSE2__)
+#include <immintrin.h>
+#define KERNEL_MAX_4 _mm_max_ps
+#define KERNEL_MIN_4 _mm_min_ps
+#define KERNEL_MAX_8 _mm256_max_ps
+#define KERNEL_MIN_8 _mm256_min_ps
+#define KERNEL_MAX_16 _mm512_max_ps
+#define KERNEL_MIN_16 _mm512_min_ps
+#define KERNEL_JOIN(name, width) name##width
+#define KERNEL_FOR(name, width) KERNEL_JOIN(name, width)
+#endif
+
+/* hnbrdf_hard_gelu() of every number of a vector. maxps and minps give the second operand where one is
+ * NaN and where both are 0, as its comparisons do; elsewhere the comparisons themselves, as masks. */
+#if defined(__SSE2__)
+#define KERNEL_CLAMP_01(t, zero, one, width)                                                           \
+    KERNEL_FOR(KERNEL_MIN_, width)(one, KERNEL_FOR(KERNEL_MAX_, width)(zero, t))
+#else
+typedef int32_t kernel_mask __attribute__((vector_size(KERNEL_WIDTH * sizeof(int32_t))));
+KERNEL_INLINE tile_vector clamp_01(tile_vector t, tile_vector zero, tile_vector one)
+{
+    t = (tile_vector)(~(kernel_mask)(t < zero) & (kernel_mask)t);
+    kernel_mask over = (kernel_mask)(t > one);
+    return (tile_vector)((over & (kernel_mask)one) | (~over & (kernel_mask)t));
+}
+#define KERNEL_CLAMP_01(t, zero, one, width) clamp_01(t, zero, one)
+#endif
+
+KERNEL_INLINE tile_vector activate_tile(tile_vector x)
+{
+    const tile_vector zero = {0}, one = zero + 1.0f;
+    return x * KERNEL_CLAMP_01(x * 0.333333333f + 0.5f, zero, one, KERNEL_WIDTH);
+}
+
+KERNEL_INLINE unit_vector activate_units(unit_vector x)
+{
+    const unit_vector zero = {0}, one = zero + 1.0f;
+    return x * KERNEL_CLAMP_01(x * 0.333333333f + 0.5f, zero, one, KERNEL_SINGLE);
+}
 #endif
 
 /* ---- The network of one evaluation, vectors over units ----------------------------------------- */
 
 #if KERNEL_WIDTH > 1
 
-/* hnbrdf_hard_gelu() of every unit. */
-KERNEL_INLINE unit_vector activate_units(unit_vector x)
-{
-    const unit_vector zero = {0}, one = zero + 1.0f;
-    unit_vector t = x * 0.333333333f + 0.5f;
-    unit_mask below = (unit_mask)(t < zero);
-    t = (unit_vector)(~below & (unit_mask)t);
-    unit_mask over = (unit_mask)(t > one);
-    t = (unit_vector)((over & (unit_mask)one) | (~over & (unit_mask)t));
-    return x * t;
-}
-
 /* y[u] = biases[u] + sum over k of x[k] w[k][u] for `vectors` vectors of units. */
-KERNEL_INLINE void unit_vectors(const float *w, int stride, int depth, const float *x, const float *biases,
-                                int activate, int vectors, float *y)
+KERNEL_INLINE void unit_vectors(const float *w, int stride, int depth, const float *x,
+                                const float *biases, int activate, int vectors, float *y)
 {
     unit_vector sums[8];
     for (int v = 0; v < vectors; v++)
-        sums[v] = *(const unit_vector *)(biases + v * KERNEL_SINGLE);
-    for (int k = 0; k < depth; k++)
+        sums[v] = *(const unit_memory *)(biases + v * KERNEL_SINGLE);
+    int k = 0;
+    for (; k + 8 <= depth;
+         k += 8) /* fewer instructions between two evaluations that a processor overlaps */
+        for (int i = 0; i < 8; i++, w += stride)
+            for (int v = 0; v < vectors; v++)
+                sums[v] += *(const unit_memory *)(w + v * KERNEL_SINGLE) * x[k + i];
+    for (; k < depth; k++, w += stride)
         for (int v = 0; v < vectors; v++)
-            sums[v] += *(const unit_vector *)(w + k * stride + v * KERNEL_SINGLE) * x[k];
+            sums[v] += *(const unit_memory *)(w + v * KERNEL_SINGLE) * x[k];
     for (int v = 0; v < vectors; v++)
-        *(unit_vector *)(y + v * KERNEL_SINGLE) = activate ? activate_units(sums[v]) : sums[v];
+        *(unit_memory *)(y + v * KERNEL_SINGLE) = activate ? activate_units(sums[v]) : sums[v];
 }
 
 /* Writes whole vectors: y has room for a multiple of HNBRDF_PACK, and so have w and biases. */
@@ -71,6 +112,17 @@ static void units(const float *w, int stride, int depth, const float *x, const f
         unit_vectors(w + u, stride, depth, x, biases + u, activate, 1, y + u);
 }
 
+enum { OUTPUT_VECTORS = (HNBRDF_MAX_OUTPUTS + KERNEL_SINGLE - 1) / KERNEL_SINGLE };
+
+KERNEL_INLINE void any_units(const float *w, int stride, int depth, const float *x, const float *biases,
+                             int count, int activate, int vectors, float *y)
+{
+    if (vectors)
+        unit_vectors(w, stride, depth, x, biases, activate, vectors, y);
+    else
+        units(w, stride, depth, x, biases, count, activate, y);
+}
+
 #else
 
 static void units(const float *w, int stride, int depth, const float *x, const float *biases, int count,
@@ -85,52 +137,92 @@ static void units(const float *w, int stride, int depth, const float *x, const f
         y[u] = hnbrdf_hard_gelu(y[u]);
 }
 
+enum { OUTPUT_VECTORS = 0 };
+
+static void any_units(const float *w, int stride, int depth, const float *x, const float *biases,
+                      int count, int activate, int vectors, float *y)
+{
+    (void)vectors;
+    units(w, stride, depth, x, biases, count, activate, y);
+}
+
 #endif
 
 static void kernel_fold(const hnbrdf_model *model, const float *latent, float *first)
 {
-    units(model->packed[0], hnbrdf_packed_outputs(&model->desc, 0), model->desc.latent, latent,
-          model->packed_biases[0], model->desc.hidden, 0, first);
+    const int stride = hnbrdf_packed_outputs(&model->desc, 0);
+    units(model->packed[0], stride, model->desc.latent, latent, model->packed_biases[0], stride, 0,
+          first);
 }
 
-static void network_single(const hnbrdf_prepared *prepared, const float *x, float *out)
+/* The network where every layer is `vectors` vectors wide, 0 for any width. Inlined where that is
+ * known: the layers then follow each other without a call or a choice between them. */
+KERNEL_INLINE void network_of(const hnbrdf_prepared *prepared, const float *x, int vectors, float *out)
 {
     const hnbrdf_model *model = prepared->model;
     const hnbrdf_model_desc *desc = &model->desc;
-    const int stride = hnbrdf_packed_outputs(desc, 0), hidden = desc->hidden;
+    const int stride = hnbrdf_packed_outputs(desc, 0), hidden = desc->hidden, last = desc->layers;
     float buffers[2][HNBRDF_MAX_HIDDEN];
-    units(model->packed[0] + desc->latent * stride, stride, HNBRDF_ENCODING_SIZE, x, prepared->first,
-          hidden, 1, buffers[0]);
-    for (int k = 1; k < desc->layers; k++)
-        units(model->packed[k], stride, hidden, buffers[(k - 1) & 1], model->packed_biases[k], hidden, 1,
-              buffers[k & 1]);
-    units(model->packed[desc->layers], HNBRDF_PACK, hidden, buffers[(desc->layers - 1) & 1],
-          model->packed_biases[desc->layers], hnbrdf_layer_outputs(desc, desc->layers), 0, out);
+    any_units(model->packed[0] + desc->latent * stride, stride, HNBRDF_ENCODING_SIZE, x,
+              prepared->first, hidden, 1, vectors, buffers[0]);
+    for (int k = 1; k < last; k++)
+        any_units(model->packed[k], stride, hidden, buffers[(k - 1) & 1], model->packed_biases[k],
+                  hidden, 1, vectors, buffers[k & 1]);
+    any_units(model->packed[last], HNBRDF_PACK, hidden, buffers[(last - 1) & 1],
+              model->packed_biases[last], HNBRDF_MAX_OUTPUTS, 0, OUTPUT_VECTORS, out);
 }
 
-static void kernel_single(const hnbrdf_prepared *prepared, const float wi[3], const float wo[3], float f[3])
+/* A width that is rounded up stays within what the layers are padded to. */
+static void network_single(const hnbrdf_prepared *prepared, const float *x, float *out)
+{
+#if KERNEL_WIDTH > 1
+    switch ((prepared->model->desc.hidden + KERNEL_SINGLE - 1) / KERNEL_SINGLE) {
+    case 1:
+        network_of(prepared, x, 1, out);
+        return;
+    case 2:
+        network_of(prepared, x, 2, out);
+        return;
+    case 3:
+    case 4:
+        network_of(prepared, x, 4, out);
+        return;
+    case 7:
+    case 8:
+        network_of(prepared, x, 8, out);
+        return;
+    default:
+        break;
+    }
+#endif
+    network_of(prepared, x, 0, out);
+}
+
+/* The network first: its sums are one long wait, and f_a is worked out in its shadow. */
+static void kernel_single(const hnbrdf_prepared *prepared, const float wi[3], const float wo[3],
+                          float f[3])
 {
     const hnbrdf_model_desc *desc = &prepared->model->desc;
+    const float scale = desc->scale, shift = desc->shift, lowest = desc->floor;
+    float f_a[4], value[4], out[HNBRDF_MAX_HIDDEN]; /* the fourth channel is filling */
     hnbrdf_pair pair = hnbrdf_pair_in_frame(prepared, wi, wo);
-    float f_a[4] = {0}, value[4], x[HNBRDF_ENCODING_SIZE];
-    if (desc->kind != HNBRDF_KIND_NEURAL)
-        hnbrdf_prepared_analytic(prepared, &pair, f_a);
-    if (desc->kind == HNBRDF_KIND_GGX) {
-        for (int c = 0; c < 4; c++)
-            value[c] = hnbrdf_finish(f_a[c]);
-    } else {
-        float out[HNBRDF_MAX_HIDDEN]; /* as wide as units() may write; the fourth channel is filling */
+    if (desc->kind != HNBRDF_KIND_GGX) {
+        float x[HNBRDF_ENCODING_SIZE];
         out[3] = out[6] = 0.0f;
         hnbrdf_encode(desc->encoding, &pair, x);
         network_single(prepared, x, out);
-        const float scale = desc->scale, shift = desc->shift, lowest = desc->floor;
-        if (desc->kind == HNBRDF_KIND_HYBRID)
-            for (int c = 0; c < 4; c++)
-                value[c] = hnbrdf_compose_hybrid(out[c], out[c + 3], f_a[c], scale, shift, lowest);
-        else
-            for (int c = 0; c < 4; c++)
-                value[c] = hnbrdf_compose_neural(out[c], scale, shift, lowest);
     }
+    if (desc->kind != HNBRDF_KIND_NEURAL)
+        hnbrdf_prepared_analytic(prepared, &pair, f_a);
+    if (desc->kind == HNBRDF_KIND_HYBRID)
+        for (int c = 0; c < 4; c++)
+            value[c] = hnbrdf_compose_hybrid(out[c], out[c + 3], f_a[c], scale, shift, lowest);
+    else if (desc->kind == HNBRDF_KIND_NEURAL)
+        for (int c = 0; c < 4; c++)
+            value[c] = hnbrdf_compose_neural(out[c], scale, shift, lowest);
+    else
+        for (int c = 0; c < 4; c++)
+            value[c] = hnbrdf_finish(f_a[c]);
     memcpy(f, value, 3 * sizeof *f);
 }
 
@@ -140,46 +232,50 @@ typedef float lane[LANES];
 
 #if KERNEL_WIDTH > 1
 
-/* y[r][l] = biases[r] + sum over k of w[k][r] x[k][l] for `rows` rows and KERNEL_WIDE vectors of lanes. */
-KERNEL_INLINE void tile(const float *w, int stride, int depth, lane *x, const float *biases, int rows,
-                        lane *y)
+/* y[r][l] = biases[r] + sum over k of w[k][r] x[k][l] for `rows` rows and KERNEL_WIDE vectors of lanes.
+ */
+KERNEL_INLINE void tile(const float *w, int stride, int depth, lane *x, const float *biases,
+                        int activate, int rows, lane *y)
 {
+    const tile_vector zero = {0}; /* b - 0 is b to the bit, -0 too */
     tile_vector sums[KERNEL_ROWS][KERNEL_WIDE];
     for (int r = 0; r < rows; r++)
         for (int v = 0; v < KERNEL_WIDE; v++)
-            sums[r][v] = (tile_vector){0} + biases[r];
+            sums[r][v] = biases[r] - zero;
     for (int k = 0; k < depth; k++) {
         tile_vector in[KERNEL_WIDE];
         for (int v = 0; v < KERNEL_WIDE; v++)
-            in[v] = *(const tile_vector *)((const float *)(x + k) + v * KERNEL_WIDTH);
+            in[v] = *(const tile_memory *)((const float *)(x + k) + v * KERNEL_WIDTH);
         for (int r = 0; r < rows; r++)
             for (int v = 0; v < KERNEL_WIDE; v++)
                 sums[r][v] += in[v] * w[k * stride + r];
     }
     for (int r = 0; r < rows; r++)
         for (int v = 0; v < KERNEL_WIDE; v++)
-            *(tile_vector *)((float *)(y + r) + v * KERNEL_WIDTH) = sums[r][v];
+            *(tile_memory *)((float *)(y + r) + v * KERNEL_WIDTH) =
+                activate ? activate_tile(sums[r][v]) : sums[r][v];
 }
 
-static void layer(const float *w, int stride, int depth, lane *x, const float *biases, int count,
-                  lane *y)
+/* y is [count], of HardGELU if `activate`; inlined where that is known. */
+KERNEL_INLINE void layer(const float *w, int stride, int depth, lane *x, const float *biases, int count,
+                         int activate, lane *y)
 {
     for (int l = 0; l < LANES; l += KERNEL_WIDE * KERNEL_WIDTH) {
         lane *from = (lane *)(void *)((float *)x + l);
         lane *to = (lane *)(void *)((float *)y + l);
         int r = 0;
         for (; r + KERNEL_ROWS <= count; r += KERNEL_ROWS)
-            tile(w + r, stride, depth, from, biases + r, KERNEL_ROWS, to + r);
+            tile(w + r, stride, depth, from, biases + r, activate, KERNEL_ROWS, to + r);
 #if KERNEL_ROWS > 6
         for (; r + 6 <= count; r += 6)
-            tile(w + r, stride, depth, from, biases + r, 6, to + r);
+            tile(w + r, stride, depth, from, biases + r, activate, 6, to + r);
 #endif
         for (; r + 4 <= count; r += 4)
-            tile(w + r, stride, depth, from, biases + r, 4, to + r);
+            tile(w + r, stride, depth, from, biases + r, activate, 4, to + r);
         for (; r + 2 <= count; r += 2)
-            tile(w + r, stride, depth, from, biases + r, 2, to + r);
+            tile(w + r, stride, depth, from, biases + r, activate, 2, to + r);
         for (; r < count; r++)
-            tile(w + r, stride, depth, from, biases + r, 1, to + r);
+            tile(w + r, stride, depth, from, biases + r, activate, 1, to + r);
     }
 }
 
@@ -187,7 +283,7 @@ static void layer(const float *w, int stride, int depth, lane *x, const float *b
 
 /* Two rows at a time: every input is loaded once for both. */
 static void layer(const float *w, int stride, int depth, lane *restrict x, const float *biases,
-                  int count, lane *restrict y)
+                  int count, int activate, lane *restrict y)
 {
     for (int r = 0; r < count; r += 2) {
         int next = r + 1 < count ? r + 1 : r; /* an odd last row is computed twice */
@@ -201,6 +297,10 @@ static void layer(const float *w, int stride, int depth, lane *restrict x, const
                 s[l] += w[k * stride + r] * x[k][l];
                 t[l] += w[k * stride + next] * x[k][l];
             }
+        for (int l = 0; activate && l < LANES; l++) {
+            s[l] = hnbrdf_hard_gelu(s[l]);
+            t[l] = hnbrdf_hard_gelu(t[l]);
+        }
         memcpy(y[r], s, sizeof s);
         memcpy(y[next], t, sizeof t);
     }
@@ -208,10 +308,10 @@ static void layer(const float *w, int stride, int depth, lane *restrict x, const
 
 #endif
 
-static void activate_lanes(lane *restrict y, int count)
+static void hidden_layer(const float *w, int stride, int depth, lane *x, const float *biases, int count,
+                         lane *y)
 {
-    for (int i = 0; i < count * LANES; i++)
-        (&y[0][0])[i] = hnbrdf_hard_gelu((&y[0][0])[i]);
+    layer(w, stride, depth, x, biases, count, 1, y);
 }
 
 /* The first layer sums `depth` inputs from `biases` with the weights w. */
@@ -219,18 +319,14 @@ static void network_lanes(const hnbrdf_model *model, const float *w, int depth, 
                           const float *biases, lane *out)
 {
     const hnbrdf_model_desc *desc = &model->desc;
-    const int stride = hnbrdf_packed_outputs(desc, 0), hidden = desc->hidden;
+    const int stride = hnbrdf_packed_outputs(desc, 0), hidden = desc->hidden, last = desc->layers;
     lane buffers[2][HNBRDF_MAX_HIDDEN];
-    layer(w, stride, depth, x, biases, hidden, buffers[0]);
-    for (int k = 1; k <= desc->layers; k++) {
-        lane *from = buffers[(k - 1) & 1];
-        activate_lanes(from, hidden);
-        if (k < desc->layers)
-            layer(model->packed[k], stride, hidden, from, model->packed_biases[k], hidden, buffers[k & 1]);
-        else
-            layer(model->packed[k], HNBRDF_PACK, hidden, from, model->packed_biases[k],
-                  hnbrdf_layer_outputs(desc, k), out);
-    }
+    hidden_layer(w, stride, depth, x, biases, hidden, buffers[0]);
+    for (int k = 1; k < last; k++)
+        hidden_layer(model->packed[k], stride, hidden, buffers[(k - 1) & 1], model->packed_biases[k],
+                     hidden, buffers[k & 1]);
+    layer(model->packed[last], HNBRDF_PACK, hidden, buffers[(last - 1) & 1], model->packed_biases[last],
+          hnbrdf_layer_outputs(desc, last), 0, out);
 }
 
 static void network_folded(const hnbrdf_prepared *prepared, lane *x, lane *out)
@@ -362,13 +458,13 @@ static void finish_lanes(lane_pairs *b)
 }
 
 /* One loop an encoding: none asks within it. */
-#define ENCODE_LANES(encode)                                                                                \
-    for (int l = 0; l < LANES; l++) {                                                                       \
-        hnbrdf_pair pair = pair_of(b, l);                                                                   \
-        float encoded[HNBRDF_ENCODING_SIZE];                                                                \
-        encode(&pair, encoded);                                                                             \
-        for (int i = 0; i < HNBRDF_ENCODING_SIZE; i++)                                                      \
-            x[i][l] = encoded[i];                                                                           \
+#define ENCODE_LANES(encode)                                                                           \
+    for (int l = 0; l < LANES; l++) {                                                                  \
+        hnbrdf_pair pair = pair_of(b, l);                                                              \
+        float encoded[HNBRDF_ENCODING_SIZE];                                                           \
+        encode(&pair, encoded);                                                                        \
+        for (int i = 0; i < HNBRDF_ENCODING_SIZE; i++)                                                 \
+            x[i][l] = encoded[i];                                                                      \
     }
 
 static void encode_lanes(hnbrdf_encoding encoding, lane_pairs *restrict b, lane *restrict x)
@@ -399,16 +495,16 @@ static void compose_lanes(const hnbrdf_model_desc *desc, lane_pairs *b)
     if (desc->kind == HNBRDF_KIND_HYBRID)
         for (int c = 0; c < 3; c++)
             for (int l = 0; l < LANES; l++)
-                b->f[c][l] = hnbrdf_compose_hybrid(b->out[c][l], b->out[c + 3][l], b->f[c][l], scale, shift,
-                                                   lowest);
+                b->f[c][l] = hnbrdf_compose_hybrid(b->out[c][l], b->out[c + 3][l], b->f[c][l], scale,
+                                                   shift, lowest);
     else
         for (int c = 0; c < 3; c++)
             for (int l = 0; l < LANES; l++)
                 b->f[c][l] = hnbrdf_compose_neural(b->out[c][l], scale, shift, lowest);
 }
 
-/* Everything between gather and scatter. shared: the one material of all lanes, or NULL, then b->x begins
- * with the latent codes. */
+/* Everything between gather and scatter. shared: the one material of all lanes, or NULL, then b->x
+ * begins with the latent codes. */
 static void evaluate_lanes(const hnbrdf_model *model, const hnbrdf_prepared *shared,
                            const lane_materials *m, lane_pairs *b)
 {
@@ -474,9 +570,11 @@ static void kernel_analytic(const hnbrdf_prepared *prepared, const hnbrdf_pairs 
     }
 }
 
-/* The materials of one block, by lane. Where all lanes have the same one, that is prepared (unless it is
- * already: *held) and returned; else NULL, and the latent codes are put before what will be encoded. */
-static const hnbrdf_prepared *take_materials(const hnbrdf_model *model, const hnbrdf_material *const *of,
+/* The materials of one block, by lane. Where all lanes have the same one, that is prepared (unless it
+ * is already: *held) and returned; else NULL, and the latent codes are put before what will be encoded.
+ */
+static const hnbrdf_prepared *take_materials(const hnbrdf_model *model,
+                                             const hnbrdf_material *const *of,
                                              const hnbrdf_material **held, hnbrdf_prepared *prepared,
                                              lane_materials *m, lane_pairs *b)
 {

@@ -1,6 +1,6 @@
-/* math.h: exp, log, sin and cos from + - * / and bit moves alone, the same bits wherever IEEE floats are,
- * in C, in every vector width and in GLSL (hybrid_brdf.glsl holds the same functions in the same order).
- * Polynomials fitted at Chebyshev nodes; tests/test_math.c holds each to its stated error. */
+/* math.h: exp, log, sin and cos from + - * / and bit moves alone, the same bits wherever IEEE floats
+ * are, in C, in every vector width and in GLSL (hybrid_brdf.glsl holds the same functions in the same
+ * order). Polynomials fitted at Chebyshev nodes; tests/test_math.c holds each to its stated error. */
 #ifndef HNBRDF_CORE_MATH_H
 #define HNBRDF_CORE_MATH_H
 
@@ -25,17 +25,19 @@ static inline int32_t hnbrdf_float_to_bits(float value)
     return bits;
 }
 
-/* x in [low, high]; a NaN becomes low. */
+/* x in [low, high]; a NaN becomes low. One after the other, not nested: that is a maximum and a
+ * minimum. */
 static inline float hnbrdf_clamp(float x, float low, float high)
 {
-    return x > low ? (x < high ? x : high) : low;
+    x = x > low ? x : low;
+    return x < high ? x : high;
 }
 
 /* exp(x) for x in [-80, 80]; within 1 ulp. */
 static inline float hnbrdf_exp(float x)
 {
-    float y = x * 1.44269504f;
-    int32_t k = (int32_t)(y + (y >= 0.0f ? 0.5f : -0.5f));
+    float y = x * 1.44269504f; /* to the nearest integer: half, with the sign of y, added and cut off */
+    int32_t k = (int32_t)(y + hnbrdf_bits_to_float((hnbrdf_float_to_bits(y) & INT32_MIN) | 0x3f000000));
     float fk = (float)k;
     float r = (x - fk * 0.693359375f) - fk * -2.12194440e-4f; /* ln 2 in two parts, the first exact */
     float q = 1.98909809e-4f;

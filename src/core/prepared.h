@@ -33,7 +33,8 @@ static inline hnbrdf_pair hnbrdf_pair_in_frame(const hnbrdf_prepared *prepared, 
 static inline void hnbrdf_prepared_analytic(const hnbrdf_prepared *prepared, const hnbrdf_pair *pair,
                                             float f[4])
 {
-    float specular = hnbrdf_specular_of_area(pair, prepared->alpha[0], prepared->alpha[1], prepared->area);
+    float specular =
+        hnbrdf_specular_of_area(pair, prepared->alpha[0], prepared->alpha[1], prepared->area);
     for (int c = 0; c < 4; c++)
         f[c] = hnbrdf_microfacet_of(prepared->diffuse[c], prepared->e[c], pair->c, specular);
 }
