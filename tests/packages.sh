@@ -6,7 +6,10 @@ set -eu
 wanted="gcc libc6-dev make cmake pkg-config libopenexr-dev libvulkan-dev mesa-vulkan-drivers glslang-tools libstb-dev"
 case ${1:-} in
 demo) ;;
-tests) wanted="$wanted g++ clang libcmocka-dev vulkan-validationlayers spirv-cross" ;;
+tests)
+    wanted="$wanted g++ clang libcmocka-dev vulkan-validationlayers spirv-cross"
+    wanted="$wanted gcc-aarch64-linux-gnu libc6-dev-arm64-cross qemu-user-static"
+    ;;
 *)
     echo "usage: sh $0 demo|tests" >&2
     exit 2

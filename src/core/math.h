@@ -50,9 +50,11 @@ static inline float hnbrdf_exp(float x)
     return e * hnbrdf_bits_to_float((k + 127) * 0x800000);
 }
 
-/* ln(x) for normal x > 0; error at most 1.05 ulp of the result plus 5e-8. +inf gives a finite 88.7. */
+/* ln(x) for normal x > 0; error at most 1.05 ulp of the result plus 5e-8. +inf gives a finite 88.7, a NaN what
+ * the smallest x gives: the bits of a NaN differ from machine to machine, and the result must not. */
 static inline float hnbrdf_log(float x)
 {
+    x = x > 1.17549435e-38f ? x : 1.17549435e-38f;
     int32_t i = hnbrdf_float_to_bits(x) - 0x3f3504f3; /* mantissa to [sqrt(1/2), sqrt(2)) */
     int32_t e = i >> 23;
     float f = hnbrdf_bits_to_float((i & 0x7fffff) + 0x3f3504f3) - 1.0f;
