@@ -55,7 +55,7 @@ target_compile_definitions(hnbrdf_cli PRIVATE _POSIX_C_SOURCE=200809L)
 if(HNBRDF_WITH_VULKAN)
   # What the harness compiles, as texts named hnbrdf_ and the file's name with _ for the dot.
   set(HNBRDF_SHADER_TEXTS "")
-  foreach(shader verify.comp probe.comp bench.comp evaluate.comp)
+  foreach(shader verify.comp probe.comp probe_half.comp bench.comp evaluate.comp)
     string(REPLACE "." "_" symbol ${shader})
     set(text ${CMAKE_CURRENT_BINARY_DIR}/generated/${symbol}.c)
     add_custom_command(OUTPUT ${text}
@@ -66,9 +66,9 @@ if(HNBRDF_WITH_VULKAN)
   endforeach()
   # A library only so that its tests need not compile it again; it is not installed.
   add_library(hnbrdf_gpu STATIC EXCLUDE_FROM_ALL
-    src/gpu/device.c src/gpu/compile.c src/gpu/compute.c src/gpu/probe.c src/gpu/pairs.c
-    src/gpu/bounds.c src/gpu/reference.c src/gpu/scene.c src/gpu/verify.c src/gpu/timed.c
-    src/gpu/evaluate.c     ${HNBRDF_SHADER_TEXTS})
+    src/gpu/device.c src/gpu/compile.c src/gpu/compute.c src/gpu/probe.c src/gpu/probe_half.c
+    src/gpu/half.c src/gpu/pairs.c src/gpu/bounds.c src/gpu/reference.c src/gpu/scene.c src/gpu/verify.c
+    src/gpu/timed.c src/gpu/evaluate.c ${HNBRDF_SHADER_TEXTS})
   target_link_libraries(hnbrdf_gpu PRIVATE hnbrdf_flags PUBLIC hnbrdf_measured_static Vulkan::Vulkan)
   target_compile_definitions(hnbrdf_gpu PRIVATE _POSIX_C_SOURCE=200809L)
   target_sources(hnbrdf_cli PRIVATE src/cli/verify_report.c)

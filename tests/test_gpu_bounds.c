@@ -142,7 +142,7 @@ static void bounds_cover_a_device_without_rounding(void **state)
         gpu_bounds bounds;
         if (!is_usual(gpu_pair_draw(&rng, k, pair)))
             continue;
-        gpu_bounds_make(&rules, &model->desc, material, pair, pair + 3, &bounds);
+        gpu_bounds_make(&rules, &model->desc, HNBRDF_GLSL_FLOAT, material, pair, pair + 3, &bounds);
         exact_result exact = evaluate(&model->desc, material, pair);
         covered("encoding", bounds.encoding, exact.encoding, 6);
         covered("analytic", bounds.analytic, exact.analytic, 3);
@@ -166,7 +166,7 @@ static void bounds_reproduce_the_bits_of_c(void **state)
         gpu_pair_class drawn = gpu_pair_draw(&rng, k, pair);
         if (drawn == GPU_PAIR_NOT_FINITE || !(pair[2] > 0.0f && pair[5] > 0.0f))
             continue;
-        gpu_bounds_make(&rules, &model->desc, material, pair, pair + 3, &bounds);
+        gpu_bounds_make(&rules, &model->desc, HNBRDF_GLSL_FLOAT, material, pair, pair + 3, &bounds);
         hnbrdf_eval(model, material, pair, pair + 3, value);
         hnbrdf_eval_analytic(model, material, pair, pair + 3, analytic);
         for (int c = 0; c < 3; c++) {
@@ -190,7 +190,8 @@ static void bounds_are_zero_where_every_operation_is_exact(void **state)
         gpu_bounds bounds;
         if (!is_usual(gpu_pair_draw(&rng, k, pair)))
             continue;
-        gpu_bounds_make(&rules, &model->desc, hnbrdf_model_material(model, 0), pair, pair + 3, &bounds);
+        gpu_bounds_make(&rules, &model->desc, HNBRDF_GLSL_FLOAT, hnbrdf_model_material(model, 0), pair,
+                        pair + 3, &bounds);
         for (int c = 0; c < 3; c++)
             assert_true(bounds.value[c].e == 0.0 && bounds.analytic[c].e == 0.0);
         for (int c = 0; c < 6; c++)
@@ -208,7 +209,8 @@ static void the_network_alone_is_exact_without_division(void **state)
     gpu_rules rules = gpu_rules_exact(&usual_gpu);
     const float wi[3] = {0.6f, 0.0f, 0.8f}, wo[3] = {-0.36f, 0.48f, 0.8f};
     gpu_bounds bounds;
-    gpu_bounds_make(&rules, &model->desc, hnbrdf_model_material(model, 0), wi, wo, &bounds);
+    gpu_bounds_make(&rules, &model->desc, HNBRDF_GLSL_FLOAT, hnbrdf_model_material(model, 0), wi, wo,
+                    &bounds);
     for (int c = 0; c < 6; c++)
         assert_true(bounds.fed[c].e == 0.0);
     for (int c = 0; c < 3; c++)
@@ -230,7 +232,8 @@ static void bounds_say_something(void **state)
         float wi[3], wo[3];
         gpu_bounds bounds;
         hnbrdf_sampler_draw(HNBRDF_SAMPLER_UNIFORM, &rng, wi, wo);
-        gpu_bounds_make(&rules, &model->desc, hnbrdf_model_material(model, 0), wi, wo, &bounds);
+        gpu_bounds_make(&rules, &model->desc, HNBRDF_GLSL_FLOAT, hnbrdf_model_material(model, 0), wi,
+                        wo, &bounds);
         tight_values += bounds.value[0].e <= 0.02 * (double)bounds.value[0].v;
         tight_analytic += bounds.analytic[0].e <= 1e-4 * (double)bounds.analytic[0].v;
     }

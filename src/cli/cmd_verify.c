@@ -60,7 +60,6 @@ static int append(void *user, const void *data, size_t size)
 
 typedef struct exported_scene {
     growing_text text, weights;
-    hnbrdf_glsl_precision precision;
 } exported_scene;
 
 static int export_scene(const hnbrdf_model *model, const settings *set, const int *materials, int count,
@@ -71,7 +70,6 @@ static int export_scene(const hnbrdf_model *model, const settings *set, const in
                                          .weights = (hnbrdf_glsl_weights)set->weights,
                                          .precision = (hnbrdf_glsl_precision)set->precision};
     hnbrdf_error error;
-    scene->precision = options.precision;
     hnbrdf_result result = hnbrdf_export_glsl(model, &options, append, &scene->text, &error);
     if (!result && options.weights == HNBRDF_GLSL_UNIFORM && hnbrdf_weights_size(model) > 0)
         result = hnbrdf_export_weights(model, &options, append, &scene->weights, &error);
@@ -121,7 +119,7 @@ static void verify_device(const gpu_instance *instance, const verification *v, c
     gpu_device device;
     const gpu_verify_options options = {.scene = {scene->text.bytes, scene->weights.bytes,
                                                   scene->weights.size},
-                                        .precision = scene->precision,
+                                        .precision = v->precision,
                                         .materials = v->materials,
                                         .material_count = v->material_count,
                                         .pairs = v->pairs,
@@ -193,7 +191,9 @@ static int verify_scene(gpu_instance *instance, verification *v, const settings 
 
 static int verify_model(gpu_instance *instance, const settings *set, const char *path)
 {
-    verification v = {.path = path, .pairs = (size_t)set->pairs, .validated = set->validate};
+    verification v = {.path = path, .pairs = (size_t)set->pairs, .validated = set->validate,
+                      .weights = (hnbrdf_glsl_weights)set->weights,
+                      .precision = (hnbrdf_glsl_precision)set->precision};
     int first, *materials = NULL;
     hnbrdf_model *model = NULL;
     hnbrdf_error error;

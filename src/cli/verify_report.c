@@ -41,6 +41,17 @@ static void print_arithmetic(const gpu_arithmetic *a, FILE *file)
                 a->exp_share, a->log_share);
 }
 
+static void print_half(const gpu_arithmetic *a, FILE *file)
+{
+    if (!a->has_half) {
+        fputs("  half        not offered by the device: single precision with the weights of half\n",
+              file);
+        return;
+    }
+    fprintf(file, "  half        conversion, + and * %s, subnormals %s\n",
+            a->exact_half ? "exact" : "NOT EXACT", a->keeps_half_denormals ? "kept" : "flushed");
+}
+
 static void print_place(const gpu_place *place, const char *material, FILE *file)
 {
     fprintf(file,
@@ -107,6 +118,8 @@ static void print_device(const verification *v, const verified_device *device, F
     }
     const gpu_report *report = &device->report;
     print_arithmetic(&report->arithmetic, file);
+    if (v->precision == HNBRDF_GLSL_HALF)
+        print_half(&report->arithmetic, file);
     fprintf(file, "    %-6s %-9s %10s %10s %10s %10s %10s %10s %9s\n", "build", "stage", "values",
             "same bits", "mean ulp", "worst ulp", "mean rel.", "worst rel.", "of bound");
     for (int build = 0; build < GPU_BUILDS; build++)
@@ -118,8 +131,10 @@ static void print_device(const verification *v, const verified_device *device, F
 
 void verification_print(const verification *v, FILE *file)
 {
-    fprintf(file, "%s: %d material%s, %zu direction pairs each, shader against C\n\n", v->path,
-            v->material_count, v->material_count == 1 ? "" : "s", v->pairs);
+    fprintf(file, "%s: %d material%s, %zu direction pairs each, shader (%s, %s) against C%s\n\n",
+            v->path, v->material_count, v->material_count == 1 ? "" : "s", v->pairs,
+            hnbrdf_glsl_weights_name(v->weights), hnbrdf_glsl_precision_name(v->precision),
+            v->precision == HNBRDF_GLSL_HALF ? " in half precision" : "");
     for (int d = 0; d < v->device_count; d++)
         print_device(v, &v->devices[d], file);
     fputs("ulp and relative errors: of the C value, where it is small of 2^-10 (analytic, value) or 1 "
@@ -223,6 +238,8 @@ static void write_json_report(const verification *v, const verified_device *devi
             "\"keeps_subnormals\": %s",
             a->exact_basic ? "true" : "false", a->exact_divide ? "true" : "false",
             a->exact_sqrt ? "true" : "false", a->keeps_denormals ? "true" : "false");
+    fprintf(file, ", \"has_half\": %s, \"exact_half\": %s", a->has_half ? "true" : "false",
+            a->exact_half ? "true" : "false");
     write_member(file, ", \"divide_ulp\": ", a->divide_ulp);
     write_member(file, ", \"sqrt_ulp\": ", a->sqrt_ulp);
     write_member(file, ", \"exp_ulp\": ", a->exp_ulp);
@@ -247,8 +264,9 @@ void verification_write_json(const verification *v, FILE *file)
     fputs("{\"model\": ", file);
     cli_write_json_text(file, v->path);
     fprintf(file,
-            ",\n  \"passed\": %s, \"pairs\": %zu, \"validated\": %s, \"validation_messages\": %d,\n  "
-            "\"devices\": [",
+            ",\n  \"weights\": \"%s\", \"precision\": \"%s\",\n  \"passed\": %s, \"pairs\": %zu, "
+            "\"validated\": %s, \"validation_messages\": %d,\n  \"devices\": [",
+            hnbrdf_glsl_weights_name(v->weights), hnbrdf_glsl_precision_name(v->precision),
             verification_passed(v) ? "true" : "false", v->pairs, v->validated ? "true" : "false",
             v->messages);
     for (int d = 0; d < v->device_count; d++) {

@@ -20,6 +20,8 @@ typedef struct verification {
     const int *materials;
     int material_count;
     size_t pairs;
+    hnbrdf_glsl_weights weights;
+    hnbrdf_glsl_precision precision;
     int validated, messages; /* of the validation layer */
     verified_device *devices;
     int device_count;

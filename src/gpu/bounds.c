@@ -10,6 +10,7 @@
 #include "core/compose.h"
 #include "core/encoding.h"
 #include "core/frame.h"
+#include "gpu/half.h"
 
 #include <float.h>
 
@@ -299,31 +300,43 @@ static num hard_gelu(const gpu_rules *k, num x)
     return multiply(k, x, clamp(t, 0.0f, 1.0f));
 }
 
-static void network(const gpu_rules *rules, const hnbrdf_model_desc *desc, const float *latent,
+/* The sums of one layer; codes are the inputs that come first, latent code or none. */
+static void layer_sums(const gpu_rules *rules, const hnbrdf_model_desc *desc, int layer,
+                       const num *codes, const num *from, num *to)
+{
+    int columns = hnbrdf_layer_inputs(desc, layer), rows = hnbrdf_layer_outputs(desc, layer);
+    for (int row = 0; row < rows; row++) {
+        const float *w = desc->weights[layer] + (size_t)row * (size_t)columns;
+        float bias = desc->biases[layer][row];
+        row_sum sum = {bias, fabs((double)bias), 0.0, subnormal(bias)};
+        if (layer == 0)
+            add_products(&sum, w + HNBRDF_ENCODING_SIZE, codes, desc->latent);
+        add_products(&sum, w, from, layer == 0 ? HNBRDF_ENCODING_SIZE : columns);
+        to[row] = finish_row(rules, &sum, columns);
+    }
+}
+
+static void network(const gpu_rules *rules, const hnbrdf_model_desc *desc,
+                    hnbrdf_glsl_precision precision, const float *latent,
                     const num x[HNBRDF_ENCODING_SIZE], num out[HNBRDF_MAX_OUTPUTS])
 {
     num layers[2][HNBRDF_MAX_HIDDEN], codes[HNBRDF_MAX_LATENT];
+    const num *from = x;
+    if (precision == HNBRDF_GLSL_HALF) {
+        gpu_half_hidden(rules, desc, latent, x, layers[0]);
+        layer_sums(rules, desc, desc->layers, NULL, layers[0], out);
+        return;
+    }
     for (int i = 0; i < desc->latent; i++)
         codes[i] = given(rules, latent[i]);
-    for (int layer = 0; layer <= desc->layers; layer++) {
-        int columns = hnbrdf_layer_inputs(desc, layer), rows = hnbrdf_layer_outputs(desc, layer);
-        const num *from = layers[(layer + 1) % 2];
-        num *to = layer < desc->layers ? layers[layer % 2] : out;
-        for (int row = 0; row < rows; row++) {
-            const float *w = desc->weights[layer] + (size_t)row * (size_t)columns;
-            float bias = desc->biases[layer][row];
-            row_sum sum = {bias, fabs((double)bias), 0.0, subnormal(bias)};
-            if (layer == 0) {
-                add_products(&sum, w + HNBRDF_ENCODING_SIZE, codes, desc->latent);
-                add_products(&sum, w, x, HNBRDF_ENCODING_SIZE);
-            } else {
-                add_products(&sum, w, from, columns);
-            }
-            to[row] = finish_row(rules, &sum, columns);
-        }
-        for (int row = 0; row < rows && layer < desc->layers; row++)
+    for (int layer = 0; layer < desc->layers; layer++) {
+        num *to = layers[layer % 2];
+        layer_sums(rules, desc, layer, codes, from, to);
+        for (int row = 0; row < desc->hidden; row++)
             to[row] = hard_gelu(rules, to[row]);
+        from = to;
     }
+    layer_sums(rules, desc, desc->layers, NULL, from, out);
 }
 
 static num correction(const gpu_rules *k, const hnbrdf_model_desc *desc, num c)
@@ -339,7 +352,9 @@ static num correction(const gpu_rules *k, const hnbrdf_model_desc *desc, num c)
 static num gate(const gpu_rules *k, num g)
 {
     num exponent = clamp((num){-g.v, g.e}, -HNBRDF_MAX_EXPONENT, HNBRDF_MAX_EXPONENT);
-    return divide(k, same(1.0f), add(k, same(1.0f), exponential(k, exponent)));
+    num sigmoid = divide(k, same(1.0f), add(k, same(1.0f), exponential(k, exponent)));
+    sigmoid.e = fmin(sigmoid.e, 1.0 + k->divide); /* both sides are in [0, 1], as far as 1/(1 + e) rounds */
+    return sigmoid;
 }
 
 static num finish(num f)
@@ -348,8 +363,8 @@ static num finish(num f)
 }
 
 void gpu_bounds_make(const gpu_rules *rules, const hnbrdf_model_desc *desc,
-                     const hnbrdf_material *material, const float wi[3], const float wo[3],
-                     gpu_bounds *bounds)
+                     hnbrdf_glsl_precision precision, const hnbrdf_material *material,
+                     const float wi[3], const float wo[3], gpu_bounds *bounds)
 {
     static const gpu_bounds zero;
     *bounds = zero;
@@ -366,8 +381,8 @@ void gpu_bounds_make(const gpu_rules *rules, const hnbrdf_model_desc *desc,
     encode(rules, desc->encoding, &p, bounds->encoding);
     for (int i = 0; i < HNBRDF_ENCODING_SIZE; i++)
         exact[i] = given(rules, bounds->encoding[i].v);
-    network(rules, desc, material->latent, exact, bounds->fed);
-    network(rules, desc, material->latent, bounds->encoding, out);
+    network(rules, desc, precision, material->latent, exact, bounds->fed);
+    network(rules, desc, precision, material->latent, bounds->encoding, out);
     for (int c = 0; c < 3; c++) {
         num f = correction(rules, desc, out[c]);
         if (desc->kind == HNBRDF_KIND_HYBRID)

@@ -19,10 +19,10 @@ typedef struct gpu_bounds {
     gpu_tracked value[3];
 } gpu_bounds;
 
-/* Directions above the horizon; the values v are, bit by bit, those of the C library. Entries that the
- * kind of model does not have are 0. */
+/* Directions above the horizon; the values v are, bit by bit, those of the C library, or, if the shader
+ * is in half precision, of half.h. Entries that the kind of model does not have are 0. */
 void gpu_bounds_make(const gpu_rules *rules, const hnbrdf_model_desc *desc,
-                     const hnbrdf_material *material, const float wi[3], const float wo[3],
-                     gpu_bounds *bounds);
+                     hnbrdf_glsl_precision precision, const hnbrdf_material *material,
+                     const float wi[3], const float wo[3], gpu_bounds *bounds);
 
 #endif

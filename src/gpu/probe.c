@@ -21,7 +21,8 @@ static const double ULP = 0x1p-23; /* of 1: the largest that one ulp is in relat
 /* ---- Rules -----------------------------------------------------------------------------------
  * Vulkan 1.3, "Precision of core SPIR-V instructions", 32 bits: + - * correctly rounded; division
  * 2.5 ulp for |b| in [2^-126, 2^126]; inversesqrt 2 ulp, sqrt as 1/inversesqrt; exp 3 + 2|x| ulp;
- * log 3 ulp, 2^-21 absolute for x in [0.5, 2]; subnormal numbers may be flushed. */
+ * log 3 ulp, 2^-21 absolute for x in [0.5, 2]; subnormal numbers may be flushed. 16 bits: + * and
+ * conversions correctly rounded, which without a stated mode means to either neighbour. */
 
 static gpu_rules vulkan_rules(void)
 {
@@ -32,7 +33,9 @@ static gpu_rules vulkan_rules(void)
                        .exp_slope = 2 * ULP,
                        .log = 3 * ULP,
                        .log_near_1 = 0x1p-21,
-                       .tiny = (double)FLT_MIN};
+                       .tiny = (double)FLT_MIN,
+                       .half = 0x1p-10,
+                       .half_tiny = 0x1p-14};
 }
 
 /* Operations that the probe saw to be exact. */
@@ -47,6 +50,11 @@ static void apply_probe(const gpu_arithmetic *arithmetic, gpu_rules *rules)
         rules->sqrt = 0.5 * ULP;
     if (arithmetic->keeps_denormals)
         rules->tiny = 0;
+    rules->repeats_half = arithmetic->exact_half && arithmetic->keeps_half_denormals;
+    if (arithmetic->exact_half)
+        rules->half = 0x1p-11;
+    if (arithmetic->keeps_half_denormals)
+        rules->half_tiny = 0x1p-24;
 }
 
 gpu_rules gpu_rules_exact(const gpu_arithmetic *arithmetic)
@@ -54,7 +62,8 @@ gpu_rules gpu_rules_exact(const gpu_arithmetic *arithmetic)
     gpu_rules rules = vulkan_rules();
     apply_probe(arithmetic, &rules);
     rules.repeats_functions = 1;
-    /* hnbrdf_exp: 1.1 ulp. hnbrdf_log: 1.05 ulp + 5e-8; s = f/(2 + f), |s| <= 0.172, enters as 2.06 s. */
+    /* hnbrdf_exp: 1.1 ulp. hnbrdf_log: 1.05 ulp + 5e-8; s = f/(2 + f), |s| <= 0.172, enters as 2.06 s.
+     */
     rules.exp = 1.1 * ULP;
     rules.exp_slope = 0;
     rules.log = 1.05 * ULP;
@@ -72,7 +81,7 @@ gpu_rules gpu_rules_fast(const gpu_arithmetic *arithmetic, VkDriverId driver)
          * holds one material: C's bits are not repeated. And it keeps to neither limit of exp and log:
          * measured with Mesa 22.3, exp errs by 16 ulp where Vulkan allows 3, log by 5.7e-7 near 1. */
         apply_probe(arithmetic, &rules);
-        rules.repeats_basic = rules.repeats_divide = rules.repeats_sqrt = 0;
+        rules.repeats_basic = rules.repeats_divide = rules.repeats_sqrt = rules.repeats_half = 0;
         rules.divide = fmax(rules.divide, 1.5 * ULP);
         rules.exp = 16 * ULP;
         rules.log_near_1 = 6e-7;

@@ -10,6 +10,9 @@ typedef struct gpu_arithmetic {
     int exact_basic; /* + - *, and a * b + c kept as two operations where the shader says `precise` */
     int exact_divide, exact_sqrt;
     int keeps_denormals;
+    int has_half; /* half precision, which the following is about */
+    int exact_half,
+        keeps_half_denormals;    /* conversion, + and * to the nearest, ties to even; subnormals */
     double divide_ulp, sqrt_ulp; /* worst error seen, in ulp of the true result */
     double exp_ulp, exp_share;   /* likewise, x in [-80, 80]; worst share of what the rules allow */
     double log_error, log_share; /* worst |log - true| near 1 (0.5 to 2); worst share, all x >= 1e-5 */
@@ -24,7 +27,9 @@ typedef struct gpu_rules {
     double exp, exp_slope;  /* exp(x): exp + exp_slope |x| */
     double log, log_near_1; /* log; absolute, for x in [0.5, 2], or everywhere if log_is_sum */
     int log_is_sum;
-    double tiny; /* absolute: a subnormal number may become 0 */
+    double tiny;            /* absolute: a subnormal number may become 0 */
+    int repeats_half;       /* in half precision: the bits of half.h */
+    double half, half_tiny; /* conversion, + and *: relative; absolute, among the subnormal halves */
 } gpu_rules;
 
 /* The largest error of exp(x) and log(x) by the rules; the second number is the true result. */

@@ -4,6 +4,7 @@
 #include "core/encoding.h"
 #include "core/error.h"
 #include "core/frame.h"
+#include "gpu/half.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -28,9 +29,11 @@ static int stage_components(const hnbrdf_model_desc *desc, gpu_stage stage)
     }
 }
 
-hnbrdf_result gpu_reference_open(size_t count, gpu_reference *reference, hnbrdf_error *error)
+hnbrdf_result gpu_reference_open(size_t count, hnbrdf_glsl_precision precision,
+                                 gpu_reference *reference, hnbrdf_error *error)
 {
     memset(reference, 0, sizeof *reference);
+    reference->precision = precision;
     reference->count = count;
     reference->pairs = calloc(count, 6 * sizeof(float));
     reference->classes = calloc(count, sizeof *reference->classes);
@@ -67,6 +70,11 @@ static void encode(const hnbrdf_model_desc *desc, hnbrdf_frame frame, const floa
 void gpu_reference_fill(const hnbrdf_model *model, const hnbrdf_material *material, hnbrdf_rng *rng,
                         gpu_reference *reference)
 {
+    int half = reference->precision == HNBRDF_GLSL_HALF;
+    void (*network)(const hnbrdf_model_desc *, const float *, const float *, float *) =
+        half ? gpu_half_network : hnbrdf_network;
+    void (*eval)(const hnbrdf_model *, const hnbrdf_material *, const float *, const float *, float *) =
+        half ? gpu_half_eval : hnbrdf_eval;
     hnbrdf_frame frame = hnbrdf_frame_of(material);
     float pair[6] = {0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 1.0f};
     for (size_t k = 0; k < reference->count; k++) {
@@ -75,12 +83,12 @@ void gpu_reference_fill(const hnbrdf_model *model, const hnbrdf_material *materi
         if (model->desc.kind != HNBRDF_KIND_GGX) {
             float *encoded = reference->stages[GPU_STAGE_ENCODING] + 6 * k;
             encode(&model->desc, frame, pair, encoded);
-            hnbrdf_network(&model->desc, material->latent, encoded,
-                           reference->stages[GPU_STAGE_NETWORK] + 6 * k);
+            network(&model->desc, material->latent, encoded,
+                    reference->stages[GPU_STAGE_NETWORK] + 6 * k);
         }
         hnbrdf_eval_analytic(model, material, pair, pair + 3,
                              reference->stages[GPU_STAGE_ANALYTIC] + 3 * k);
-        hnbrdf_eval(model, material, pair, pair + 3, reference->stages[GPU_STAGE_VALUE] + 3 * k);
+        eval(model, material, pair, pair + 3, reference->stages[GPU_STAGE_VALUE] + 3 * k);
     }
 }
 
@@ -157,10 +165,11 @@ static const gpu_tracked *stage_bounds(const gpu_bounds *bounds, int stage)
 }
 
 /* Every operation of this build gives C's bits: so does every stage then, and no bound is derived. */
-static int repeats_all(const gpu_rules *rules)
+static int repeats_all(const gpu_rules *rules, hnbrdf_glsl_precision precision)
 {
-    return rules->repeats_basic && rules->repeats_divide && rules->repeats_sqrt &&
-           rules->repeats_functions && rules->tiny == 0.0;
+    return (precision == HNBRDF_GLSL_FLOAT || rules->repeats_half) && rules->repeats_basic &&
+           rules->repeats_divide && rules->repeats_sqrt && rules->repeats_functions &&
+           rules->tiny == 0.0;
 }
 
 static int same_bits(float a, float b)
@@ -181,10 +190,10 @@ hnbrdf_result gpu_compare(const gpu_rules *rules, const hnbrdf_model *model,
         memcpy(place.pair, pair, sizeof place.pair);
         int finite = place.class_of_pair != GPU_PAIR_NOT_FINITE;
         int above = pair[2] > 0.0f && pair[5] > 0.0f;
-        int derived = finite && above && !repeats_all(rules);
+        int derived = finite && above && !repeats_all(rules, reference->precision);
         gpu_bounds bounds;
         if (derived)
-            gpu_bounds_make(rules, desc, material, pair, pair + 3, &bounds);
+            gpu_bounds_make(rules, desc, reference->precision, material, pair, pair + 3, &bounds);
         for (int stage = 0; stage < GPU_STAGES; stage++) {
             int components = stage_components(desc, (gpu_stage)stage);
             int must_be_value = stage == GPU_STAGE_ANALYTIC || stage == GPU_STAGE_VALUE;

@@ -5,8 +5,10 @@
 #include "gpu/bounds.h"
 #include "gpu/verify.h"
 
-/* `count` pairs of one material. Stages keep 6, 6, 3 and 3 numbers a pair. */
+/* `count` pairs of one material, for a shader of this precision: in half, network and value are those
+ * of half.h. Stages keep 6, 6, 3 and 3 numbers a pair. */
 typedef struct gpu_reference {
+    hnbrdf_glsl_precision precision;
     size_t count;
     float *pairs; /* 6 each */
     gpu_pair_class *classes;
@@ -15,7 +17,8 @@ typedef struct gpu_reference {
 
 int gpu_stage_stride(gpu_stage stage);
 
-hnbrdf_result gpu_reference_open(size_t count, gpu_reference *reference, hnbrdf_error *error);
+hnbrdf_result gpu_reference_open(size_t count, hnbrdf_glsl_precision precision,
+                                 gpu_reference *reference, hnbrdf_error *error);
 void gpu_reference_close(gpu_reference *reference);
 /* Draws pairs and evaluates all stages. */
 void gpu_reference_fill(const hnbrdf_model *model, const hnbrdf_material *material, hnbrdf_rng *rng,

@@ -2,6 +2,7 @@
 #include "gpu/verify.h"
 
 #include "core/error.h"
+#include "gpu/probe_half.h"
 #include "gpu/reference.h"
 
 #include <math.h>
@@ -44,7 +45,9 @@ static hnbrdf_result open_buffers(verifier *s)
             result = hnbrdf_fail(s->error, HNBRDF_ERROR_MEMORY, "verify: no memory for %zu pairs",
                                  s->options->pairs);
     }
-    return result ? result : gpu_reference_open(s->options->pairs, &s->reference, s->error);
+    return result
+               ? result
+               : gpu_reference_open(s->options->pairs, s->options->precision, &s->reference, s->error);
 }
 
 static hnbrdf_result open_program(verifier *s, gpu_build build)
@@ -125,6 +128,8 @@ static hnbrdf_result run_verifier(verifier *s)
 {
     gpu_report *report = s->report;
     hnbrdf_result result = gpu_probe(s->device, &report->arithmetic, s->error);
+    if (!result && s->options->precision == HNBRDF_GLSL_HALF)
+        result = gpu_probe_half(s->device, &report->arithmetic, s->error);
     if (!result && !s->options->without_timing) /* first, or the driver would have compiled before */
         result =
             gpu_time_scene(s->device, &s->options->scene, s->options->seed, &report->timing, s->error);
