@@ -34,10 +34,12 @@ enum { PAIRS = 2048 };
 #endif
 static const gpu_validation VALIDATION = HAS_LEAK_CHECK ? GPU_VALIDATED : GPU_VALIDATED_SYNC;
 
-static gpu_report verify(const hnbrdf_model *model, const char *scene)
+static gpu_report verify_styled(const hnbrdf_model *model, const gpu_scene *scene,
+                                hnbrdf_glsl_precision precision)
 {
     static const int all[SCENE_MATERIALS] = {0, 1, 2};
-    const gpu_verify_options options = {.scene = {.text = scene},
+    const gpu_verify_options options = {.scene = *scene,
+                                        .precision = precision,
                                         .materials = all,
                                         .material_count = hnbrdf_model_material_count(model),
                                         .pairs = PAIRS,
@@ -48,6 +50,11 @@ static gpu_report verify(const hnbrdf_model *model, const char *scene)
     if (gpu_verify(&device, model, &options, &report, &error))
         fail_msg("%s", error.text);
     return report;
+}
+
+static gpu_report verify(const hnbrdf_model *model, const char *scene)
+{
+    return verify_styled(model, &(gpu_scene){.text = scene}, HNBRDF_GLSL_FLOAT);
 }
 
 /* Over all materials. */
@@ -61,7 +68,8 @@ static gpu_comparison all_of(const gpu_report *report, int build, int stage)
 
 static int exact_device(const gpu_arithmetic *a)
 {
-    return a->exact_basic && a->exact_divide && a->exact_sqrt && a->keeps_denormals;
+    return (!a->has_half || (a->exact_half && a->keeps_half_denormals)) && a->exact_basic &&
+           a->exact_divide && a->exact_sqrt && a->keeps_denormals;
 }
 
 /* ---- What must hold -------------------------------------------------------------------------- */
@@ -80,7 +88,7 @@ static void check_stage(const gpu_report *report, int build, int stage)
                  gpu_pair_class_name(at->class_of_pair), (double)at->pair[0], (double)at->pair[1],
                  (double)at->pair[2], (double)at->pair[3], (double)at->pair[4], (double)at->pair[5]);
     if (build == GPU_BUILD_EXACT && stage == GPU_STAGE_NETWORK && report->arithmetic.exact_basic &&
-        report->arithmetic.keeps_denormals)
+        report->arithmetic.keeps_denormals && !report->arithmetic.has_half)
         assert_int_equal(sum.identical, sum.values);
     if (build == GPU_BUILD_EXACT && exact_device(&report->arithmetic))
         assert_int_equal(sum.identical, sum.values);
@@ -91,23 +99,43 @@ static void check_stage(const gpu_report *report, int build, int stage)
 
 /* The shader of this scene is within the derived bounds at every stage; where the device's operations
  * are exact, the exact build has the bits of C from end to end. */
-static void model_holds(const hnbrdf_model *model)
+static void model_holds_as(const hnbrdf_model *model, hnbrdf_glsl_weights weights,
+                           hnbrdf_glsl_precision precision)
 {
-    char *scene = scene_text(model, 0);
-    gpu_report report = verify(model, scene);
+    const hnbrdf_glsl_options options = {.weights = weights, .precision = precision};
+    gpu_scene exported = {0};
+    char *scene = styled_text(model, &options);
+    float *block = NULL;
+    if (weights == HNBRDF_GLSL_UNIFORM)
+        block = scene_weights(model, &options, &exported.weights_size);
+    exported.text = scene;
+    exported.weights = block;
+    gpu_report report = verify_styled(model, &exported, precision);
     for (int build = 0; build < GPU_BUILDS; build++)
         for (int stage = 0; stage < GPU_STAGES; stage++)
             check_stage(&report, build, stage);
     assert_true(report.within);
     gpu_report_free(&report);
+    free(block);
     free(scene);
+}
+
+static void model_holds(const hnbrdf_model *model)
+{
+    model_holds_as(model, HNBRDF_GLSL_CONSTANTS, HNBRDF_GLSL_FLOAT);
+}
+
+static void holds_as(const scene_shape *shape, hnbrdf_glsl_weights weights,
+                     hnbrdf_glsl_precision precision)
+{
+    hnbrdf_model *model = scene_model(shape);
+    model_holds_as(model, weights, precision);
+    hnbrdf_model_free(model);
 }
 
 static void holds(const scene_shape *shape)
 {
-    hnbrdf_model *model = scene_model(shape);
-    model_holds(model);
-    hnbrdf_model_free(model);
+    holds_as(shape, HNBRDF_GLSL_CONSTANTS, HNBRDF_GLSL_FLOAT);
 }
 
 /* The first material alone: its numbers are constants that the device's compiler may fold into others.
@@ -209,6 +237,72 @@ static void smallest_and_deepest_networks_equal_c(void **state)
     holds(&(scene_shape){.encoding = HALF, .hidden = 8, .layers = 4, .latent = 4});
 }
 
+/* Units and latent codes that do not fill their vectors; s, m and b that are read from the buffer. */
+static const scene_shape UNEVEN = {.encoding = HNBRDF_ENCODING_ANGLES,
+                                   .hidden = 11,
+                                   .layers = 2,
+                                   .latent = 5,
+                                   .scale = 1.7f,
+                                   .shift = 0.5f};
+static const scene_shape UNEVEN_NEURAL = {.kind = HNBRDF_KIND_NEURAL,
+                                          .encoding = HNBRDF_ENCODING_HALF_DIFFERENCE,
+                                          .hidden = 6,
+                                          .layers = 3,
+                                          .latent = 2};
+
+static void columns_equal_c(void **state)
+{
+    (void)state;
+    holds_as(&UNEVEN, HNBRDF_GLSL_COLUMNS, HNBRDF_GLSL_FLOAT);
+    holds_as(&UNEVEN_NEURAL, HNBRDF_GLSL_COLUMNS, HNBRDF_GLSL_FLOAT);
+}
+
+static void a_uniform_block_equals_c(void **state)
+{
+    (void)state;
+    holds_as(&UNEVEN, HNBRDF_GLSL_UNIFORM, HNBRDF_GLSL_FLOAT);
+    holds_as(&UNEVEN_NEURAL, HNBRDF_GLSL_UNIFORM, HNBRDF_GLSL_FLOAT);
+}
+
+static void half_equals_half_in_c(void **state)
+{
+    (void)state;
+    holds_as(&UNEVEN, HNBRDF_GLSL_CONSTANTS, HNBRDF_GLSL_HALF);
+    holds_as(&UNEVEN_NEURAL, HNBRDF_GLSL_COLUMNS, HNBRDF_GLSL_HALF);
+    holds_as(&UNEVEN, HNBRDF_GLSL_UNIFORM, HNBRDF_GLSL_HALF);
+}
+
+/* The shader of one network with the bytes of another of its size. */
+static void one_uniform_shader_serves_other_networks(void **state)
+{
+    (void)state;
+    const hnbrdf_glsl_options options = {.weights = HNBRDF_GLSL_UNIFORM};
+    hnbrdf_model *model = scene_model(&UNEVEN), *other = NULL;
+    hnbrdf_model_desc desc;
+    hnbrdf_model_describe(model, &desc);
+    float bias[6] = {-1.0f, 0.25f, -2.0f, 0.5f, 1.0f, -0.5f};
+    desc.biases[2] = bias;
+    desc.scale = 0.9f;
+    desc.floor = 0.002f;
+    assert_int_equal(hnbrdf_model_create(&desc, NULL, &other, NULL), HNBRDF_OK);
+    gpu_scene exported = {0};
+    char *scene = styled_text(model, &options);
+    float *block = scene_weights(other, &options, &exported.weights_size);
+    exported.text = scene;
+    exported.weights = block;
+    gpu_report report = verify_styled(other, &exported, HNBRDF_GLSL_FLOAT);
+    assert_true(report.within);
+    gpu_report_free(&report);
+    report =
+        verify_styled(model, &exported, HNBRDF_GLSL_FLOAT); /* and not the one it was written for */
+    assert_false(report.within);
+    gpu_report_free(&report);
+    free(block);
+    free(scene);
+    hnbrdf_model_free(other);
+    hnbrdf_model_free(model);
+}
+
 /* ---- What must not pass ---------------------------------------------------------------------- */
 
 /* The text with the first number behind `marker` moved: up by one float, or by 1 %. */
@@ -267,8 +361,10 @@ static void a_shader_that_does_not_compile_is_an_error(void **state)
     (void)state;
     hnbrdf_model *model = scene_model(&(scene_shape){.kind = HNBRDF_KIND_GGX});
     static const int first[] = {0};
-    const gpu_verify_options options = {
-        .scene = {.text = "int is_float = 1.0;\n"}, .materials = first, .material_count = 1, .pairs = 64};
+    const gpu_verify_options options = {.scene = {.text = "int is_float = 1.0;\n"},
+                                        .materials = first,
+                                        .material_count = 1,
+                                        .pairs = 64};
     gpu_report report = {0};
     hnbrdf_error error = {""};
     assert_int_equal(gpu_verify(&device, model, &options, &report, &error), HNBRDF_ERROR_FORMAT);
@@ -297,6 +393,10 @@ static int run_on(int index)
         cmocka_unit_test(neural_equals_c),
         cmocka_unit_test(ggx_equals_c),
         cmocka_unit_test(smallest_and_deepest_networks_equal_c),
+        cmocka_unit_test(columns_equal_c),
+        cmocka_unit_test(a_uniform_block_equals_c),
+        cmocka_unit_test(half_equals_half_in_c),
+        cmocka_unit_test(one_uniform_shader_serves_other_networks),
         cmocka_unit_test(a_changed_weight_is_found),
         cmocka_unit_test(one_ulp_of_one_number_is_found),
         cmocka_unit_test(a_shader_that_does_not_compile_is_an_error),

@@ -353,7 +353,8 @@ static num gate(const gpu_rules *k, num g)
 {
     num exponent = clamp((num){-g.v, g.e}, -HNBRDF_MAX_EXPONENT, HNBRDF_MAX_EXPONENT);
     num sigmoid = divide(k, same(1.0f), add(k, same(1.0f), exponential(k, exponent)));
-    sigmoid.e = fmin(sigmoid.e, 1.0 + k->divide); /* both sides are in [0, 1], as far as 1/(1 + e) rounds */
+    if (g.e < (double)INFINITY) /* both sides are in [0, 1], as far as 1/(1 + e) rounds */
+        sigmoid.e = fmin(sigmoid.e, 1.0 + k->divide);
     return sigmoid;
 }
 
