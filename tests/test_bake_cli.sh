@@ -70,6 +70,16 @@ analytic=$(awk -F, '$18 == 1 { printf "%.5f", $17 }' error.csv)
 ggx=$(awk -F, 'NR == 2 { printf "%.5f", $17 }' error.csv)
 [ "$ggx" = "$analytic" ] || fail "the analytic part is not faithful: $ggx, $analytic"
 grep -q 'accepted: 0.35' error.svg && grep -q 'picked' error.svg && tail -n 1 error.svg | grep -qx '</svg>' || fail "the plot"
+# Rounding weights to 11 bits moves the value by some 2^-11 of each unit: far below a hundredth of SMAPE.
+half=$(value error.json smape_half)
+awk -v half="$half" -v whole="$picked" 'BEGIN { d = half - whole; exit !(half > 0 && d < 0.01 && d > -0.01) }' ||
+    fail "in half precision $half, in single $picked"
+# shellcheck disable=SC2086
+bake "the worst counts" 0 big.safetensors -m $names --max-error 0.45 --worst --steps 800 --restarts 2 --csv worst.csv \
+    -o worst.safetensors --data $data
+awk -F, '$18 == 1 { seen = 1; exit !($16 <= 0.45) } END { exit !seen }' worst.csv || fail "--worst: the worst is beyond the limit"
+awk -F, '$18 == 0 && $5 > 0 && $15 <= 0.45 && $16 > 0.45 { seen = 1 } END { exit !seen }' worst.csv ||
+    fail "--worst: no row that the mean would have let pass, so nothing is tested"
 # shellcheck disable=SC2086
 bake "a measurement that is missing" 1 big.safetensors --net 4x1 -o never.safetensors --data $data
 grep -q 'no measurement of clear-coat-red among the 3' err || fail "the message of a missing measurement"
@@ -90,6 +100,14 @@ bake "time enough" 0 big.safetensors -m $names --max-ns 1e9 --steps 160 --restar
 "$HNBRDF" info ns.safetensors | grep -q '^  kind *hybrid$' || fail "time enough, and yet no network"
 bake "the knee" 0 big.safetensors -m retro-tape,rough-clay --net auto --steps 160 --restarts 1 --plot auto.svg -o auto.safetensors
 "$HNBRDF" info auto.safetensors | grep -q '^  kind *hybrid$' || fail "--net auto gives no network"
+
+# However little time there is, the exit code tells whether a network was fitted.
+run "$HNBRDF" bake big.safetensors -m $names --net 4x1 --seconds 1 --pool 2048 --pairs 1000 -o hasty.safetensors
+if [ "$rc" -eq 0 ]; then
+    "$HNBRDF" info hasty.safetensors | grep -q '^  net *4x1$' || fail "--seconds: not the network asked for"
+else
+    grep -q 'the time was over before a network was fitted\|s are over' err || fail "--seconds: exit $rc without its reason"
+fi
 
 # ---- wrong usage -------------------------------------------------------------------------------------
 refuse() { # NAME TEXT ARGUMENTS...

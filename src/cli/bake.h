@@ -61,6 +61,7 @@ typedef struct bake {
     bake_row *rows; /* in the order made */
     int row_count;
     int picked; /* of rows; -1: none */
+    double half; /* bake_half_error() of it */
     int met;    /* 1: the picked row is what was asked for */
     int stopped; /* 1: interrupted or out of time */
     int (*told)(const struct bake *b, const bake_row *row); /* after each row; not 0 ends all */
@@ -70,6 +71,11 @@ typedef struct bake {
 
 /* The model must outlive it. 0, or CLI_FAILURE after a message. */
 int bake_teacher(const hnbrdf_model *model, int material, hnbrdf_measured **measured);
+
+/* ---- bake_half.c ----------------------------------------------------------------------------------- */
+
+/* The model with the weights of an export in half precision; NULL when memory is short. */
+hnbrdf_model *bake_half(const hnbrdf_model *model);
 
 /* ---- bake_sizes.c: candidates, and what they cost -------------------------------------------------- */
 
@@ -94,6 +100,8 @@ int bake_ggx(bake *b);
 /* Makes the fits, several at once, and adds a row for each candidate among them: the best of its seeds.
  * `seconds`: for each fit, 0: by steps. What an interrupt stops gives no row. Likewise. */
 int bake_wave(bake *b, const bake_job *jobs, int count, double seconds);
+/* SMAPE of the picked row with weights in half precision, as it is judged; NAN for GGX or when memory is short. */
+double bake_half_error(const bake *b);
 /* How many fits run at once. */
 int bake_width(const bake *b, int full);
 /* The error that the wish is about. */

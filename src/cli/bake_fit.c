@@ -86,6 +86,20 @@ static int add_row(bake *b, const bake_row *made)
     return b->told(b, row);
 }
 
+double bake_half_error(const bake *b)
+{
+    const bake_row *row = &b->rows[b->picked];
+    double mean = NAN, worst = NAN, analytic;
+    hnbrdf_model *model = row->candidate->hidden ? bake_half(row->model) : NULL;
+    hnbrdf_comparison *errors = calloc((size_t)b->count, sizeof *errors);
+    size_t pairs = (size_t)b->pairs;
+    if (model && errors && measure(b, model, NULL, pairs, errors, NULL) == HNBRDF_OK)
+        summarise(b, errors, &mean, &worst, &analytic);
+    free(errors);
+    hnbrdf_model_free(model);
+    return b->worst ? worst : mean;
+}
+
 /* ---- GGX alone ----------------------------------------------------------------------------------- */
 
 static int show_ggx(void *user, const hnbrdf_fit_progress *p)

@@ -1,12 +1,14 @@
 /* bake_sizes.c: which networks `bake` may try, and what an evaluation with each of them costs here. */
 #include "cli/bake.h"
+#include "cli/bench.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 enum { WORTH = 8 /* tenths of the teacher's multiplications */ };
-enum { TIMED_PAIRS = 2048, TIMED_ROUNDS = 25, OUTPUTS = 6, INPUTS = 6 };
+enum { TIMED_PAIRS = 512, ROUNDS = 12, OUTPUTS = 6, INPUTS = 6 };
+
+#define SAMPLE_NS 3e5
 
 /* One hidden layer loses to two at equal cost from 6 units on. */
 static const int nets[][2] = {{4, 1},  {4, 2},  {6, 2},  {8, 2},  {8, 3},  {10, 2}, {12, 2},
@@ -87,47 +89,77 @@ static hnbrdf_model *make_dummy(const bake *b, const bake_candidate *c)
     return model;
 }
 
-typedef struct stopwatch {
+/* Directions to evaluate, and where the values go; of all probes. */
+typedef struct stage {
     float wi[TIMED_PAIRS][3], wo[TIMED_PAIRS][3], f[TIMED_PAIRS][3];
-} stopwatch;
+} stage;
 
-/* The least time an evaluation of `material` took so far. */
-static void time_once(stopwatch *w, const hnbrdf_model *model, const hnbrdf_material *material,
-                      double *ns)
+typedef struct act {
+    stage *on;
+    const hnbrdf_model *model;
+    const hnbrdf_material *material;
+} act;
+
+static double run(void *context, long repeats)
 {
-    double started = cli_seconds();
-    hnbrdf_eval_batch(model, material, TIMED_PAIRS, w->wi[0], 0, w->wo[0], 0, w->f[0], 0);
-    *ns = fmin(*ns, (cli_seconds() - started) * 1e9 / TIMED_PAIRS);
+    act *a = context;
+    double started = bench_thread_ns();
+    for (long k = 0; k < repeats; k++)
+        hnbrdf_eval_batch(a->model, a->material, TIMED_PAIRS, a->on->wi[0], 0, a->on->wo[0], 0,
+                          a->on->f[0], 0);
+    return bench_thread_ns() - started;
 }
 
-/* Rounds over all sizes, so that a busy moment of the machine hits all alike; the least of each counts.
- */
+static void between(void *user, double share)
+{
+    cli_progress_update(user, share, NULL);
+}
+
+/* All sizes in turn, the model last: `models` and `acts` have a place for each. */
+static void time_models(bake *b, stage *on, hnbrdf_model *const *models, act *acts, bench_probe *probes,
+                        bench_probe **list)
+{
+    cli_progress line;
+    const bench_timing timing = {SAMPLE_NS, ROUNDS, between, &line};
+    int count = b->candidate_count;
+    for (int k = 0; k <= count; k++) {
+        acts[k] =
+            (act){on, k < count ? models[k] : b->model, hnbrdf_model_material(b->model, b->chosen[0])};
+        probes[k] = bench_probe_make(run, &acts[k], TIMED_PAIRS);
+        list[k] = &probes[k];
+    }
+    cli_progress_begin(&line, "timing");
+    bench_time(&timing, list, count + 1);
+    cli_progress_end(&line);
+    for (int k = 0; k < count; k++)
+        b->candidates[k].ns = probes[k].ns;
+    b->reference_size.ns = probes[count].ns;
+}
+
 static int time_all(bake *b)
 {
     hnbrdf_rng rng;
-    stopwatch *w = malloc(sizeof *w);
-    hnbrdf_model **models = calloc((size_t)b->candidate_count, sizeof *models);
-    int code = w && models ? CLI_OK : cli_fail("out of memory");
+    size_t count = (size_t)b->candidate_count;
+    stage *on = malloc(sizeof *on);
+    hnbrdf_model **models = calloc(count, sizeof *models);
+    act *acts = calloc(count + 1, sizeof *acts);
+    bench_probe *probes = calloc(count + 1, sizeof *probes), **list = calloc(count + 1, sizeof *list);
+    int ready = on && models && acts && probes && list;
     hnbrdf_rng_seed(&rng, 1, 0);
-    for (int k = 0; w && k < TIMED_PAIRS; k++)
-        hnbrdf_sampler_draw(HNBRDF_SAMPLER_UNIFORM, &rng, w->wi[k], w->wo[k]);
-    for (int k = 0; k < b->candidate_count && code == CLI_OK; k++) {
-        b->candidates[k].ns = INFINITY;
-        if (!(models[k] = make_dummy(b, &b->candidates[k])))
-            code = cli_fail("out of memory");
-    }
-    const hnbrdf_material *first = hnbrdf_model_material(b->model, b->chosen[0]);
-    b->reference_size.ns = INFINITY;
-    for (int round = 0; round < TIMED_ROUNDS && code == CLI_OK; round++) {
-        time_once(w, b->model, first, &b->reference_size.ns);
-        for (int k = 0; k < b->candidate_count; k++)
-            time_once(w, models[k], first, &b->candidates[k].ns);
-    }
-    for (int k = 0; models && k < b->candidate_count; k++)
+    for (int k = 0; ready && k < TIMED_PAIRS; k++)
+        hnbrdf_sampler_draw(HNBRDF_SAMPLER_UNIFORM, &rng, on->wi[k], on->wo[k]);
+    for (size_t k = 0; ready && k < count; k++)
+        ready = (models[k] = make_dummy(b, &b->candidates[k])) != NULL;
+    if (ready)
+        time_models(b, on, models, acts, probes, list);
+    for (size_t k = 0; models && k < count; k++)
         hnbrdf_model_free(models[k]);
     free(models);
-    free(w);
-    return code;
+    free(acts);
+    free(probes);
+    free(list);
+    free(on);
+    return ready ? CLI_OK : cli_fail("out of memory");
 }
 
 int bake_make_candidates(bake *b)

@@ -74,6 +74,9 @@ void bake_print_result(const bake *b, const char *output)
         printf("%-32s  %7.4f  %8.4f\n", hnbrdf_measured_name(b->reference[m]), row->errors[m].smape,
                row->errors[m].smape_analytic);
     printf("%-32s  %7.4f  %8.4f\n", "mean", row->smape, row->analytic);
+    if (c->hidden)
+        printf("\nweights in half precision (export --precision half): %s error %.4f\n",
+               b->worst ? "highest" : "mean", b->half);
     printf("\nns/eval: hnbrdf_eval_batch(), one material, one thread of this machine, the least of "
            "several "
            "interleaved rounds\n");
@@ -136,7 +139,10 @@ void bake_write_json(const bake *b, FILE *file)
     if (b->from_data)
         fprintf(file, ", \"smape\": %.6f, \"smape_worst\": %.6f", b->reference_smape,
                 b->reference_worst);
-    fputs("},\n  \"materials\": [", file);
+    fputs("},\n", file);
+    if (!isnan(b->half))
+        fprintf(file, "  \"smape_half\": %.6f,\n", b->half);
+    fputs("  \"materials\": [", file);
     for (int m = 0; m < b->count; m++) {
         fputs(m ? ", " : "", file);
         cli_write_json_text(file, hnbrdf_measured_name(b->reference[m]));

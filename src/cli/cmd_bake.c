@@ -111,7 +111,7 @@ static int answer(const bake *b, const char *output)
 }
 
 /* An old output is not replaced by GGX alone only because Ctrl-C came early. */
-static int save(const bake *b, const outputs *o)
+static int save(bake *b, const outputs *o)
 {
     hnbrdf_error error;
     const bake_row *row = &b->rows[b->picked];
@@ -120,6 +120,7 @@ static int save(const bake *b, const outputs *o)
                         bake_interrupted() ? "interrupted" : "the time was over", o->model);
     if (hnbrdf_model_save(row->model, o->model, &error) != HNBRDF_OK)
         return cli_fail("%s", error.text);
+    b->half = bake_half_error(b);
     bake_print_result(b, o->model);
     int code = write_file(b, o->csv, bake_write_csv);
     if (code == CLI_OK)
