@@ -5,3 +5,14 @@ hnbrdf_test(test_stability test_stability.c core_support.c)
 target_link_libraries(test_stability PRIVATE hnbrdf_stability)
 add_test(NAME test_stability_cli COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/test_stability_cli.sh
   $<TARGET_FILE:hnbrdf_cli> ${PROJECT_SOURCE_DIR}/examples/models/rgl_32x2.safetensors $<TARGET_FILE:glsl_scenes>)
+
+# The same program with and without -ffast-math; the library's own flags stay.
+foreach(kind plain fast)
+  add_executable(fast_math_${kind} fast_math.c)
+  target_link_libraries(fast_math_${kind} PRIVATE hnbrdf_flags hnbrdf_static)
+endforeach()
+target_compile_options(fast_math_fast PRIVATE -O3 -ffast-math)
+target_link_options(fast_math_fast PRIVATE -ffast-math)
+add_test(NAME test_fast_math COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/test_fast_math.sh
+  $<TARGET_FILE:fast_math_plain> $<TARGET_FILE:fast_math_fast>
+  ${PROJECT_SOURCE_DIR}/examples/models/rgl_32x2.safetensors)

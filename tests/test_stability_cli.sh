@@ -23,6 +23,9 @@ status 0 "$hnbrdf" stability "$model" --device none --blocks 1 --csv -
 head -1 "$work/out" | grep -q '^model,case' || fail "csv to stdout"
 status 2 "$hnbrdf" stability
 status 2 "$hnbrdf" stability "$model" --device none --blocks 0
+status 0 "$hnbrdf" stability "$model" --device none --blocks 1 --plot "$work/s.png"
+[ "$(wc -c <"$work/s.png")" -gt 10000 ] || fail "no plot"
+status 2 "$hnbrdf" stability "$model" --plot "$work/s.svg"
 status 1 "$hnbrdf" stability "$work/missing.safetensors"
 status 1 "$hnbrdf" stability "$model" --device none --blocks 1 --csv "$work/no/such/place.csv"
 status 2 "$hnbrdf" stability "$model" --device first

@@ -2,14 +2,16 @@
  * pressed. */
 #include "cli/cli.h"
 #include "cli/stability_gpu.h"
+#include "cli/stability_plot.h"
 #include "cli/stability_report.h"
+#include "render/image.h"
 
 #include <stdlib.h>
 #include <string.h>
 
 static const cli_command command = {
     "stability",
-    "MODEL... [--blocks N] [--device N|all|none] [--all] [--csv FILE] [--json FILE]",
+    "MODEL... [--blocks N] [--device N|all|none] [--all] [--csv FILE] [--json FILE] [--plot FILE.png]",
     "How far from the true value is what the library computes? The formulas in 113 bits (where the "
     "compiler\n"
     "has them) against C, singly and in batches, in every rounding mode and with subnormals flushed, "
@@ -26,7 +28,7 @@ static const cli_command command = {
 };
 
 typedef struct settings {
-    const char *csv, *json, *device;
+    const char *csv, *json, *device, *plot;
     long blocks;
     int all, styles;
 } settings;
@@ -62,8 +64,11 @@ static int run_model(const char *path, const settings *set, contest *c, stabilit
     if (result->rows)
         code = stability_run(model, &options, c->backends, c->count, result->rows, &error);
     cli_progress_end(&progress);
+    int failed = code == HNBRDF_OK ? CLI_OK : cli_fail("%s: %s", path, error.text);
+    if (!failed && set->plot)
+        failed = stability_plot(set->plot, model, path, c->backends, c->count);
     hnbrdf_model_free(model);
-    return code == HNBRDF_OK ? CLI_OK : cli_fail("%s: %s", path, error.text);
+    return failed;
 }
 
 static int write_file(const char *path, const stability_result *results, int count,
@@ -102,8 +107,8 @@ static int compare_all(char **paths, int count, const settings *set, stability_r
 
 static int run(char **paths, int count, const settings *set, stability_result *results)
 {
-    const char *const files[] = {set->csv, set->json};
-    for (int k = 0; k < 2; k++)
+    const char *const files[] = {set->csv, set->json, set->plot};
+    for (int k = 0; k < 3; k++)
         if (files[k] && cli_output_check(files[k]) != CLI_OK)
             return CLI_FAILURE;
     int code = compare_all(paths, count, set, results);
@@ -132,6 +137,8 @@ int cmd_stability(int argc, char **argv)
         {"csv", 0, CLI_TEXT, &set.csv, 0, 0, "FILE",
          "every row as CSV; - is stdout, then without the table"},
         {"json", 0, CLI_TEXT, &set.json, 0, 0, "FILE", "the same as JSON"},
+        {"plot", 0, CLI_TEXT, &set.plot, 0, 0, "FILE.png",
+         "heat maps of the error over half vector and alpha, over both cosines"},
         {0},
     };
     int count, code = cli_parse(&command, options, argc, argv, &count);
@@ -139,6 +146,8 @@ int cmd_stability(int argc, char **argv)
         return code;
     if (count < 1)
         return cli_usage(&command, "no MODEL to examine");
+    if (set.plot && (count > 1 || !render_has_extension(set.plot, ".png")))
+        return cli_usage(&command, "--plot: expected one MODEL and a name ending in .png");
     stability_result *results = calloc((size_t)count, sizeof *results);
     code = results ? run(argv + 1, count, &set, results) : cli_fail("out of memory");
     for (int m = 0; m < count && results; m++)

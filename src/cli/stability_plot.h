@@ -1,0 +1,12 @@
+/* stability_plot.h: heat maps of the error, for `hnbrdf stability --plot`. */
+#ifndef HNBRDF_CLI_STABILITY_PLOT_H
+#define HNBRDF_CLI_STABILITY_PLOT_H
+
+#include "stability/stability.h"
+
+/* Writes FILE.png: two maps (see maps.h) of each of: plain C, the first fast shader, the first half
+ * one. CLI_OK, or CLI_FAILURE after a message. */
+int stability_plot(const char *path, const hnbrdf_model *model, const char *model_path,
+                   stability_backend *backends, int backend_count);
+
+#endif
