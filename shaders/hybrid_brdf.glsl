@@ -103,6 +103,27 @@ HNBRDF_PRECISE float hnbrdf_log(float x)
     return float(e) * 0.693147181 + (2.0 * s + s * (s2 * p));
 }
 
+// (sin, cos) of 2 pi u for u in [0, 1]; absolute error at most 1.1e-7. In every build: what is drawn must
+// not depend on the device.
+HNBRDF_PRECISE vec2 hnbrdf_sincos_turn(float u)
+{
+    int quadrant = int(4.0 * u + 0.5);
+    HNBRDF_PRECISE float a = (u - 0.25 * float(quadrant)) * 6.28318531; // the difference is exact
+    HNBRDF_PRECISE float a2 = a * a;
+    HNBRDF_PRECISE float s = -1.95878909e-4;
+    s = s * a2 + 8.33274827e-3;
+    s = s * a2 - 1.66666647e-1;
+    s = a + a * (a2 * s);
+    HNBRDF_PRECISE float c = 2.45479421e-5;
+    c = c * a2 - 1.38883030e-3;
+    c = c * a2 + 4.16666647e-2;
+    c = (1.0 - 0.5 * a2) + (a2 * a2) * c;
+    bool swap = (quadrant & 1) != 0;
+    float sine = swap ? c : s;
+    float cosine = swap ? s : c;
+    return vec2((quadrant & 2) != 0 ? -sine : sine, ((quadrant + 1) & 2) != 0 ? -cosine : cosine);
+}
+
 // x clamp(x/3 + 1/2, 0, 1), the paper's three-branch HardGELU.
 HNBRDF_PRECISE float hnbrdf_hard_gelu(float x)
 {
@@ -132,6 +153,12 @@ HNBRDF_PRECISE vec3 hnbrdf_to_tangent(vec2 rotation, vec3 w)
     return vec3(rotation.x * w.x + rotation.y * w.y, rotation.x * w.y - rotation.y * w.x, w.z);
 }
 
+// And back.
+HNBRDF_PRECISE vec3 hnbrdf_from_tangent(vec2 rotation, vec3 t)
+{
+    return vec3(rotation.x * t.x - rotation.y * t.y, rotation.x * t.y + rotation.y * t.x, t.z);
+}
+
 HNBRDF_PRECISE float hnbrdf_dot3(vec3 v)
 {
     return (v.x * v.x + v.y * v.y) + v.z * v.z;
@@ -159,30 +186,67 @@ HNBRDF_PRECISE hnbrdf_pair hnbrdf_pair_make(vec3 wi, vec3 wo)
 // ---- The analytic part: Lambert + GGX (Walter et al. 2007; Heitz 2014) ---------------------------------
 
 // GGX normal density D(h), 1/sr (Walter 2007 Eq. 33, anisotropic: Heitz 2014 Eq. 86), in the
-// tangent-frame form: 1 - (n.h)^2 would lose every digit of a narrow lobe.
-HNBRDF_PRECISE float hnbrdf_ggx_d(vec3 s, float length2, vec2 alpha)
+// tangent-frame form: 1 - (n.h)^2 would lose every digit of a narrow lobe. What depends on the material
+// alone, area = pi ax ay here and e = eta^2 - 1 below, has a function of its own; where alpha is a float, the
+// lobe is isotropic, with the same values.
+HNBRDF_PRECISE float hnbrdf_ggx_area(vec2 alpha)
 {
-    HNBRDF_PRECISE float t = hnbrdf_dot3(vec3(s.x / alpha.x, s.y / alpha.y, s.z)) / length2;
-    return 1.0 / (((HNBRDF_PI * alpha.x) * alpha.y) * (t * t));
+    return (HNBRDF_PI * alpha.x) * alpha.y;
+}
+
+HNBRDF_PRECISE float hnbrdf_ggx_area(float alpha)
+{
+    return (HNBRDF_PI * alpha) * alpha;
+}
+
+HNBRDF_PRECISE float hnbrdf_ggx_d_of_area(vec3 s, float length2, vec2 alpha, float area)
+{
+    HNBRDF_PRECISE float t = hnbrdf_dot3(vec3(s.xy / alpha, s.z)) / length2;
+    return 1.0 / (area * (t * t));
+}
+
+HNBRDF_PRECISE float hnbrdf_ggx_d_of_area(vec3 s, float length2, float alpha, float area)
+{
+    HNBRDF_PRECISE float t = hnbrdf_dot3(vec3(s.xy / alpha, s.z)) / length2;
+    return 1.0 / (area * (t * t));
+}
+
+float hnbrdf_ggx_d(vec3 s, float length2, vec2 alpha)
+{
+    return hnbrdf_ggx_d_of_area(s, length2, alpha, hnbrdf_ggx_area(alpha));
 }
 
 // Smith masking of one direction over its share of the denominator, V(w) = G1(w) / (2 w.z), so that
 // G1 G1 / (4 wi.z wo.z) = V V, finite at grazing (Heitz 2014 Eq. 43).
 HNBRDF_PRECISE float hnbrdf_smith_v(vec3 w, vec2 alpha)
 {
-    return 1.0 / (w.z + sqrt(hnbrdf_dot3(vec3(alpha.x * w.x, alpha.y * w.y, w.z))));
+    return 1.0 / (w.z + sqrt(hnbrdf_dot3(vec3(alpha * w.xy, w.z))));
+}
+
+HNBRDF_PRECISE float hnbrdf_smith_v(vec3 w, float alpha)
+{
+    return 1.0 / (w.z + sqrt(hnbrdf_dot3(vec3(alpha * w.xy, w.z))));
 }
 
 // Unpolarised Fresnel reflectance of a dielectric with index eta > 1 at cosine c = wi.h (Walter 2007
 // Eq. 22). g - c is taken as (eta^2 - 1)/(g + c): the difference itself loses digits as eta nears 1.
-HNBRDF_PRECISE vec3 hnbrdf_fresnel_dielectric(vec3 eta, float c)
+HNBRDF_PRECISE vec3 hnbrdf_fresnel_e(vec3 eta)
 {
-    HNBRDF_PRECISE vec3 e = (eta - 1.0) * (eta + 1.0);
+    return (eta - 1.0) * (eta + 1.0);
+}
+
+HNBRDF_PRECISE vec3 hnbrdf_fresnel_of_e(vec3 e, float c)
+{
     HNBRDF_PRECISE vec3 sum = sqrt(e + c * c) + c; // g + c
     HNBRDF_PRECISE vec3 difference = e / sum;      // g - c
     HNBRDF_PRECISE vec3 a = difference / sum;
     HNBRDF_PRECISE vec3 b = (c * sum - 1.0) / (c * difference + 1.0);
     return (0.5 * (a * a)) * (1.0 + b * b);
+}
+
+vec3 hnbrdf_fresnel_dielectric(vec3 eta, float c)
+{
+    return hnbrdf_fresnel_of_e(hnbrdf_fresnel_e(eta), c);
 }
 
 float hnbrdf_fresnel_dielectric(float eta, float c)
@@ -191,15 +255,37 @@ float hnbrdf_fresnel_dielectric(float eta, float c)
 }
 
 // D V V, what the Fresnel factor of every channel multiplies; 1/sr.
-HNBRDF_PRECISE float hnbrdf_specular(hnbrdf_pair p, vec2 alpha)
+HNBRDF_PRECISE float hnbrdf_specular_of_area(hnbrdf_pair p, vec2 alpha, float area)
 {
-    return hnbrdf_ggx_d(p.s, p.length2, alpha) * (hnbrdf_smith_v(p.wi, alpha) * hnbrdf_smith_v(p.wo, alpha));
+    return hnbrdf_ggx_d_of_area(p.s, p.length2, alpha, area) *
+           (hnbrdf_smith_v(p.wi, alpha) * hnbrdf_smith_v(p.wo, alpha));
 }
 
-// f_a, 1/sr.
+HNBRDF_PRECISE float hnbrdf_specular_of_area(hnbrdf_pair p, float alpha, float area)
+{
+    return hnbrdf_ggx_d_of_area(p.s, p.length2, alpha, area) *
+           (hnbrdf_smith_v(p.wi, alpha) * hnbrdf_smith_v(p.wo, alpha));
+}
+
+float hnbrdf_specular(hnbrdf_pair p, vec2 alpha)
+{
+    return hnbrdf_specular_of_area(p, alpha, hnbrdf_ggx_area(alpha));
+}
+
+float hnbrdf_specular(hnbrdf_pair p, float alpha)
+{
+    return hnbrdf_specular_of_area(p, alpha, hnbrdf_ggx_area(alpha));
+}
+
+// f_a, 1/sr. diffuse is kd/pi, e is eta^2 - 1.
+HNBRDF_PRECISE vec3 hnbrdf_microfacet_of(vec3 diffuse, vec3 e, float c, float specular)
+{
+    return diffuse + hnbrdf_fresnel_of_e(e, c) * specular;
+}
+
 HNBRDF_PRECISE vec3 hnbrdf_microfacet(vec3 kd, vec3 eta, float c, float specular)
 {
-    return kd * HNBRDF_INV_PI + hnbrdf_fresnel_dielectric(eta, c) * specular;
+    return hnbrdf_microfacet_of(kd * HNBRDF_INV_PI, hnbrdf_fresnel_e(eta), c, specular);
 }
 
 // ---- Encodings: what the network sees of a pair, six numbers -------------------------------------------
@@ -301,6 +387,67 @@ vec3 hnbrdf_compose_neural(vec3 exponent, float b)
 {
     HNBRDF_PRECISE vec3 f = hnbrdf_correction(exponent) - b;
     return hnbrdf_finish(f);
+}
+
+// ---- Sampling ------------------------------------------------------------------------------------------
+
+// What hnbrdf_sample() of an exported scene returns.
+struct hnbrdf_sample_result {
+    vec3 wi;     // unit direction towards the light, wi.z > 0; (0, 0, 1) when pdf is 0
+    float pdf;   // 1/sr; 0 means: no direction, weight is 0
+    vec3 weight; // f wi.z / pdf
+};
+
+// Share of samples that go to the GGX lobe: reflectance at normal incidence, raised a little for what
+// Fresnel adds towards grazing, against the diffuse albedo.
+HNBRDF_PRECISE float hnbrdf_specular_share(vec3 kd, vec3 eta)
+{
+    HNBRDF_PRECISE vec3 r = (eta - 1.0) / (eta + 1.0);
+    HNBRDF_PRECISE vec3 r2 = r * r * 0.333333333;
+    HNBRDF_PRECISE vec3 d = kd * 0.333333333;
+    HNBRDF_PRECISE float specular = ((0.05 + r2.x) + r2.y) + r2.z;
+    HNBRDF_PRECISE float diffuse = (d.x + d.y) + d.z;
+    HNBRDF_PRECISE float share = specular / (specular + diffuse);
+    return hnbrdf_clamp(share, 0.2, 0.9);
+}
+
+// The one density that sample and pdf share; directions in the tangent frame, both above the horizon.
+// Visible normals: D G1(wo) / (4 wo.z) = D V(wo) / 2 (Heitz 2018 Eq. 17).
+float hnbrdf_density(vec2 alpha, float area, float share, vec3 wi, vec3 wo)
+{
+    hnbrdf_pair p = hnbrdf_pair_make(wi, wo);
+    HNBRDF_PRECISE float visible = hnbrdf_ggx_d_of_area(p.s, p.length2, alpha, area) *
+                                   (0.5 * hnbrdf_smith_v(wo, alpha));
+    HNBRDF_PRECISE float pdf = share * visible + (1.0 - share) * (wi.z * HNBRDF_INV_PI);
+    return hnbrdf_clamp(pdf, 0.0, HNBRDF_MAX_VALUE);
+}
+
+// Cosine-distributed direction; u.y < 1 keeps z above 0.
+HNBRDF_PRECISE vec3 hnbrdf_draw_cosine(vec2 u)
+{
+    HNBRDF_PRECISE vec2 turn = hnbrdf_sincos_turn(u.x);
+    HNBRDF_PRECISE float r = sqrt(u.y);
+    return vec3(r * turn.y, r * turn.x, sqrt(1.0 - u.y));
+}
+
+// Reflects wo about a visible GGX normal, drawn as a spherical cap (Dupuy and Benyoub 2023, Listing 3).
+// (0, 0, 0) if no normal comes out.
+HNBRDF_PRECISE vec3 hnbrdf_draw_ggx(vec2 alpha, vec3 wo, vec2 u)
+{
+    HNBRDF_PRECISE vec3 w = vec3(alpha * wo.xy, wo.z);
+    HNBRDF_PRECISE float len = sqrt(hnbrdf_dot3(w));
+    if (!(len > 0.0))
+        return vec3(0.0);
+    w = w / len;
+    HNBRDF_PRECISE vec2 turn = hnbrdf_sincos_turn(u.x);
+    HNBRDF_PRECISE float cap = (1.0 - u.y) * (1.0 + w.z) - w.z;
+    HNBRDF_PRECISE float radius = sqrt(hnbrdf_clamp(1.0 - cap * cap, 0.0, 1.0));
+    HNBRDF_PRECISE vec3 h = vec3(alpha * (radius * turn.yx + w.xy), cap + w.z);
+    HNBRDF_PRECISE float h2 = hnbrdf_dot3(h);
+    if (!(h2 > 0.0))
+        return vec3(0.0);
+    HNBRDF_PRECISE float k = 2.0 * (((wo.x * h.x + wo.y * h.y) + wo.z * h.z) / h2);
+    return k * h - wo;
 }
 
 #endif

@@ -1,6 +1,7 @@
 /* test_pack.c: materials as texels: what comes back, how near, and that any bits are a legal material.
- * Bounds are those that hnbrdf.h states; beside them stands the rounding of float: a few operations, each
- * within 2^-24 relative, on numbers along the curve that are at most 9.3 (the logarithm of 1e-4). */
+ * Bounds are those that hnbrdf.h states; beside them stands the rounding of float: a few operations,
+ * each within 2^-24 relative, on numbers along the curve that are at most 9.3 (the logarithm of 1e-4).
+ */
 #include "core_support.h"
 
 #include "core/half.h"
@@ -68,8 +69,8 @@ static double amplitude(float eta)
 static void assert_near(const char *field, float value, float back, double error, double bound)
 {
     if (!(error <= bound))
-        fail_msg("%s: %.9g comes back as %.9g: %g, allowed %g", field, (double)value, (double)back, error,
-                 bound);
+        fail_msg("%s: %.9g comes back as %.9g: %g, allowed %g", field, (double)value, (double)back,
+                 error, bound);
 }
 
 static double turn_between(float a, float b)
@@ -98,7 +99,8 @@ static void half_floats_keep_every_field_within_what_the_header_states(void **st
                         (double)m.alpha[c] * 0x1p-11);
         assert_near("rotation", m.rotation, b.rotation, turn_between(m.rotation, b.rotation), 3.5e-4);
         for (int i = 0; i < HNBRDF_MAX_LATENT; i++)
-            assert_near("latent", m.latent[i], b.latent[i], fabs((double)m.latent[i] - (double)b.latent[i]),
+            assert_near("latent", m.latent[i], b.latent[i],
+                        fabs((double)m.latent[i] - (double)b.latent[i]),
                         fmax(fabs((double)m.latent[i]) * 0x1p-11, 0x1p-25));
     }
 }
@@ -125,8 +127,8 @@ static void bytes_keep_every_field_within_what_the_header_states(void **state)
                         log_alpha / 510.0 + FLOAT_ERROR);
         assert_near("rotation", m.rotation, b.rotation, turn_between(m.rotation, b.rotation), 5.6e-3);
         for (int i = 0; i < HNBRDF_MAX_LATENT; i++)
-            assert_near("latent", m.latent[i], b.latent[i], fabs((double)m.latent[i] - (double)b.latent[i]),
-                        8.0 / 510.0 + FLOAT_ERROR);
+            assert_near("latent", m.latent[i], b.latent[i],
+                        fabs((double)m.latent[i] - (double)b.latent[i]), 8.0 / 510.0 + FLOAT_ERROR);
     }
 }
 
@@ -165,7 +167,8 @@ static void extreme_indices_keep_their_reflectance(void **state)
         memcpy(m.eta, etas, sizeof etas);
         hnbrdf_material b = round_trip(&packing, &m);
         for (int c = 0; c < 3; c++) {
-            /* r^2 = (sqrt r)^4: 4 r^(3/2) w/510 for bytes; r^2 2^-10 for half floats, 0.998 for 0.9980 */
+            /* r^2 = (sqrt r)^4: 4 r^(3/2) w/510 for bytes; r^2 2^-10 for half floats, 0.998 for 0.9980
+             */
             double before = pow(amplitude(m.eta[c]), 2.0), after = pow(amplitude(b.eta[c]), 2.0);
             assert_near("reflectance", m.eta[c], b.eta[c], fabs(after - before),
                         format == HNBRDF_TEXEL_RGBA16F ? 0x1p-10 * before + 1e-5
@@ -246,10 +249,8 @@ static void filtered_texels_lie_between(void **state)
 
 static int texels_of(int analytic, int anisotropic, int rotated, int latent)
 {
-    const hnbrdf_packing packing = {.analytic = analytic,
-                                    .anisotropic = anisotropic,
-                                    .rotated = rotated,
-                                    .latent = latent};
+    const hnbrdf_packing packing = {
+        .analytic = analytic, .anisotropic = anisotropic, .rotated = rotated, .latent = latent};
     return hnbrdf_packing_texels(&packing);
 }
 
@@ -294,10 +295,12 @@ static void a_packing_of_a_model_holds_its_materials(void **state)
     hnbrdf_packing packing;
     hnbrdf_error error = {""};
     const int wrong = 1, first = 0;
-    assert_int_equal(hnbrdf_packing_init(model, NULL, 0, HNBRDF_TEXEL_RGBA8, &packing, &error), HNBRDF_OK);
+    assert_int_equal(hnbrdf_packing_init(model, NULL, 0, HNBRDF_TEXEL_RGBA8, &packing, &error),
+                     HNBRDF_OK);
     const hnbrdf_material *m = hnbrdf_model_material(model, 0);
     assert_true(packing.latent == 4 && packing.analytic);
-    assert_true(packing.latent_range[2][0] <= m->latent[2] && m->latent[2] <= packing.latent_range[2][1]);
+    assert_true(packing.latent_range[2][0] <= m->latent[2] &&
+                m->latent[2] <= packing.latent_range[2][1]);
     assert_true(packing.eta[0] <= m->eta[0] && m->eta[0] <= packing.eta[1]);
     hnbrdf_material b = round_trip(&packing, m); /* a range of one number is that number */
     assert_same_bits(&b.latent[0], &m->latent[0], 4);

@@ -433,6 +433,13 @@ typedef enum hnbrdf_glsl_precision {
 HNBRDF_API const char *hnbrdf_glsl_weights_name(hnbrdf_glsl_weights weights);
 HNBRDF_API const char *hnbrdf_glsl_precision_name(hnbrdf_glsl_precision precision);
 
+/* What a shader calls; the rest is left out. Each takes what its namesake in C takes. */
+typedef enum hnbrdf_glsl_only {
+    HNBRDF_GLSL_EVERYTHING = 0, /* hnbrdf_eval, hnbrdf_eval_analytic, hnbrdf_sample, hnbrdf_pdf */
+    HNBRDF_GLSL_EVAL,           /* hnbrdf_eval */
+    HNBRDF_GLSL_EVAL_SAMPLE     /* hnbrdf_eval, hnbrdf_sample, hnbrdf_pdf */
+} hnbrdf_glsl_only;
+
 /* Zero-initialise for defaults. */
 typedef struct hnbrdf_glsl_options {
     const int *materials;   /* indices of the materials to export; NULL means all */
@@ -443,11 +450,21 @@ typedef struct hnbrdf_glsl_options {
                                textures too; analytic and latent are those of the model */
     hnbrdf_glsl_weights weights;
     hnbrdf_glsl_precision precision;
+    hnbrdf_glsl_only only;  /* a standalone text also leaves out of hybrid_brdf.glsl what it does not use */
+    int fixed;              /* 1: the materials are constants that the shader does not change. What depends
+                               on the material alone is worked out here, and its latent code is folded into
+                               the first layer's bias (but for half precision and uniform weights): the same
+                               bits for less. hnbrdf_material then has no kd and eta to edit;
+                               hnbrdf_eval_NAME(wi, wo) takes none at all, NAME as in HNBRDF_MATERIAL_NAME.
+                               Not together with packing. */
 } hnbrdf_glsl_options;
 
-/* Write one GLSL include with the network, the chosen materials, and the function
- *   vec3 hnbrdf_eval(hnbrdf_material material, vec3 wi, vec3 wo)
- * whose values are those of hnbrdf_eval() in C. options may be NULL. */
+/* Write one GLSL include with the network, the chosen materials, and the functions
+ *   hnbrdf_material hnbrdf_scene_material(int index)
+ *   vec3 hnbrdf_eval(hnbrdf_material m, vec3 wi, vec3 wo)
+ *   hnbrdf_sample_result hnbrdf_sample(hnbrdf_material m, vec3 wo, vec3 u)
+ *   float hnbrdf_pdf(hnbrdf_material m, vec3 wi, vec3 wo)
+ * whose values are those of their namesakes in C. Its first lines state what it holds. options may be NULL. */
 HNBRDF_API hnbrdf_result hnbrdf_export_glsl(const hnbrdf_model *model,
                                             const hnbrdf_glsl_options *options,
                                             hnbrdf_write_fn write, void *user, hnbrdf_error *error);

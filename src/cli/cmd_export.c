@@ -6,13 +6,19 @@
 
 static const cli_command command = {
     "export",
-    "MODEL [--materials A,B] [--weights STYLE] [--precision P] [--pack P] [--standalone] -o FILE.glsl",
+    "MODEL [--materials A,B] [--only eval|eval+sample] [--fixed] [--weights STYLE] [--precision P]\n"
+    "              [--pack P] [--standalone] -o FILE.glsl",
     "Writes one GLSL include: the network, the chosen materials, and\n"
-    "  vec3 hnbrdf_eval(hnbrdf_material m, vec3 wi, vec3 wo)      1/sr, without the cosine.\n"
-    "Include shaders/hybrid_brdf.glsl before it, or take --standalone. The text compiles as Vulkan "
-    "GLSL\n"
-    "450, desktop GLSL 330 and GLSL ES 300; put it after #version. What the chosen materials do not\n"
-    "need (anisotropy, rotation) is left out.\n"
+    "  vec3 hnbrdf_eval(hnbrdf_material m, vec3 wi, vec3 wo)      1/sr, without the cosine\n"
+    "  hnbrdf_sample_result hnbrdf_sample(hnbrdf_material m, vec3 wo, vec3 u)\n"
+    "  float hnbrdf_pdf(hnbrdf_material m, vec3 wi, vec3 wo)\n"
+    "for m = hnbrdf_scene_material(HNBRDF_MATERIAL_NAME). Include shaders/hybrid_brdf.glsl before it, or take\n"
+    "--standalone. The text compiles as Vulkan GLSL 450, desktop GLSL 330 and GLSL ES 300; put it after\n"
+    "#version. Its first lines state what it holds and what was left out: always what the chosen materials do\n"
+    "not need (anisotropy, rotation); with --only what is not asked for, in a standalone text also of\n"
+    "hybrid_brdf.glsl; with --fixed the means to change a material, whose latent code is then folded into the\n"
+    "first layer. hnbrdf_eval_NAME(wi, wo) of a fixed material takes no material at all. Whatever is left out,\n"
+    "the values are the same to the last bit.\n"
     "\n"
     "--weights constants is the fastest, one shader a network; columns are the same constants in vec4. uniform\n"
     "reads them from a buffer whose bytes --weights-out writes: slower, but compiled at once, and any network\n"
@@ -27,6 +33,7 @@ static const cli_command command = {
     "hnbrdf export model.safetensors -o scene.glsl\n"
     "hnbrdf export model.safetensors --materials gold-paint,velvet --standalone -o scene.glsl\n"
     "hnbrdf export model.safetensors --weights uniform --weights-out weights.bin -o scene.glsl\n"
+    "hnbrdf export model.safetensors --materials velvet --only eval --fixed --standalone -o velvet.glsl\n"
     "hnbrdf export model.safetensors --pack half --texels materials.bin -o scene.glsl",
 };
 
@@ -114,7 +121,8 @@ static int export_to(const hnbrdf_model *model, const hnbrdf_glsl_options *optio
 
 typedef struct settings {
     const char *materials, *path, *texels, *weights_path;
-    int standalone, pack; /* hnbrdf_texel_format, -1 for none */
+    int standalone, fixed, only; /* only: hnbrdf_glsl_only less one, -1 for everything */
+    int pack;                    /* hnbrdf_texel_format, -1 for none */
     int weights, precision;
 } settings;
 
@@ -128,6 +136,8 @@ static int export_materials(const hnbrdf_model *model, const settings *set, cons
     const hnbrdf_glsl_options options = {.materials = materials,
                                          .material_count = count,
                                          .standalone = set->standalone,
+                                         .only = (hnbrdf_glsl_only)(set->only + 1),
+                                         .fixed = set->fixed,
                                          .packing = set->pack >= 0 ? &texels.packing : NULL,
                                          .weights = (hnbrdf_glsl_weights)set->weights,
                                          .precision = (hnbrdf_glsl_precision)set->precision};
@@ -141,11 +151,14 @@ static int export_materials(const hnbrdf_model *model, const settings *set, cons
 
 int cmd_export(int argc, char **argv)
 {
-    settings set = {.pack = -1};
+    settings set = {.only = -1, .pack = -1};
     int count;
     const cli_option options[] = {
         {"materials", 'm', CLI_TEXT, &set.materials, 0, 0, "A,B",
          "names of the materials (default: all)"},
+        {"only", 0, CLI_CHOICE, &set.only, 0, 0, "eval|eval+sample",
+         "leave out what else there is (default: everything)"},
+        {"fixed", 0, CLI_FLAG, &set.fixed, 0, 0, NULL, "materials are constants, not to be changed"},
         {"standalone", 0, CLI_FLAG, &set.standalone, 0, 0, NULL, "put the text of hybrid_brdf.glsl first"},
         {"weights", 'w', CLI_CHOICE, &set.weights, 0, 0, "constants|columns|uniform",
          "how the shader holds the network (default constants)"},
@@ -168,6 +181,8 @@ int cmd_export(int argc, char **argv)
         return cli_usage(&command, "no -o FILE.glsl");
     if (set.weights_path && set.weights != HNBRDF_GLSL_UNIFORM)
         return cli_usage(&command, "--weights-out without --weights uniform");
+    if (set.fixed && set.pack >= 0)
+        return cli_usage(&command, "--fixed and --pack: materials from textures are not fixed");
     if (set.texels && set.pack < 0)
         return cli_usage(&command, "--texels without --pack half or --pack byte");
     hnbrdf_model *model = NULL;

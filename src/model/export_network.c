@@ -187,6 +187,21 @@ static int begin_term(sum *s, float *weights)
     return 1;
 }
 
+/* The bias of some rows. A folded one holds the latent code too: of the only material as numbers. */
+static void put_bias(hnbrdf_printer *out, const hnbrdf_scene *s, int layer, int row, int width)
+{
+    float numbers[4] = {0.0f};
+    if (layer == 0 && hnbrdf_scene_bias_vectors(s) > 0) {
+        hnbrdf_put(out, "m.bias%d.%.*s", row / 4, width, "xyzw" + row % 4);
+        return;
+    }
+    for (int r = 0; r < width; r++)
+        numbers[r] = layer == 0 ? s->first[row + r] : s->desc->biases[layer][row + r];
+    for (int r = 0; r < width && in_half(s, layer); r++)
+        numbers[r] = hnbrdf_half_bias(s->desc, layer, numbers[r]);
+    put_numbers(out, in_half(s, layer), width, numbers);
+}
+
 /* Sums of some rows in the canonical order: bias, latent inputs, encoded directions or units. */
 static void put_sum(hnbrdf_printer *out, const hnbrdf_scene *s, int layer, int row, int width)
 {
@@ -195,12 +210,8 @@ static void put_sum(hnbrdf_printer *out, const hnbrdf_scene *s, int layer, int r
     const float *w = desc->weights[layer] + (size_t)row * (size_t)columns;
     sum terms = {out, half, width, 0};
     float numbers[4];
-    for (int r = 0; r < width; r++)
-        numbers[r] = desc->biases[layer][row + r];
-    for (int r = 0; r < width && half; r++)
-        numbers[r] = hnbrdf_half_bias(desc, layer, numbers[r]);
-    put_numbers(out, half, width, numbers);
-    for (int i = 0; i < columns; i++) {
+    put_bias(out, s, layer, row, width);
+    for (int i = layer == 0 && s->folded ? desc->latent : 0; i < columns; i++) {
         for (int r = 0; r < width; r++)
             numbers[r] = w[r * columns + hnbrdf_summed_column(desc, layer, i)];
         for (int r = 0; r < width && half; r++)

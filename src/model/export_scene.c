@@ -27,14 +27,26 @@ int hnbrdf_scene_has_network(const hnbrdf_scene *s)
     return s->desc->kind != HNBRDF_KIND_GGX;
 }
 
+int hnbrdf_scene_has_sampling(const hnbrdf_scene *s)
+{
+    return s->only != HNBRDF_GLSL_EVAL;
+}
+
 int hnbrdf_scene_latent_vectors(const hnbrdf_scene *s)
 {
-    return hnbrdf_scene_has_network(s) ? (s->desc->latent + 3) / 4 : 0;
+    return hnbrdf_scene_has_network(s) && !s->folded ? (s->desc->latent + 3) / 4 : 0;
+}
+
+int hnbrdf_scene_bias_vectors(const hnbrdf_scene *s)
+{
+    return s->folded && s->count > 1 ? (s->desc->hidden + 3) / 4 : 0;
 }
 
 int hnbrdf_scene_has_rotation(const hnbrdf_scene *s)
 {
-    return s->rotated || !(hnbrdf_scene_has_analytic(s) || hnbrdf_scene_latent_vectors(s));
+    int fields =
+        hnbrdf_scene_has_analytic(s) + hnbrdf_scene_latent_vectors(s) + hnbrdf_scene_bias_vectors(s);
+    return s->rotated || fields == 0;
 }
 
 /* Letters, digits and single underscores, which GLSL does not reserve; at least one character. */
@@ -103,10 +115,21 @@ static hnbrdf_result use_packing(hnbrdf_scene *s, const hnbrdf_packing *packing,
     return hnbrdf_packing_check(packing, error);
 }
 
+static void set_first_bias(hnbrdf_scene *s)
+{
+    hnbrdf_prepared prepared;
+    if (!hnbrdf_scene_has_network(s))
+        return;
+    hnbrdf_prepare(s->model, hnbrdf_scene_material(s, 0), &prepared);
+    memcpy(s->first, s->folded && s->count == 1 ? prepared.first : s->desc->biases[0],
+           (size_t)s->desc->hidden * sizeof *s->first);
+}
+
 hnbrdf_result hnbrdf_scene_make(const hnbrdf_model *model, const hnbrdf_glsl_options *options,
                                 hnbrdf_scene *s, hnbrdf_error *error)
 {
     memset(s, 0, sizeof *s);
+    s->model = model;
     s->desc = &model->desc;
     s->style = options ? options->weights : HNBRDF_GLSL_CONSTANTS;
     s->precision = options ? options->precision : HNBRDF_GLSL_FLOAT;
@@ -114,6 +137,17 @@ hnbrdf_result hnbrdf_scene_make(const hnbrdf_model *model, const hnbrdf_glsl_opt
         return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT,
                            "export: weights %d, precision %d, expected 0 to 2 and 0 to 1",
                            (int)s->style, (int)s->precision);
+    s->only = options ? options->only : HNBRDF_GLSL_EVERYTHING;
+    s->fixed = options && options->fixed;
+    s->folded = s->fixed && hnbrdf_scene_has_network(s) && s->style != HNBRDF_GLSL_UNIFORM &&
+                s->precision == HNBRDF_GLSL_FLOAT;
+    if (s->only < HNBRDF_GLSL_EVERYTHING || s->only > HNBRDF_GLSL_EVAL_SAMPLE)
+        return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT, "export: only is %d, expected 0 to %d",
+                           (int)s->only, (int)HNBRDF_GLSL_EVAL_SAMPLE);
+    if (s->fixed && options->packing)
+        return hnbrdf_fail(
+            error, HNBRDF_ERROR_ARGUMENT,
+            "export: materials from textures change, a fixed scene's do not: found both");
     hnbrdf_result result = use_packing(s, options ? options->packing : NULL, error);
     if (result)
         return result;
@@ -134,6 +168,11 @@ hnbrdf_result hnbrdf_scene_make(const hnbrdf_model *model, const hnbrdf_glsl_opt
     }
     s->weights = hnbrdf_model_weight_count(model);
     s->multiplications = hnbrdf_model_multiplications(model);
+    if (s->folded) {
+        s->weights -= (size_t)s->desc->hidden * (size_t)s->desc->latent;
+        s->multiplications -= (size_t)s->desc->hidden * (size_t)s->desc->latent;
+    }
+    set_first_bias(s);
     size_t slots = 4;
     while (slots < 2 * ((size_t)s->count + 1))
         slots *= 2;

@@ -8,11 +8,16 @@ enum { HNBRDF_MACRO_NAME_SIZE = HNBRDF_MAX_NAME + 32 };
 typedef char hnbrdf_macro_name[HNBRDF_MACRO_NAME_SIZE]; /* what follows HNBRDF_MATERIAL_ */
 
 typedef struct hnbrdf_scene {
+    const hnbrdf_model *model;
     const hnbrdf_model_desc *desc;
+    hnbrdf_glsl_only only;
+    int fixed;  /* 1: materials are constants */
+    int folded; /* 1: their latent codes are in the first layer's bias; not for half or loaded weights */
     const hnbrdf_packing *packing; /* NULL: no materials from textures */
     const int *indices;            /* NULL: all materials in order */
     int count;
-    int anisotropic, rotated; /* 1 if any of these materials is, or the packing stores it */
+    int anisotropic, rotated;       /* 1 if any of these materials is, or the packing stores it */
+    float first[HNBRDF_MAX_HIDDEN]; /* bias of the first layer; of a single material: folded */
     size_t weights, multiplications;
     hnbrdf_glsl_weights style;
     hnbrdf_glsl_precision precision;
@@ -29,8 +34,11 @@ const hnbrdf_material *hnbrdf_scene_material(const hnbrdf_scene *s, int k);
 
 int hnbrdf_scene_has_analytic(const hnbrdf_scene *s);
 int hnbrdf_scene_has_network(const hnbrdf_scene *s);
-/* Latent codes are kept in as few vec4 as hold them. */
+int hnbrdf_scene_has_sampling(const hnbrdf_scene *s);
+/* Latent codes are kept in as few vec4 as hold them; a fixed scene keeps the folded biases in their
+ * place, but for one material, whose folded biases stand in the network. */
 int hnbrdf_scene_latent_vectors(const hnbrdf_scene *s);
+int hnbrdf_scene_bias_vectors(const hnbrdf_scene *s);
 /* Also where the struct would be empty, which GLSL does not allow. */
 int hnbrdf_scene_has_rotation(const hnbrdf_scene *s);
 

@@ -1,0 +1,163 @@
+/* export_evaluate.c: the functions a shader calls: evaluate, its analytic part alone, sample, pdf. Each
+ * does what the C function of the same name does, in the same order of operations. */
+#include "model/export_evaluate.h"
+
+#include "model/export_material.h"
+#include "model/export_network.h"
+
+static const char HORIZON[] = "    if (!(wi.z > 0.0 && wo.z > 0.0))\n        return vec3(0.0);\n"
+                              "    hnbrdf_pair p = hnbrdf_scene_pair(m, wi, wo);\n";
+
+/* Both directions into the tangent frame, as far as any material is turned. */
+static void put_pair(hnbrdf_printer *out, const hnbrdf_scene *s)
+{
+    hnbrdf_put(out, "// Both directions in the tangent frame of the material.\n");
+    hnbrdf_put(out, "hnbrdf_pair hnbrdf_scene_pair(hnbrdf_material m, vec3 wi, vec3 wo)\n{\n");
+    hnbrdf_put(out, s->rotated
+                        ? "    return hnbrdf_pair_make(hnbrdf_to_tangent(m.rotation, wi),\n"
+                          "                            hnbrdf_to_tangent(m.rotation, wo));\n}\n\n"
+                        : "    return hnbrdf_pair_make(wi, wo);\n}\n\n");
+}
+
+/* The exponent s c + m; a scale of 1 and a shift of 0 change no bit and are left out. */
+static void put_exponent(hnbrdf_printer *out, const hnbrdf_scene *s)
+{
+    int loaded = s->style == HNBRDF_GLSL_UNIFORM;
+    hnbrdf_put(out, "    HNBRDF_PRECISE vec3 exponent = ");
+    if (loaded || s->desc->scale != 1.0f) {
+        hnbrdf_put_constant(out, s, 0);
+        hnbrdf_put(out, " * ");
+    }
+    hnbrdf_put(out, "c");
+    if (loaded || s->desc->shift != 0.0f) {
+        hnbrdf_put(out, " + ");
+        hnbrdf_put_constant(out, s, 1);
+    }
+    hnbrdf_put(out, ";\n");
+}
+
+static void put_analytic(hnbrdf_printer *out, const hnbrdf_scene *s)
+{
+    hnbrdf_put(out, "// f_a before it is clamped to what f may be.\n");
+    hnbrdf_put(out, "vec3 hnbrdf_analytic(hnbrdf_material m, hnbrdf_pair p)\n{\n");
+    hnbrdf_put(out, s->fixed ? "    float specular = hnbrdf_specular_of_area(p, m.alpha, m.area);\n"
+                               "    return hnbrdf_microfacet_of(m.diffuse, m.e, p.c, specular);\n}\n\n"
+                             : "    float specular = hnbrdf_specular(p, m.alpha);\n"
+                               "    return hnbrdf_microfacet(m.kd, m.eta, p.c, specular);\n}\n\n");
+}
+
+static void put_eval_analytic(hnbrdf_printer *out, const hnbrdf_scene *s)
+{
+    int analytic = hnbrdf_scene_has_analytic(s);
+    hnbrdf_put(out, "// f_a alone: Lambert + GGX, the cheapest level of detail%s.\n",
+               analytic ? "" : "; this kind of model has none");
+    hnbrdf_put(out, "vec3 hnbrdf_eval_analytic(hnbrdf_material m, vec3 wi, vec3 wo)\n{\n");
+    if (analytic)
+        hnbrdf_put(out, "%s    return hnbrdf_finish(hnbrdf_analytic(m, p));\n}\n\n", HORIZON);
+    else
+        hnbrdf_put(out, "    return vec3(0.0);\n}\n\n");
+}
+
+static void put_eval(hnbrdf_printer *out, const hnbrdf_scene *s)
+{
+    hnbrdf_put(out, "// f(wi, wo) in 1/sr without the cosine; 0 below the horizon.\n");
+    hnbrdf_put(out, "vec3 hnbrdf_eval(hnbrdf_material m, vec3 wi, vec3 wo)\n{\n%s", HORIZON);
+    if (!hnbrdf_scene_has_network(s)) {
+        hnbrdf_put(out, "    return hnbrdf_finish(hnbrdf_analytic(m, p));\n}\n");
+        return;
+    }
+    int hybrid = s->desc->kind == HNBRDF_KIND_HYBRID;
+    hnbrdf_put(out, "    vec3 x0, x1, c%s;\n", hybrid ? ", g" : "");
+    hnbrdf_put(out, "    HNBRDF_SCENE_ENCODE(p, x0, x1);\n");
+    hnbrdf_put(out, "    hnbrdf_network(m, x0, x1, c%s);\n", hybrid ? ", g" : "");
+    put_exponent(out, s);
+    hnbrdf_put(out, hybrid ? "    return hnbrdf_compose_hybrid(exponent, g, hnbrdf_analytic(m, p), "
+                           : "    return hnbrdf_compose_neural(exponent, ");
+    hnbrdf_put_constant(out, s, 2);
+    hnbrdf_put(out, ");\n}\n");
+}
+
+/* ---- Sampling -------------------------------------------------------------------------------- */
+
+/* How the sampling functions get at what they need of the material m. */
+static const char *alpha_text(const hnbrdf_scene *s)
+{
+    return s->anisotropic ? "m.alpha" : "vec2(m.alpha)";
+}
+
+static const char *share_text(const hnbrdf_scene *s)
+{
+    return s->fixed ? "m.share" : "hnbrdf_specular_share(m.kd, m.eta)";
+}
+
+static void put_pdf(hnbrdf_printer *out, const hnbrdf_scene *s)
+{
+    hnbrdf_put(
+        out,
+        "\n// Density in 1/sr with which hnbrdf_sample() draws wi given wo; 0 below the horizon.\n");
+    hnbrdf_put(out, "float hnbrdf_pdf(hnbrdf_material m, vec3 wi, vec3 wo)\n{\n"
+                    "    if (!(wi.z > 0.0 && wo.z > 0.0))\n        return 0.0;\n");
+    if (!hnbrdf_scene_has_analytic(s)) {
+        hnbrdf_put(out, "    return hnbrdf_clamp(wi.z * HNBRDF_INV_PI, 0.0, HNBRDF_MAX_VALUE);\n}\n");
+        return;
+    }
+    if (s->rotated)
+        hnbrdf_put(out, "    wi = hnbrdf_to_tangent(m.rotation, wi);\n"
+                        "    wo = hnbrdf_to_tangent(m.rotation, wo);\n");
+    hnbrdf_put(out, "    return hnbrdf_density(%s, %s, %s, wi, wo);\n}\n", alpha_text(s),
+               s->fixed ? "m.area" : "hnbrdf_ggx_area(m.alpha)", share_text(s));
+}
+
+static void put_sample(hnbrdf_printer *out, const hnbrdf_scene *s)
+{
+    hnbrdf_put(out, "\n// Draws wi given wo; u is three numbers in [0, 1): make them as float(u32 >> "
+                    "8) * 2^-24.\n");
+    hnbrdf_put(out, "hnbrdf_sample_result hnbrdf_sample(hnbrdf_material m, vec3 wo, vec3 u)\n{\n"
+                    "    hnbrdf_sample_result drawn = "
+                    "hnbrdf_sample_result(vec3(0.0, 0.0, 1.0), 0.0, vec3(0.0));\n"
+                    "    if (!(wo.z > 0.0))\n        return drawn;\n");
+    if (hnbrdf_scene_has_analytic(s)) {
+        const char *o = s->rotated ? "hnbrdf_to_tangent(m.rotation, wo)" : "wo";
+        hnbrdf_put(out,
+                   "    vec3 wi;\n    if (u.x < %s)\n        wi = hnbrdf_draw_ggx(%s, %s, u.yz);\n",
+                   share_text(s), alpha_text(s), o);
+        hnbrdf_put(out, "    else\n        wi = hnbrdf_draw_cosine(u.yz);\n");
+    } else {
+        hnbrdf_put(out, "    vec3 wi = hnbrdf_draw_cosine(u.yz);\n");
+    }
+    if (s->rotated)
+        hnbrdf_put(out, "    wi = hnbrdf_from_tangent(m.rotation, wi);\n");
+    hnbrdf_put(out, "    float pdf = hnbrdf_pdf(m, wi, wo);\n"
+                    "    if (!(pdf > 0.0))\n        return drawn;\n"
+                    "    HNBRDF_PRECISE vec3 weight = hnbrdf_eval(m, wi, wo) * wi.z / pdf;\n"
+                    "    drawn.wi = wi;\n    drawn.pdf = pdf;\n"
+                    "    drawn.weight = hnbrdf_finish(weight);\n    return drawn;\n}\n");
+}
+
+/* ---- All of it ------------------------------------------------------------------------------- */
+
+static void put_named(hnbrdf_printer *out, const hnbrdf_scene *s)
+{
+    for (int k = 0; k < s->count; k++) {
+        hnbrdf_put(out, "\nvec3 hnbrdf_eval_%s(vec3 wi, vec3 wo)\n{\n    return hnbrdf_eval(",
+                   s->names[k]);
+        hnbrdf_put_material(out, s, k);
+        hnbrdf_put(out, ", wi, wo);\n}\n");
+    }
+}
+
+void hnbrdf_put_evaluate(hnbrdf_printer *out, const hnbrdf_scene *s)
+{
+    put_pair(out, s);
+    if (hnbrdf_scene_has_analytic(s))
+        put_analytic(out, s);
+    if (s->only == HNBRDF_GLSL_EVERYTHING)
+        put_eval_analytic(out, s);
+    put_eval(out, s);
+    if (hnbrdf_scene_has_sampling(s)) {
+        put_pdf(out, s);
+        put_sample(out, s);
+    }
+    if (s->fixed)
+        put_named(out, s);
+}
