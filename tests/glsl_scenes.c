@@ -17,6 +17,8 @@ static const struct {
     scene_shape shape;
     hnbrdf_glsl_weights weights;
     hnbrdf_glsl_precision precision;
+    hnbrdf_glsl_only only;
+    int fixed, packed;
 } scenes[] = {
     {.name = "hybrid_32x2",
      .shape = {.encoding = HNBRDF_ENCODING_HALF_DIFFERENCE,
@@ -41,11 +43,14 @@ static const struct {
                .latent = 12}},
     {.name = "ggx", .shape = {.kind = HNBRDF_KIND_GGX}},
     {.name = "ggx_rotated", .shape = {.kind = HNBRDF_KIND_GGX, .anisotropic = 1, .rotated = 1}},
-    {"columns", UNEVEN, HNBRDF_GLSL_COLUMNS, HNBRDF_GLSL_FLOAT},
-    {"uniform", UNEVEN, HNBRDF_GLSL_UNIFORM, HNBRDF_GLSL_FLOAT},
-    {"half", UNEVEN, HNBRDF_GLSL_CONSTANTS, HNBRDF_GLSL_HALF},
-    {"half_columns", UNEVEN, HNBRDF_GLSL_COLUMNS, HNBRDF_GLSL_HALF},
-    {"half_uniform", UNEVEN, HNBRDF_GLSL_UNIFORM, HNBRDF_GLSL_HALF},
+    {.name = "columns", .shape = UNEVEN, .weights = HNBRDF_GLSL_COLUMNS, .precision = HNBRDF_GLSL_FLOAT},
+    {.name = "uniform", .shape = UNEVEN, .weights = HNBRDF_GLSL_UNIFORM, .precision = HNBRDF_GLSL_FLOAT},
+    {.name = "half", .shape = UNEVEN, .weights = HNBRDF_GLSL_CONSTANTS, .precision = HNBRDF_GLSL_HALF},
+    {.name = "half_columns", .shape = UNEVEN, .weights = HNBRDF_GLSL_COLUMNS, .precision = HNBRDF_GLSL_HALF},
+    {.name = "half_uniform", .shape = UNEVEN, .weights = HNBRDF_GLSL_UNIFORM, .precision = HNBRDF_GLSL_HALF},
+    {.name = "stripped", .shape = UNEVEN, .only = HNBRDF_GLSL_EVAL, .fixed = 1},
+    {.name = "fixed_columns", .shape = UNEVEN, .weights = HNBRDF_GLSL_COLUMNS, .fixed = 1},
+    {.name = "packed", .shape = UNEVEN, .only = HNBRDF_GLSL_EVAL_SAMPLE, .packed = 1},
 };
 
 static int write_text(const char *directory, const char *name, const char *ending, const char *text)
@@ -58,10 +63,14 @@ static int write_text(const char *directory, const char *name, const char *endin
 }
 
 static int write_scene(const char *directory, const char *name, const scene_shape *shape,
-                       hnbrdf_glsl_options options)
+                       hnbrdf_glsl_options options, int packed)
 {
     char path[1024];
+    hnbrdf_packing packing;
     hnbrdf_model *model = scene_model(shape);
+    if (hnbrdf_packing_init(model, NULL, 0, HNBRDF_TEXEL_RGBA8, &packing, NULL))
+        return 0;
+    options.packing = packed ? &packing : NULL;
     char *include = styled_text(model, &options);
     options.standalone = 1;
     char *alone = styled_text(model, &options);
@@ -81,8 +90,10 @@ int main(int argc, char **argv)
         return 2;
     for (size_t i = 0; i < sizeof scenes / sizeof scenes[0]; i++) {
         const hnbrdf_glsl_options options = {.weights = scenes[i].weights,
-                                             .precision = scenes[i].precision};
-        if (!write_scene(argv[1], scenes[i].name, &scenes[i].shape, options))
+                                             .precision = scenes[i].precision,
+                                             .only = scenes[i].only,
+                                             .fixed = scenes[i].fixed};
+        if (!write_scene(argv[1], scenes[i].name, &scenes[i].shape, options, scenes[i].packed))
             return 1;
         printf("%s\n", scenes[i].name);
     }

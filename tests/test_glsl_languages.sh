@@ -12,6 +12,9 @@ trap 'rm -rf "$work"' EXIT
 
 run() { "$@" >"$work/messages" 2>&1 || { echo "failed: $*"; cat "$work/messages"; exit 1; }; }
 
+# Does the scene define this function?
+has() { grep -q "^[a-z_0-9]* $2(" "$work/$1.glsl"; }
+
 # A fragment shader with the standalone text pasted behind #version, as a user would.
 fragment() { # version scene exact output
     {
@@ -25,7 +28,13 @@ fragment() { # version scene exact output
         fi
         echo 'void main() {'
         echo '    hnbrdf_material m = hnbrdf_scene_material(HNBRDF_MATERIAL_GOLD_PAINT);'
-        echo '    colour = vec4(hnbrdf_eval(m, wi, wo) + hnbrdf_eval_analytic(m, wi, wo), 1.0);'
+        echo '    colour = vec4(hnbrdf_eval(m, wi, wo), 1.0);'
+        # What the scene has besides evaluation.
+        has "$2" hnbrdf_eval_analytic && echo '    colour.rgb += hnbrdf_eval_analytic(m, wi, wo);'
+        has "$2" hnbrdf_sample && echo '    colour.rgb += hnbrdf_sample(m, wo, wi).weight * hnbrdf_pdf(m, wi, wo);'
+        has "$2" hnbrdf_eval_GOLD_PAINT && echo '    colour.rgb += hnbrdf_eval_GOLD_PAINT(wi, wo);'
+        has "$2" hnbrdf_material_unpack &&
+            echo '    colour.rgb += hnbrdf_eval(hnbrdf_material_unpack(wi.xyzx, wo.xyzx, wi.zyxz), wi, wo);'
         echo '}'
     } >"$4"
 }
@@ -41,10 +50,14 @@ while read -r scene; do
             done
         else
             cp "$work/$scene.glsl" "$work/scene.glsl"
-            run glslangValidator -V -DHNBRDF_EXACT=$exact -I"$shaders" -I"$work" "$shaders/verify.comp" -o "$work/c.spv"
+            stages=frag
+            if has "$scene" hnbrdf_eval_analytic; then # which verify.comp calls
+                stages='frag comp'
+                run glslangValidator -V -DHNBRDF_EXACT=$exact -I"$shaders" -I"$work" "$shaders/verify.comp" -o "$work/c.spv"
+            fi
             fragment 450 "$scene" $exact "$work/a.frag"
             run glslangValidator -V "$work/a.frag" -o "$work/a.spv"
-            for stage in frag comp; do
+            for stage in $stages; do
                 [ $stage = frag ] && spv=$work/a.spv || spv=$work/c.spv
                 if [ "$target" = directx ]; then # and what comes out is HLSL that compiles
                     run spirv-cross "$spv" --hlsl --shader-model 60 --output "$work/out.hlsl"

@@ -9,7 +9,7 @@
 
 static const cli_command command = {
     "verify",
-    "MODEL [--materials A,B] [--weights STYLE] [--precision P] [--device N|all] [--pairs N] [--csv FILE]",
+    "MODEL [--materials A,B] [--weights STYLE] [--precision P] [--fixed] [--device N|all] [--pairs N]",
     "Proves on every Vulkan device that the exported shader gives what the C library gives. Compared "
     "are\n"
     "the encoding, the network alone, the analytic part and the whole BRDF, on random, mirror, "
@@ -31,7 +31,7 @@ static const cli_command command = {
 typedef struct settings {
     const char *materials, *device, *csv, *json;
     long pairs, seed;
-    int validate, list, without_timing, weights, precision;
+    int validate, list, without_timing, weights, precision, fixed;
 } settings;
 
 /* ---- The scene ------------------------------------------------------------------------------- */
@@ -68,7 +68,8 @@ static int export_scene(const hnbrdf_model *model, const settings *set, const in
     const hnbrdf_glsl_options options = {.materials = materials,
                                          .material_count = count,
                                          .weights = (hnbrdf_glsl_weights)set->weights,
-                                         .precision = (hnbrdf_glsl_precision)set->precision};
+                                         .precision = (hnbrdf_glsl_precision)set->precision,
+                                         .fixed = set->fixed};
     hnbrdf_error error;
     hnbrdf_result result = hnbrdf_export_glsl(model, &options, append, &scene->text, &error);
     if (!result && options.weights == HNBRDF_GLSL_UNIFORM && hnbrdf_weights_size(model) > 0)
@@ -227,6 +228,7 @@ int cmd_verify(int argc, char **argv)
          "style of the exported shader (default constants)"},
         {"precision", 0, CLI_CHOICE, &set.precision, 0, 0, "float|half",
          "of its hidden layers (default float)"},
+        {"fixed", 0, CLI_FLAG, &set.fixed, 0, 0, NULL, "materials as constants, as export --fixed writes them"},
         {"device", 'd', CLI_TEXT, &set.device, 0, 0, "N|all",
          "number of a device, see --list (default: all)"},
         {"pairs", 'n', CLI_INT, &set.pairs, 64, 1 << 22, "N",

@@ -192,7 +192,7 @@ static void put_bias(hnbrdf_printer *out, const hnbrdf_scene *s, int layer, int 
 {
     float numbers[4] = {0.0f};
     if (layer == 0 && hnbrdf_scene_bias_vectors(s) > 0) {
-        hnbrdf_put(out, "m.bias%d.%.*s", row / 4, width, "xyzw" + row % 4);
+        hnbrdf_put(out, "m.bias%d.%.*s", row / 4, width, &"xyzw"[row % 4]);
         return;
     }
     for (int r = 0; r < width; r++)

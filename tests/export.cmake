@@ -1,5 +1,7 @@
 # Materials in textures, sampling and stripping in GLSL.
 hnbrdf_test(test_pack test_pack.c core_support.c)
+add_test(NAME test_export_cli COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/test_export_cli.sh
+  $<TARGET_FILE:hnbrdf_cli> $<TARGET_FILE:glsl_scenes> ${PROJECT_SOURCE_DIR}/examples/models/rgl_32x2.safetensors)
 if(HNBRDF_WITH_VULKAN)
   foreach(name unpack sample strip)
     hnbrdf_test(test_glsl_${name} test_glsl_${name}.c gpu_run.c gpu_support.c)

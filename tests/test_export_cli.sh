@@ -1,0 +1,37 @@
+#!/bin/sh
+# test_export_cli.sh HNBRDF SCENES MODEL: what `hnbrdf export` leaves out and packs, as a user runs it. MODEL is the
+# shipped one.
+set -eu
+hnbrdf=$1 scenes=$2 shipped=$3
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+"$scenes" "$work" >/dev/null
+model=$work/hybrid_8x4_rotated.safetensors
+fail() { echo "failed: $*"; exit 1; }
+status() { expected=$1; shift; got=0; "$@" >"$work/out" 2>"$work/err" || got=$?
+    [ $got = "$expected" ] || { cat "$work/out" "$work/err"; fail "exit $got, expected $expected: $*"; }; }
+
+# --only and --fixed: the text states what it holds, and holds no more.
+status 0 "$hnbrdf" export "$model" --only eval --fixed --standalone -o "$work/x.glsl"
+grep -q '^//   contains   hnbrdf_eval, hnbrdf_eval_NAME$' "$work/x.glsl" || fail "contains"
+grep -q '^//   left out   materials that change' "$work/x.glsl" || fail "left out"
+grep -q 'hnbrdf_sample' "$work/x.glsl" && fail "sampling is there"
+grep -q 'vec3 hnbrdf_eval_GOLD_PAINT(vec3 wi, vec3 wo)' "$work/x.glsl" || fail "no function of one material"
+status 0 "$hnbrdf" export "$model" --only eval+sample -o "$work/y.glsl"
+grep -q '^hnbrdf_sample_result hnbrdf_sample(' "$work/y.glsl" || fail "no sampling"
+status 2 "$hnbrdf" export "$model" --only sample -o "$work/z.glsl"
+
+# --pack: texels of the stated size, and an error that the README can quote.
+status 0 "$hnbrdf" export "$shipped" --pack half --texels "$work/half.bin" -o "$work/p.glsl"
+[ "$(wc -c <"$work/half.bin")" = $((12 * 3 * 8)) ] || fail "half texels"
+grep -q '^//   texels     3 of RGBA16F a material, 24 bytes$' "$work/p.glsl" || fail "texels in the heading"
+mean() { sed -n 's/.*mean \([0-9.]*\), worst.*/\1/p' "$work/out"; }
+[ "$(mean | awk '{ print ($1 > 0 && $1 < 0.0015) }')" = 1 ] || fail "half: SMAPE $(mean), expected under 0.0015"
+status 0 "$hnbrdf" export "$shipped" --pack byte --texels "$work/byte.bin" -o "$work/p.glsl"
+[ "$(wc -c <"$work/byte.bin")" = $((12 * 3 * 4)) ] || fail "byte texels"
+[ "$(mean | awk '{ print ($1 > 0 && $1 < 0.02) }')" = 1 ] || fail "byte: SMAPE $(mean), expected under 0.02"
+status 2 "$hnbrdf" export "$model" --texels "$work/t.bin" -o "$work/z.glsl"
+status 2 "$hnbrdf" export "$model" --fixed --pack half -o "$work/z.glsl"
+status 1 "$hnbrdf" export "$model" --pack half --texels "$work/no/such/place" -o "$work/z.glsl"
+[ -e "$work/z.glsl" ] && fail "a failed export leaves a file"
+echo ok
