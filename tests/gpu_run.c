@@ -48,11 +48,10 @@ uint32_t *gpu_run_compile(const char *scene, const char *body, int exact, size_t
 {
     const gpu_include includes[] = {
         {"hybrid_brdf.glsl", hnbrdf_hybrid_brdf_glsl}, {"scene.glsl", scene}, {"body.glsl", body}};
+    const char *const defines[] = {exact ? "HNBRDF_EXACT=1" : "HNBRDF_EXACT=0", NULL};
     uint32_t *spirv = NULL;
     hnbrdf_error error = {""};
-    check(gpu_compile(SHADER, includes, 3, exact ? "HNBRDF_EXACT=1" : "HNBRDF_EXACT=0", &spirv, bytes,
-                      &error),
-          &error);
+    check(gpu_compile(SHADER, includes, 3, defines, &spirv, bytes, &error), &error);
     return spirv;
 }
 
