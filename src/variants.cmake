@@ -1,8 +1,9 @@
 # The evaluation kernels: one file an instruction set, compiled where compiler and target know it, chosen at
 # run time. They live from vectorisation, the plain one too; GCC's elimination of partial redundancies would
-# turn clamps into branches, and loops with branches are not vectorised.
+# turn clamps into branches, and loops with branches are not vectorised, and its clones for constant arguments
+# are only larger.
 include(CheckCSourceCompiles)
-set(_kernel_flags "$<$<NOT:$<CONFIG:Debug>>:-O3>;$<$<C_COMPILER_ID:GNU>:-fno-tree-pre>")
+set(_kernel_flags "$<$<NOT:$<CONFIG:Debug>>:-O3>;$<$<C_COMPILER_ID:GNU>:-fno-tree-pre>;$<$<C_COMPILER_ID:GNU>:-fno-ipa-cp-clone>")
 set_source_files_properties(src/core/kernel_plain.c PROPERTIES COMPILE_OPTIONS "${_kernel_flags}")
 
 # hnbrdf_variant(NAME condition flags...): the kernel joins if the preprocessor condition holds and the

@@ -16,8 +16,10 @@ enum { LANES = HNBRDF_LANES };
 
 #if defined(__GNUC__)
 #define KERNEL_INLINE static inline __attribute__((always_inline))
+#define KERNEL_APART static __attribute__((noinline)) /* one copy is enough */
 #else
 #define KERNEL_INLINE static inline
+#define KERNEL_APART static
 #endif
 
 #if KERNEL_WIDTH > 1
@@ -83,7 +85,7 @@ KERNEL_INLINE void unit_vectors(const float *w, int stride, int depth, const flo
     int k = 0;
     for (; k + 8 <= depth;
          k += 8) /* fewer instructions between two evaluations that a processor overlaps */
-        for (int i = 0; i < 8; i++, w += stride)
+        for (int i = 0; i < 4; i++, w += stride)
             for (int v = 0; v < vectors; v++)
                 sums[v] += *(const unit_memory *)(w + v * KERNEL_SINGLE) * x[k + i];
     for (; k < depth; k++, w += stride)
@@ -94,8 +96,8 @@ KERNEL_INLINE void unit_vectors(const float *w, int stride, int depth, const flo
 }
 
 /* Writes whole vectors: y has room for a multiple of HNBRDF_PACK, and so have w and biases. */
-static void units(const float *w, int stride, int depth, const float *x, const float *biases, int count,
-                  int activate, float *y)
+KERNEL_APART void units(const float *w, int stride, int depth, const float *x, const float *biases,
+                        int count, int activate, float *y)
 {
     int left = (count + KERNEL_SINGLE - 1) / KERNEL_SINGLE, u = 0;
     for (; left >= 8; left -= 8, u += 8 * KERNEL_SINGLE)
@@ -125,8 +127,8 @@ KERNEL_INLINE void any_units(const float *w, int stride, int depth, const float 
 
 #else
 
-static void units(const float *w, int stride, int depth, const float *x, const float *biases, int count,
-                  int activate, float *restrict y)
+KERNEL_APART void units(const float *w, int stride, int depth, const float *x, const float *biases,
+                        int count, int activate, float *restrict y)
 {
     for (int u = 0; u < count; u++)
         y[u] = biases[u];
@@ -178,8 +180,6 @@ static void network_single(const hnbrdf_prepared *prepared, const float *x, floa
 #if KERNEL_WIDTH > 1
     switch ((prepared->model->desc.hidden + KERNEL_SINGLE - 1) / KERNEL_SINGLE) {
     case 1:
-        network_of(prepared, x, 1, out);
-        return;
     case 2:
         network_of(prepared, x, 2, out);
         return;
@@ -282,8 +282,8 @@ KERNEL_INLINE void layer(const float *w, int stride, int depth, lane *x, const f
 #else
 
 /* Two rows at a time: every input is loaded once for both. */
-static void layer(const float *w, int stride, int depth, lane *restrict x, const float *biases,
-                  int count, int activate, lane *restrict y)
+KERNEL_APART void layer(const float *w, int stride, int depth, lane *restrict x, const float *biases,
+                        int count, int activate, lane *restrict y)
 {
     for (int r = 0; r < count; r += 2) {
         int next = r + 1 < count ? r + 1 : r; /* an odd last row is computed twice */
@@ -308,15 +308,15 @@ static void layer(const float *w, int stride, int depth, lane *restrict x, const
 
 #endif
 
-static void hidden_layer(const float *w, int stride, int depth, lane *x, const float *biases, int count,
-                         lane *y)
+KERNEL_APART void hidden_layer(const float *w, int stride, int depth, lane *x, const float *biases,
+                               int count, lane *y)
 {
     layer(w, stride, depth, x, biases, count, 1, y);
 }
 
 /* The first layer sums `depth` inputs from `biases` with the weights w. */
-static void network_lanes(const hnbrdf_model *model, const float *w, int depth, lane *x,
-                          const float *biases, lane *out)
+KERNEL_APART void network_lanes(const hnbrdf_model *model, const float *w, int depth, lane *x,
+                                const float *biases, lane *out)
 {
     const hnbrdf_model_desc *desc = &model->desc;
     const int stride = hnbrdf_packed_outputs(desc, 0), hidden = desc->hidden, last = desc->layers;
@@ -376,7 +376,7 @@ static const float *at(const float *first, size_t stride, size_t index)
     return (const float *)((const char *)first + index * stride);
 }
 
-static void gather(const hnbrdf_pairs *pairs, size_t first, size_t count, lane_pairs *b)
+KERNEL_APART void gather(const hnbrdf_pairs *pairs, size_t first, size_t count, lane_pairs *b)
 {
     static const float normal[3] = {0.0f, 0.0f, 1.0f};
     for (size_t l = 0; l < LANES; l++) {
@@ -397,7 +397,7 @@ static void gather(const hnbrdf_pairs *pairs, size_t first, size_t count, lane_p
     }
 }
 
-static void scatter(const hnbrdf_pairs *pairs, size_t first, size_t count, const lane_pairs *b)
+KERNEL_APART void scatter(const hnbrdf_pairs *pairs, size_t first, size_t count, const lane_pairs *b)
 {
     for (size_t l = 0; l < count; l++) {
         float *to = (float *)((char *)pairs->f + (first + l) * pairs->f_stride);
@@ -406,7 +406,7 @@ static void scatter(const hnbrdf_pairs *pairs, size_t first, size_t count, const
     }
 }
 
-static void make_pairs(const lane_materials *restrict m, lane_pairs *restrict b)
+KERNEL_APART void make_pairs(const lane_materials *restrict m, lane_pairs *restrict b)
 {
     for (int l = 0; l < LANES; l++) {
         const hnbrdf_frame frame = {m->cosine[l], m->sine[l]};
@@ -440,7 +440,7 @@ static inline hnbrdf_pair pair_of(const lane_pairs *b, int l)
 }
 
 /* f = f_a */
-static void analytic_lanes(const lane_materials *restrict m, lane_pairs *restrict b)
+KERNEL_APART void analytic_lanes(const lane_materials *restrict m, lane_pairs *restrict b)
 {
     for (int l = 0; l < LANES; l++) {
         hnbrdf_pair pair = pair_of(b, l);
@@ -450,7 +450,7 @@ static void analytic_lanes(const lane_materials *restrict m, lane_pairs *restric
     }
 }
 
-static void finish_lanes(lane_pairs *b)
+KERNEL_APART void finish_lanes(lane_pairs *b)
 {
     for (int c = 0; c < 3; c++)
         for (int l = 0; l < LANES; l++)
@@ -505,8 +505,8 @@ static void compose_lanes(const hnbrdf_model_desc *desc, lane_pairs *b)
 
 /* Everything between gather and scatter. shared: the one material of all lanes, or NULL, then b->x
  * begins with the latent codes. */
-static void evaluate_lanes(const hnbrdf_model *model, const hnbrdf_prepared *shared,
-                           const lane_materials *m, lane_pairs *b)
+KERNEL_APART void evaluate_lanes(const hnbrdf_model *model, const hnbrdf_prepared *shared,
+                                 const lane_materials *m, lane_pairs *b)
 {
     const hnbrdf_model_desc *desc = &model->desc;
     lane *encoded = b->x + desc->latent;
