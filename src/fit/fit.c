@@ -115,21 +115,19 @@ static void describe_network(const trainer *t, float *weights, hnbrdf_model_desc
 {
     const fit_layout *l = &t->layout;
     const float *p = t->parameters;
-    size_t n = (size_t)l->padded, h = (size_t)l->hidden_size, in = FIT_INPUTS + (size_t)l->latent_size;
     desc->encoding = t->options.encoding;
     desc->hidden = l->hidden_size;
     desc->layers = l->layers;
     desc->latent = l->latent_size;
     desc->floor = l->floor;
     for (int k = 0; k <= l->layers; k++) {
-        size_t rows = k < l->layers ? h : (size_t)l->outputs, columns = k == 0 ? in : h;
+        int rows, columns;
+        hnbrdf_fit_layer_size(l, k, &rows, &columns);
         desc->weights[k] = weights;
         desc->biases[k] = p + l->bias[k];
-        for (size_t o = 0; o < rows; o++)
-            for (size_t i = 0; i < columns; i++)
-                *weights++ = k == l->layers ? p[l->last + o * n + i]
-                             : k > 0        ? p[l->hidden[k] + i * n + o]
-                                     : p[l->first + i * n + o]; /* latent rows follow the first six */
+        for (int o = 0; o < rows; o++)
+            for (int i = 0; i < columns; i++)
+                *weights++ = p[hnbrdf_fit_weight_at(l, k, o, i)];
     }
 }
 

@@ -50,3 +50,15 @@ void hnbrdf_fit_layout_make(fit_layout *layout, hnbrdf_kind kind, int hidden, in
     l.count = at;
     *layout = l;
 }
+
+void hnbrdf_fit_layer_size(const fit_layout *l, int k, int *outputs, int *inputs)
+{
+    *outputs = k < l->layers ? l->hidden_size : l->outputs;
+    *inputs = k > 0 ? l->hidden_size : FIT_INPUTS + l->latent_size;
+}
+
+size_t hnbrdf_fit_weight_at(const fit_layout *l, int k, int output, int input)
+{
+    size_t n = (size_t)l->padded, o = (size_t)output, i = (size_t)input;
+    return k == l->layers ? l->last + o * n + i : (k > 0 ? l->hidden[k] : l->first) + i * n + o;
+}

@@ -40,6 +40,11 @@ typedef struct fit_layout {
 void hnbrdf_fit_layout_make(fit_layout *layout, hnbrdf_kind kind, int hidden, int layers, int latent,
                             int materials, int train_analytic, float floor);
 
+/* Where the weight from `input` to `output` of layer k lies, both counted as in a model: the inputs of
+ * layer 0 are the six encoded directions, then the latent code, whose rows follow on. */
+size_t hnbrdf_fit_weight_at(const fit_layout *layout, int k, int output, int input);
+void hnbrdf_fit_layer_size(const fit_layout *layout, int k, int *outputs, int *inputs);
+
 /* One tile of training data, all float: x [FIT_TILE][6] encoded; analytic [3][FIT_TILE] f_a where the
  * analytic part is frozen; wi and wo [3][FIT_TILE] in the shading frame where it is trained; target
  * [3][FIT_TILE] the measured f. Pointers that are not needed may be NULL. */

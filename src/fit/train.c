@@ -59,15 +59,14 @@ static void take_network(trainer *t)
     hnbrdf_model_desc desc;
     hnbrdf_model_describe(t->options.freeze, &desc);
     float *p = t->parameters;
-    size_t n = (size_t)l->padded, h = (size_t)l->hidden_size, in = FIT_INPUTS + (size_t)l->latent_size;
     for (int k = 0; k <= l->layers; k++) {
-        size_t rows = k < l->layers ? h : (size_t)l->outputs, columns = k == 0 ? in : h;
+        int rows, columns;
+        hnbrdf_fit_layer_size(l, k, &rows, &columns);
         const float *w = desc.weights[k];
-        for (size_t o = 0; o < rows; o++) {
-            for (size_t i = 0; i < columns; i++)
-                p[k == l->layers ? l->last + o * n + i : (k ? l->hidden[k] : l->first) + i * n + o] =
-                    *w++;
-            p[l->bias[k] + o] = desc.biases[k][o];
+        for (int o = 0; o < rows; o++) {
+            for (int i = 0; i < columns; i++)
+                p[hnbrdf_fit_weight_at(l, k, o, i)] = *w++;
+            p[l->bias[k] + (size_t)o] = desc.biases[k][o];
         }
     }
 }
