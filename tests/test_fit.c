@@ -210,9 +210,13 @@ static void ggx_fit_recovers_known_parameters(void **state)
         }
         hnbrdf_measured *table = known_table(&known);
         hnbrdf_fit_options o = small(HNBRDF_KIND_GGX);
+        hnbrdf_fit_search search = {0};
         hnbrdf_model *model;
+        o.search = &search;
         assert_int_equal(hnbrdf_fit((const hnbrdf_measured *const *)&table, 1, &o, &model, NULL, NULL),
                          HNBRDF_OK);
+        assert_int_equal(search.starts, 8);
+        assert_true(search.best >= 0.0 && search.best <= search.second);
         const hnbrdf_material *m = hnbrdf_model_material(model, 0);
         assert_true(fabsf(m->alpha[0] / known.alpha[0] - 1.0f) < 0.1f);
         assert_true(m->alpha[0] == m->alpha[1] && m->rotation == 0.0f);
@@ -223,6 +227,30 @@ static void ggx_fit_recovers_known_parameters(void **state)
         hnbrdf_model_free(model);
         hnbrdf_measured_close(table);
     }
+}
+
+/* The parts are processor time and the elapsed time is a wall clock's: processor time never exceeds it
+ * but for the clocks' grain, for which a hundredth is plenty. */
+static void times_of_a_fit_add_up_to_its_threads(void **state)
+{
+    (void)state;
+    hnbrdf_fit_report report;
+    hnbrdf_fit_options o = small(HNBRDF_KIND_HYBRID);
+    o.threads = 2;
+    o.steps = 100;
+    hnbrdf_model_free(fit(&o, &report));
+    const hnbrdf_fit_times *t = &report.times;
+    double work = t->drawing + t->ggx + t->encoding + t->network + t->update;
+    assert_true(t->drawing > 0.0 && t->ggx > 0.0 && t->encoding > 0.0 && t->network > 0.0 &&
+                t->update > 0.0 && t->waiting >= 0.0);
+    assert_int_equal(report.threads, 2);
+    assert_true(work <= 1.01 * report.threads * report.seconds);
+    assert_true(fabs(work + t->waiting - report.threads * report.seconds) <=
+                0.01 * report.threads * report.seconds);
+    assert_true(report.pairs == 100.0 * 2048.0);
+    /* 16x2, 6 inputs, 6 outputs: forward 6 16 + 16 16 + 16 6 multiply-adds; backward the gradient of
+     * every weight as many, and of the hidden units 16 16 + 16 6. */
+    assert_true(report.flops == report.pairs * 2.0 * (2.0 * (96 + 256 + 96) + 256 + 96));
 }
 
 static void learning_rate_100_times_too_large_stays_finite(void **state)
@@ -477,6 +505,7 @@ int main(void)
         cmocka_unit_test(hybrid_is_closer_than_ggx_and_keeps_its_analytic_part),
         cmocka_unit_test(every_kind_and_encoding_fits),
         cmocka_unit_test(ggx_fit_recovers_known_parameters),
+        cmocka_unit_test(times_of_a_fit_add_up_to_its_threads),
         cmocka_unit_test(learning_rate_100_times_too_large_stays_finite),
         cmocka_unit_test(progress_can_stop_and_the_model_so_far_is_returned),
         cmocka_unit_test(resumed_fit_gives_the_same_model),
