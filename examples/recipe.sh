@@ -4,10 +4,12 @@
 #   sh examples/recipe.sh NAME=DATA... > table.md
 #
 # DATA as for `hnbrdf fit`; quote several: "rgl=measured/rgl". STEPS (default 16000) and SEEDS (default "1") set how long
-# and how often each one is trained, NET (default 32x2) the network, CHANGES which of them, by name.
+# and how often each one is trained, NET (default 32x2) the network, CHANGES which of them, by name; PAIRS (default 200000)
+# a material for SMAPE and SIZE (default 64) of the spheres for PSNR, how closely they are measured.
 set -eu
 hnbrdf=${HNBRDF:-$(dirname "$0")/../build/hnbrdf}
 steps=${STEPS:-16000} seeds=${SEEDS:-1} net=${NET:-32x2}
+pairs=${PAIRS:-200000} size=${SIZE:-64}
 [ $# -gt 0 ] || set -- builtin=builtin
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -32,7 +34,7 @@ options() {
     esac
 }
 changes=${CHANGES:-loss-smape loss-log schedule-linear schedule-constant uniform-share-0 uniform-share-1 batch-1024
-    batch-8192 rate-0.01 rate-0.02 rate-0.08 floor-0 joint angles angles-directed}
+    batch-8192 rate-0.01 rate-0.03 rate-0.1 floor-0 joint angles angles-directed}
 
 # mean_of FILE: the error in the last row of a CSV of `compare`, named mean.
 mean_of() {
@@ -44,9 +46,9 @@ measure() {
     # shellcheck disable=SC2046,SC2086 # options and DATA are several words
     {
         $hnbrdf fit $2 --net "$net" --seed "$3" $(options "$1") -o "$work/m.safetensors"
-        $hnbrdf compare "$work/m.safetensors" $2 --sampler grid --csv "$work/grid.csv"
-        $hnbrdf compare "$work/m.safetensors" $2 --sampler uniform --csv "$work/uniform.csv"
-        $hnbrdf sheet "$work/m.safetensors" $2 --size 64 -o "$work/sheet.png"
+        $hnbrdf compare "$work/m.safetensors" $2 --sampler grid --pairs "$pairs" --csv "$work/grid.csv"
+        $hnbrdf compare "$work/m.safetensors" $2 --sampler uniform --pairs "$pairs" --csv "$work/uniform.csv"
+        $hnbrdf sheet "$work/m.safetensors" $2 --size "$size" -o "$work/sheet.png"
     } > "$work/log"
     psnr=$(awk '/PSNR/ { reading = 1; next } reading && NF >= 5 && $NF + 0 > 0 { sum += $NF; n++ }
                 END { print sum / n }' "$work/log")
@@ -54,8 +56,8 @@ measure() {
 }
 
 cat << END
-Networks of $net, l = 4, $steps steps of 2048 pairs or as many pairs, seeds $seeds (mean over them); SMAPE over 200,000
-pairs a material (0 is perfect, 2 the worst), PSNR in dB of spheres under the built-in sky, 64 pixels wide, 32 samples a
+Networks of $net, l = 4, $steps steps of 2048 pairs or as many pairs, seeds $seeds (mean over them); SMAPE over $pairs
+pairs a material (0 is perfect, 2 the worst), PSNR in dB of spheres under the built-in sky, $size pixels wide, 32 samples a
 pixel; analytic: SMAPE (grid) of the model's GGX part alone. Written by \`STEPS=$steps SEEDS="$seeds" sh
 examples/recipe.sh\` with the data named below.
 END

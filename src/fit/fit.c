@@ -18,7 +18,7 @@ enum {
 };
 enum { ASYMMETRY_PAIRS = 4096 };
 #define RECIPROCAL 0.02 /* data whose asymmetry is less count as reciprocal */
-#define DEFAULT_RATE 1e-2f
+#define DEFAULT_RATE 6e-2f
 #define DEFAULT_FLOOR 0.003f
 #define DEFAULT_UNIFORM_SHARE 0.5f
 #define POOL_LIMIT 1.25e9 /* bytes of training data; beyond, fewer pairs a material */
