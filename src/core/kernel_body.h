@@ -83,8 +83,7 @@ KERNEL_INLINE void unit_vectors(const float *w, int stride, int depth, const flo
     for (int v = 0; v < vectors; v++)
         sums[v] = *(const unit_memory *)(biases + v * KERNEL_SINGLE);
     int k = 0;
-    for (; k + 8 <= depth;
-         k += 8) /* fewer instructions between two evaluations that a processor overlaps */
+    for (; k + 4 <= depth; k += 4) /* fewer instructions to wait with the sums */
         for (int i = 0; i < 4; i++, w += stride)
             for (int v = 0; v < vectors; v++)
                 sums[v] += *(const unit_memory *)(w + v * KERNEL_SINGLE) * x[k + i];
