@@ -58,8 +58,8 @@ measure() {
 cat << END
 Networks of $net, l = 4, $steps steps of 2048 pairs or as many pairs, seeds $seeds (mean over them); SMAPE over $pairs
 pairs a material (0 is perfect, 2 the worst), PSNR in dB of spheres under the built-in sky, $size pixels wide, 32 samples a
-pixel; analytic: SMAPE (grid) of the model's GGX part alone. Written by \`STEPS=$steps SEEDS="$seeds" sh
-examples/recipe.sh\` with the data named below.
+pixel; analytic: SMAPE (grid) of the model's GGX part alone. Written by \`STEPS=$steps SEEDS="$seeds"
+PAIRS=$pairs SIZE=$size sh examples/recipe.sh\` with the data named below.
 END
 for set in "$@"; do
     printf '\n## %s\n\n| change | SMAPE grid | SMAPE uniform | PSNR | analytic |\n|---|---|---|---|---|\n' "${set%%=*}"
