@@ -128,7 +128,8 @@ void bench_gpu_close(bench_gpu *gpu);
  * size is a multiple of 4; malloc'ed, NULL when memory is short. It defines what an exported scene
  * does. */
 char *bench_peer_shader(const hnbrdf_model_desc *desc, int materials);
-/* The model whose values that shader gives: weights with three decimals. NULL when memory is short. */
+/* The model whose values that shader gives: every number with three decimals, isotropic, no floor. NULL
+ * when memory is short. */
 hnbrdf_model *bench_peer_model(const hnbrdf_model_desc *desc);
 
 /* ---- bench_quality.c ----------------------------------------------------------------------------- */

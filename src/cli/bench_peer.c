@@ -69,6 +69,21 @@ static float rounded(float value)
     return (float)(round(1000.0 * (double)value) / 1000.0);
 }
 
+/* A material with three decimals, legal as it was. */
+static hnbrdf_material rounded_material(const hnbrdf_material *m)
+{
+    hnbrdf_material made;
+    hnbrdf_material_init(&made);
+    for (int c = 0; c < 3; c++) {
+        made.kd[c] = rounded(m->kd[c]);
+        made.eta[c] = fmaxf(rounded(m->eta[c]), 1.001f);
+    }
+    made.alpha[0] = made.alpha[1] = fmaxf(rounded(m->alpha[0]), 0.001f); /* isotropic */
+    for (int i = 0; i < HNBRDF_MAX_LATENT; i++)
+        made.latent[i] = rounded(m->latent[i]);
+    return made;
+}
+
 static void put_thousandths(text_buffer *text, float value)
 {
     long thousandths = lround(1000.0 * (double)value);
@@ -173,15 +188,15 @@ static void put_materials(text_buffer *text, const hnbrdf_model_desc *desc, int 
         text_buffer_print(text, " vec4 latent%d;", v);
     text_buffer_print(text, " };\n\nhnbrdf_material hnbrdf_scene_material(int index)\n{\n");
     for (int k = 0; k < materials; k++) {
-        const hnbrdf_material *m = &desc->materials[k];
+        const hnbrdf_material m = rounded_material(&desc->materials[k]);
         if (k + 1 < materials)
             text_buffer_print(text, "    if (index == %d)\n    ", k);
         text_buffer_print(text, "    return hnbrdf_material(");
-        put_numbers(text, "vec3", m->kd, 3, 3);
-        put_numbers(text, ", vec3", m->eta, 3, 3);
-        put_numbers(text, ", float", m->alpha, 1, 1);
+        put_numbers(text, "vec3", m.kd, 3, 3);
+        put_numbers(text, ", vec3", m.eta, 3, 3);
+        put_numbers(text, ", float", m.alpha, 1, 1);
         for (int v = 0; v < vectors; v++)
-            put_numbers(text, ", vec4", m->latent + 4 * v, 4, desc->latent - 4 * v);
+            put_numbers(text, ", vec4", m.latent + 4 * v, 4, desc->latent - 4 * v);
         text_buffer_print(text, ");\n");
     }
     text_buffer_print(text, "}\n\n");
@@ -216,21 +231,27 @@ hnbrdf_model *bench_peer_model(const hnbrdf_model_desc *desc)
 {
     hnbrdf_model_desc made = *desc;
     hnbrdf_model *model = NULL;
+    hnbrdf_material *materials = malloc((size_t)desc->material_count * sizeof *materials);
+    int complete = materials != NULL;
     made.encoding = HNBRDF_ENCODING_DIRECTIONS;
     made.floor = 0.0f;
+    made.scale = rounded(desc->scale);
+    made.shift = rounded(desc->shift);
+    made.materials = materials;
+    for (int k = 0; materials && k < desc->material_count; k++)
+        materials[k] = rounded_material(&desc->materials[k]);
     for (int k = 0; k <= desc->layers; k++) {
         size_t rows = (size_t)outputs_of(desc, k);
         made.weights[k] = round_all(desc->weights[k], rows * (size_t)inputs_of(desc, k));
         made.biases[k] = round_all(desc->biases[k], rows);
-    }
-    int complete = 1;
-    for (int k = 0; k <= desc->layers; k++)
         complete = complete && made.weights[k] && made.biases[k];
+    }
     if (complete && hnbrdf_model_create(&made, NULL, &model, NULL) != HNBRDF_OK)
         model = NULL;
     for (int k = 0; k <= desc->layers; k++) {
         free((void *)made.weights[k]);
         free((void *)made.biases[k]);
     }
+    free(materials);
     return model;
 }

@@ -130,3 +130,12 @@ hnbrdf_result gpu_timed_run(const gpu_device *device, const gpu_timed_buffers *b
     return gpu_dispatch(device, &timed->program, timed->pipeline, &push, buffers->count, repeats, ns,
                         error);
 }
+
+hnbrdf_result gpu_timed_download(const gpu_device *device, gpu_timed_buffers *buffers, uint32_t count,
+                                 float (*pairs)[6], float (*values)[3], hnbrdf_error *error)
+{
+    hnbrdf_result result =
+        gpu_download(device, &buffers->directions, pairs, count * sizeof *pairs, error);
+    return result ? result
+                  : gpu_download(device, &buffers->values, values, count * sizeof *values, error);
+}

@@ -41,4 +41,9 @@ void gpu_timed_close(const gpu_device *device, gpu_timed *timed);
 hnbrdf_result gpu_timed_run(const gpu_device *device, const gpu_timed_buffers *buffers,
                             const gpu_timed *timed, int repeats, double *ns, hnbrdf_error *error);
 
+/* The first `count` pairs of directions (wi, wo) and what the last run made of them; tests look at
+ * that. */
+hnbrdf_result gpu_timed_download(const gpu_device *device, gpu_timed_buffers *buffers, uint32_t count,
+                                 float (*pairs)[6], float (*values)[3], hnbrdf_error *error);
+
 #endif
