@@ -37,8 +37,9 @@ static void run_scene(const char *scene)
     gpu_timed_buffers buffers;
     gpu_timed timed;
     double ns = -1.0;
+    const gpu_scene exported = {.text = scene};
     if (gpu_timed_buffers_open(&device, PAIRS, &buffers, &error) ||
-        gpu_timed_open(&device, &buffers, scene, GPU_WORK_VALUE, &timed, &error) ||
+        gpu_timed_open(&device, &buffers, &exported, GPU_WORK_VALUE, &timed, &error) ||
         gpu_timed_run(&device, &buffers, &timed, 2, &ns, &error) ||
         gpu_timed_download(&device, &buffers, PAIRS, pairs, values, &error))
         fail_msg("%s", error.text);
@@ -111,11 +112,12 @@ static void network_and_copy_are_timed_too(void **state)
     gpu_timed_buffers buffers;
     hnbrdf_model *model = make_model(HNBRDF_ENCODING_ANGLES, 8, 2, 4);
     char *scene = scene_text(model, 1);
+    const gpu_scene exported = {.text = scene};
     assert_int_equal(gpu_timed_buffers_open(&device, PAIRS, &buffers, &error), HNBRDF_OK);
     for (int work = GPU_WORK_NETWORK; work <= GPU_WORK_COPY; work++) {
         gpu_timed timed;
         double ns;
-        if (gpu_timed_open(&device, &buffers, scene, (gpu_work)work, &timed, &error) ||
+        if (gpu_timed_open(&device, &buffers, &exported, (gpu_work)work, &timed, &error) ||
             gpu_timed_run(&device, &buffers, &timed, 1, &ns, &error) ||
             gpu_timed_download(&device, &buffers, PAIRS, pairs, values, &error))
             fail_msg("%s", error.text);

@@ -59,7 +59,7 @@ static double run_item(void *context, long repeats)
 /* ---- Scenes -------------------------------------------------------------------------------------- */
 
 /* NULL after a message. */
-static gpu_item *open_item(gpu_bench_device *on, const char *scene, gpu_work work)
+static gpu_item *open_item(gpu_bench_device *on, const gpu_scene *scene, gpu_work work)
 {
     hnbrdf_error error;
     gpu_item *item = calloc(1, sizeof *item);
@@ -67,8 +67,7 @@ static gpu_item *open_item(gpu_bench_device *on, const char *scene, gpu_work wor
         cli_fail("out of memory");
         return NULL;
     }
-    const gpu_scene exported = {.text = scene};
-    if (gpu_timed_open(&on->device, &on->buffers, &exported, work, &item->timed, &error)) {
+    if (gpu_timed_open(&on->device, &on->buffers, scene, work, &item->timed, &error)) {
         free(item);
         cli_fail("%s: %s", on->name, error.text);
         return NULL;
@@ -83,7 +82,7 @@ static bench_probe probe_of(gpu_item *item)
     return bench_probe_make(run_item, item, (long)item->on->buffers.count);
 }
 
-static int add_scene(bench *b, gpu_bench_device *on, const bench_model *model, const char *scene,
+static int add_scene(bench *b, gpu_bench_device *on, const bench_model *model, const gpu_scene *scene,
                      const char *weights, const char *precision)
 {
     bench_row *row = bench_add_row(b, model, on->name, "shader", weights, precision);
@@ -101,34 +100,69 @@ static int add_scene(bench *b, gpu_bench_device *on, const bench_model *model, c
         row->network = probe_of(network);
     row->compile_ms = whole->timed.compile_ms;
     row->first_ms = whole->timed.first_ms;
-    row->bytes = whole->timed.spirv_bytes;
+    row->bytes = whole->timed.spirv_bytes + scene->weights_size;
     return CLI_OK;
 }
 
-/* malloc'ed; NULL after a message. */
-static char *export_scene(const bench_model *model)
+typedef struct exported_scene {
+    text_buffer text, weights;
+} exported_scene;
+
+static void free_scene(exported_scene *scene)
+{
+    free(scene->text.bytes);
+    free(scene->weights.bytes);
+}
+
+static int export_scene(const bench_model *model, hnbrdf_glsl_weights weights,
+                        hnbrdf_glsl_precision precision, exported_scene *scene)
 {
     static const int first[SCENE_MATERIALS] = {0, 1};
     int count = model->desc.material_count;
     const hnbrdf_glsl_options options = {.materials = first,
                                          .material_count =
                                              count < SCENE_MATERIALS ? count : SCENE_MATERIALS,
-                                         .standalone = 1};
-    text_buffer text = {0};
+                                         .standalone = 1,
+                                         .weights = weights,
+                                         .precision = precision};
     hnbrdf_error error;
-    if (hnbrdf_export_glsl(model->model, &options, text_buffer_append, &text, &error))
-        cli_fail("%s: %s", model->name, error.text);
-    else
-        return text_buffer_take(&text);
-    free(text.bytes);
-    return NULL;
+    hnbrdf_result result =
+        hnbrdf_export_glsl(model->model, &options, text_buffer_append, &scene->text, &error);
+    if (!result && weights == HNBRDF_GLSL_UNIFORM)
+        result =
+            hnbrdf_export_weights(model->model, &options, text_buffer_append, &scene->weights, &error);
+    return result ? cli_fail("%s: %s", model->name, error.text) : CLI_OK;
 }
 
+static int add_style(bench *b, gpu_bench_device *on, const bench_model *model,
+                     hnbrdf_glsl_weights weights, hnbrdf_glsl_precision precision)
+{
+    exported_scene scene = {{0}, {0}};
+    int code = export_scene(model, weights, precision, &scene);
+    const gpu_scene exported = {scene.text.bytes, scene.weights.bytes, scene.weights.size};
+    if (code == CLI_OK)
+        code = add_scene(b, on, model, &exported, hnbrdf_glsl_weights_name(weights),
+                         hnbrdf_glsl_precision_name(precision));
+    if (code == CLI_OK && precision == HNBRDF_GLSL_HALF) {
+        bench_row *row = &b->rows[b->row_count - 1];
+        row->smape = row->psnr = (double)NAN; /* those of the model are of single precision */
+    }
+    free_scene(&scene);
+    return code;
+}
+
+/* Every storage of the weights, the fastest one in half precision too; GGX has none to store. */
 static int add_model(bench *b, gpu_bench_device *on, const bench_model *model)
 {
-    char *scene = export_scene(model);
-    int code = scene ? add_scene(b, on, model, scene, "constants", "float") : CLI_FAILURE;
-    free(scene);
+    int code = add_style(b, on, model, HNBRDF_GLSL_CONSTANTS, HNBRDF_GLSL_FLOAT);
+    if (model->desc.kind == HNBRDF_KIND_GGX)
+        return code;
+    if (code == CLI_OK && on->device.has_half)
+        code = add_style(b, on, model, HNBRDF_GLSL_CONSTANTS, HNBRDF_GLSL_HALF);
+    if (code == CLI_OK)
+        code = add_style(b, on, model, HNBRDF_GLSL_COLUMNS, HNBRDF_GLSL_FLOAT);
+    if (code == CLI_OK)
+        code = add_style(b, on, model, HNBRDF_GLSL_UNIFORM, HNBRDF_GLSL_FLOAT);
     return code;
 }
 
@@ -139,10 +173,11 @@ static int add_peer(bench *b, gpu_bench_device *on, const bench_model *model)
     int count = model->desc.material_count;
     if (model->desc.kind != HNBRDF_KIND_HYBRID || model->desc.hidden % 4 != 0)
         return CLI_OK;
-    char *scene = bench_peer_shader(&model->desc, count < SCENE_MATERIALS ? count : SCENE_MATERIALS);
+    char *text = bench_peer_shader(&model->desc, count < SCENE_MATERIALS ? count : SCENE_MATERIALS);
+    const gpu_scene scene = {.text = text};
     int code =
-        scene ? add_scene(b, on, model, scene, "published-style", "float") : cli_fail("out of memory");
-    free(scene);
+        text ? add_scene(b, on, model, &scene, "published-style", "float") : cli_fail("out of memory");
+    free(text);
     if (code != CLI_OK)
         return code;
     bench_row *row = &b->rows[b->row_count - 1];
@@ -179,9 +214,11 @@ static int open_device(bench *b, struct bench_gpu *gpu, int index, const bench_g
     on->is_cpu = on->device.properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
     printf("%s: %s, %s, %s\n", on->name, on->device.properties.deviceName,
            gpu_kind_name(&gpu->instance, index), gpu->instance.drivers[index]);
-    char *scene = export_scene(&b->models[0]);
-    gpu_item *copy = scene ? open_item(on, scene, GPU_WORK_COPY) : NULL;
-    free(scene);
+    exported_scene scene = {{0}, {0}};
+    gpu_item *copy = NULL;
+    if (export_scene(&b->models[0], HNBRDF_GLSL_CONSTANTS, HNBRDF_GLSL_FLOAT, &scene) == CLI_OK)
+        copy = open_item(on, &(gpu_scene){.text = scene.text.bytes}, GPU_WORK_COPY);
+    free_scene(&scene);
     if (!copy)
         return CLI_FAILURE;
     b->io[b->io_count++] = probe_of(copy);
@@ -194,11 +231,15 @@ static int add_device(bench *b, struct bench_gpu *gpu, int index, const bench_gp
         return CLI_OK;
     int code = open_device(b, gpu, index, options);
     gpu_bench_device *on = &gpu->devices[gpu->count - 1];
+    cli_progress line;
+    cli_progress_begin(&line, "compiling shaders");
     for (int k = 0; k < b->model_count && code == CLI_OK; k++) {
+        cli_progress_update(&line, (double)k / b->model_count, b->models[k].name);
         code = add_model(b, on, &b->models[k]);
         if (code == CLI_OK && options->peer)
             code = add_peer(b, on, &b->models[k]);
     }
+    cli_progress_end(&line);
     return code;
 }
 
