@@ -90,7 +90,7 @@ if grep -q ',vulkan:' b.csv; then
     # Three decimals of the weights change the error little, and only of `directions` is it known.
     rows "the peer's error" \
         'get("weights") == "published-style" && get("model") == "ours" && get("smape") != "" { print }
-         get("model") == "paper" { d = get("smape") - first; if (!first) first = get("smape")
+         get("model") == "paper" && get("precision") == "float" { d = get("smape") - first; if (!first) first = get("smape")
                                    else if (d > 0.02 || d < -0.02) print }'
 else
     echo "no Vulkan rows here"
