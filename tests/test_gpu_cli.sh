@@ -28,6 +28,21 @@ status 2 "$hnbrdf" export "$model"
 status 2 "$hnbrdf" export
 [ -e "$work/y.glsl" ] && fail "a failed export leaves a file"
 
+# Styles: what the library gives, the bytes of the block beside it, told at the top.
+uneven=$work/half_uniform.safetensors
+status 0 "$hnbrdf" export "$uneven" --weights uniform --precision half --weights-out "$work/w.bin" -o "$work/x.glsl"
+cmp "$work/x.glsl" "$work/half_uniform.glsl" || fail "--weights uniform --precision half differs"
+vectors=$(sed -n 's/.*hnbrdf_weights\[\([0-9]*\)\]; };$/\1/p' "$work/x.glsl")
+[ "$(wc -c <"$work/w.bin")" = $((16 * vectors)) ] || fail "the block has another size than the shader's"
+grep -q '^//   weights .* in a uniform block$' "$work/x.glsl" || fail "the style is not told at the top"
+grep -q '^//   precision  half' "$work/x.glsl" || fail "the precision is not told at the top"
+status 0 "$hnbrdf" export "$uneven" --weights columns -o - 
+grep -q 'as constants in columns' "$work/out" || fail "--weights columns"
+status 2 "$hnbrdf" export "$uneven" --weights-out "$work/y.bin" -o "$work/y.glsl"
+status 2 "$hnbrdf" export "$uneven" --weights none -o "$work/y.glsl"
+status 1 "$hnbrdf" export "$work/ggx.safetensors" --weights uniform --weights-out "$work/y.bin" -o "$work/y.glsl"
+[ -e "$work/y.bin" ] || [ -e "$work/y.glsl" ] && fail "a failed export leaves a file"
+
 # Verify.
 status 2 "$hnbrdf" verify
 status 2 "$hnbrdf" verify "$model" --pairs 1
@@ -43,6 +58,8 @@ grep -q '"passed": true' "$work/v.json" || fail "json"
 # 1 device, 3 materials, 2 builds, 4 stages
 [ "$(wc -l <"$work/v.csv")" = 25 ] || fail "csv rows"
 [ "$(head -1 "$work/v.csv" | tr ',' '\n' | wc -l)" = "$(tail -1 "$work/v.csv" | sed 's/"[^"]*"/quoted/g' | tr ',' '\n' | wc -l)" ] || fail "csv columns"
+status 0 "$hnbrdf" verify "$uneven" --device 0 --pairs 256 --weights uniform --precision half --without-timing --json "$work/v.json"
+grep -q '"weights": "uniform", "precision": "half"' "$work/v.json" || fail "json does not name the style"
 status 1 "$hnbrdf" verify "$model" --device 99
 status 2 "$hnbrdf" verify "$model" --device first
 echo ok

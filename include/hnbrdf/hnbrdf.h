@@ -410,12 +410,13 @@ HNBRDF_API void hnbrdf_material_unpack_channels(const hnbrdf_packing *packing, c
 /* How a shader holds the network. The sums go in the same order in each: the same bits, where the device
  * rounds + and * correctly and HNBRDF_EXACT is 1. */
 typedef enum hnbrdf_glsl_weights {
-    HNBRDF_GLSL_CONSTANTS = 0, /* literals, every unit an expression of its own: the fastest, one shader a
-                                  network; compiling takes seconds at 64x3, more than a minute at 64x4 */
-    HNBRDF_GLSL_COLUMNS,       /* literals, four units at a time as vec4 columns: half the text */
-    HNBRDF_GLSL_UNIFORM        /* a uniform buffer read in loops: compiles at once whatever the size, several
-                                  times slower to run; one shader for every network of the same kind,
-                                  encoding, hidden, layers and latent, see hnbrdf_export_weights() */
+    HNBRDF_GLSL_CONSTANTS = 0, /* literals, every unit an expression of its own: one shader a network;
+                                  compilers take the longer the larger it is, 64x3 many seconds */
+    HNBRDF_GLSL_COLUMNS,       /* the same literals, four units at a time as vec4 columns: as fast, less
+                                  SPIR-V */
+    HNBRDF_GLSL_UNIFORM        /* a uniform buffer read in loops: compiles soon whatever the size, ten times
+                                  slower to run on a CPU driver; one shader for every network of the same
+                                  kind, encoding, hidden, layers and latent, see hnbrdf_export_weights() */
 } hnbrdf_glsl_weights;
 
 /* What the hidden layers compute in. Encoding, last layer, exp, sigmoid and the analytic part are in single
