@@ -65,12 +65,16 @@ static void print_summary(FILE *file, const hnbrdf_model *model, const hnbrdf_gl
     int materials = options->material_count;
     hnbrdf_model_desc desc;
     hnbrdf_model_describe(model, &desc);
+    /* As the heading of the text counts them: without those of latent codes folded into the bias. */
+    int folded = options->fixed && options->weights != HNBRDF_GLSL_UNIFORM &&
+                 options->precision == HNBRDF_GLSL_FLOAT;
+    size_t saved = folded ? (size_t)desc.hidden * (size_t)desc.latent : 0;
     fprintf(file, "%s: %s", path, hnbrdf_kind_name(desc.kind));
     if (desc.kind != HNBRDF_KIND_GGX)
-        fprintf(file, " %dx%d, %s, %zu weights (%s, %s), %zu multiplications per evaluation",
-                desc.hidden, desc.layers, hnbrdf_encoding_name(desc.encoding),
-                hnbrdf_model_weight_count(model), hnbrdf_glsl_weights_name(options->weights),
-                hnbrdf_glsl_precision_name(options->precision), hnbrdf_model_multiplications(model));
+        fprintf(file, " %dx%d, %s, %zu weights (%s, %s), %zu multiplications per evaluation", desc.hidden,
+                desc.layers, hnbrdf_encoding_name(desc.encoding), hnbrdf_model_weight_count(model) - saved,
+                hnbrdf_glsl_weights_name(options->weights), hnbrdf_glsl_precision_name(options->precision),
+                hnbrdf_model_multiplications(model) - saved);
     fprintf(file, ", %d material%s, %zu bytes\n", materials, materials == 1 ? "" : "s", bytes);
 }
 
