@@ -16,3 +16,4 @@ target_link_options(fast_math_fast PRIVATE -ffast-math)
 add_test(NAME test_fast_math COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/test_fast_math.sh
   $<TARGET_FILE:fast_math_plain> $<TARGET_FILE:fast_math_fast>
   ${PROJECT_SOURCE_DIR}/examples/models/rgl_32x2.safetensors)
+hnbrdf_test(test_physics test_physics.c core_support.c)
