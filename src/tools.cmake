@@ -48,7 +48,7 @@ target_link_libraries(hnbrdf_stability PRIVATE hnbrdf_flags PUBLIC hnbrdf_measur
 add_executable(hnbrdf_cli ${HNBRDF_TOOL_SOURCES})
 set_target_properties(hnbrdf_cli PROPERTIES OUTPUT_NAME hnbrdf RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR})
 target_sources(hnbrdf_cli PRIVATE src/cli/cmd_stability.c src/cli/stability_report.c
-  src/cli/stability_gpu.c src/cli/stability_plot.c)
+  src/cli/stability_gpu.c src/cli/stability_plot.c src/cli/info_physics.c)
 target_link_libraries(hnbrdf_cli PRIVATE hnbrdf_flags hnbrdf_render hnbrdf_fit_static
   hnbrdf_metrics_static hnbrdf_stability)
 target_compile_definitions(hnbrdf_cli PRIVATE _POSIX_C_SOURCE=200809L)

@@ -1,5 +1,6 @@
 /* cmd_info.c: `hnbrdf info`: what a model, a measured file or a collection of them holds. */
 #include "cli/cli.h"
+#include "cli/info_physics.h"
 #include "model/text.h"
 
 #include <string.h>
@@ -12,11 +13,12 @@ static const cli_command command = {
     "builtin:NAME, builtin, or a directory of measured files. The checksum of a single MERL file is compared\n"
     "with those of the 100 published ones.\n"
     "\n"
-    "Weights are the numbers shared by all materials, mults the multiplications of the network for "
-    "one\n"
-    "evaluation. JSON keys of a model: kind, net, encoding, latent, materials, weights, mults, scale,\n"
-    "shift, floor, parameters; of a measured file: kind, format, name, isotropic, summary,\n"
-    "of a single MERL file also published: the material's name, or null.",
+    "Weights are the numbers shared by all materials, mults the multiplications of the network for one\n"
+    "evaluation. Of each material of a model also: its directional albedo (above 1 it gives off more light\n"
+    "than it gets), how far it is from reciprocal, how many of its values are 0.\n"
+    "JSON keys of a model: kind, net, encoding, latent, materials, weights, mults, scale, shift, floor,\n"
+    "parameters; of a measured file: kind, format, name, isotropic, summary, of a single MERL file also\n"
+    "published: the material's name, or null.",
     "hnbrdf info builtin\n"
     "hnbrdf info model.safetensors\n"
     "hnbrdf info alum-bronze.binary\n"
@@ -67,6 +69,7 @@ static void print_model(const char *path, const hnbrdf_model *model)
            "alpha (x y)", "rotation");
     for (int k = 0; k < desc.material_count; k++)
         print_material(&desc.materials[k], desc.names[k], width);
+    info_print_physics(model, width);
 }
 
 static void json_number(float value)
@@ -96,7 +99,7 @@ static void json_names(const char *const *names, int count)
     fputs("],\n", stdout);
 }
 
-static void json_material(const hnbrdf_material *m, const char *name, int latent)
+static void json_material(const hnbrdf_model *model, const hnbrdf_material *m, const char *name, int latent)
 {
     fputs("    {\"name\": ", stdout);
     cli_write_json_text(stdout, name);
@@ -106,6 +109,7 @@ static void json_material(const hnbrdf_material *m, const char *name, int latent
     fputs(", \"rotation\": ", stdout);
     json_number(m->rotation);
     json_numbers("latent", m->latent, latent);
+    info_json_physics(model, m);
     putchar('}');
 }
 
@@ -128,7 +132,7 @@ static void json_model(const hnbrdf_model *model)
     json_number(desc.floor);
     fputs(",\n  \"parameters\": [\n", stdout);
     for (int k = 0; k < desc.material_count; k++) {
-        json_material(&desc.materials[k], desc.names[k], desc.latent);
+        json_material(model, &desc.materials[k], desc.names[k], desc.latent);
         fputs(k + 1 < desc.material_count ? ",\n" : "\n", stdout);
     }
     fputs("  ]\n}\n", stdout);

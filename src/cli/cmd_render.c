@@ -14,6 +14,8 @@ static const cli_command command = {
     "hnbrdf render builtin:clear-coat-red -o red.exr\n"
     "hnbrdf render model.safetensors --material gold-two-lobe --spp 256 -o gold.exr\n"
     "hnbrdf render model.safetensors --material gold-two-lobe --analytic -o gold_ggx.png\n"
+    "hnbrdf render model.safetensors --material gold-two-lobe --env furnace --exposure -1 \\\n"
+    "    --background env -o furnace.exr    # brighter than the ground: gives off more than it gets\n"
     "hnbrdf render chrome.binary --env studio.hdr --rotate 90 --background env -o chrome.exr",
 };
 

@@ -19,7 +19,7 @@ typedef struct picture_options {
 
 /* Rows of a cli_option table for a picture_options named p. */
 #define PICTURE_OPTIONS(p, samples)                                                                      \
-    {"env", 0, CLI_TEXT, &(p).env, 0, 0, "sky|FILE", "light: sky, or a lat-long map .exr or .hdr"},      \
+    {"env", 0, CLI_TEXT, &(p).env, 0, 0, "sky|furnace|FILE", "light: sky, furnace (1 from everywhere), or a lat-long map .exr or .hdr"},      \
         {"rotate", 0, CLI_REAL, &(p).rotate, -360, 360, "DEG",                                           \
          "turn the light about the vertical, counter-clockwise from above"},                             \
         {"exposure", 0, CLI_REAL, &(p).exposure, -64, 64, "EV",                                          \

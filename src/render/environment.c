@@ -76,12 +76,22 @@ hnbrdf_result render_environment_create(render_image *image, double rotation, co
     return HNBRDF_OK;
 }
 
+/* Radiance 1 from everywhere: what a surface shows is its directional albedo. */
+static hnbrdf_result make_furnace(render_image *image, hnbrdf_error *error)
+{
+    hnbrdf_result result = render_image_create(64, 32, 0, image, error);
+    for (size_t k = 0; result == HNBRDF_OK && k < (size_t)64 * 32 * 3; k++)
+        image->rgb[k] = 1.0f;
+    return result;
+}
+
 hnbrdf_result render_environment_open(const char *source, double rotation,
                                       render_environment *environment, hnbrdf_error *error)
 {
     render_image image = {0};
-    hnbrdf_result result = strcmp(source, "sky") == 0 ? render_sky(&image, error)
-                                                      : render_image_read(source, &image, error);
+    hnbrdf_result result = strcmp(source, "sky") == 0       ? render_sky(&image, error)
+                           : strcmp(source, "furnace") == 0 ? make_furnace(&image, error)
+                                                            : render_image_read(source, &image, error);
     if (result == HNBRDF_OK)
         result = render_environment_create(&image, rotation, source, environment, error);
     render_image_free(&image);

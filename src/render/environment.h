@@ -27,7 +27,7 @@ typedef struct render_environment {
  * or a map that is black throughout is refused. `name` is used in messages. */
 hnbrdf_result render_environment_create(render_image *image, double rotation, const char *name,
                                         render_environment *environment, hnbrdf_error *error);
-/* "sky", the built-in one, or a latitude-longitude map in an OpenEXR or Radiance file. */
+/* "sky", the built-in one, "furnace", radiance 1 from everywhere, or a latitude-longitude map in an OpenEXR or Radiance file. */
 hnbrdf_result render_environment_open(const char *source, double rotation,
                                       render_environment *environment, hnbrdf_error *error);
 void render_environment_free(render_environment *environment);
