@@ -115,7 +115,8 @@ static int write_picture(render_job *job)
     if (strcmp(job->background, "backdrop") == 0)
         render_over_backdrop(&job->image, 0.16 * gain);
     else if (strcmp(job->background, "env") == 0)
-        render_over_environment(&job->image, &job->environment, 0.35);
+        render_over_environment(&job->image, &job->environment,
+                                strcmp(job->picture.env, "furnace") == 0 ? 1.0 : 0.35);
     snprintf(comments, sizeof comments, "hnbrdf %s render: %s%s, %ld samples a pixel, seed %ld",
              hnbrdf_version(), name, job->analytic ? " (analytic part)" : "", job->picture.spp,
              job->picture.seed);
