@@ -458,6 +458,10 @@ typedef struct hnbrdf_glsl_options {
                                bits for less. hnbrdf_material then has no kd and eta to edit;
                                hnbrdf_eval_NAME(wi, wo) takes none at all, NAME as in HNBRDF_MATERIAL_NAME.
                                Not together with packing. */
+    const float *energy;    /* if set: a factor on all values of each exported material, in (0, 1], one over
+                               its albedo where that is above 1 (hnbrdf_physics_of() in metrics.h): the
+                               shader then gives off no more light than it gets. C does not do that. Not
+                               together with packing. */
 } hnbrdf_glsl_options;
 
 /* Write one GLSL include with the network, the chosen materials, and the functions

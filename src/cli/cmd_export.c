@@ -1,13 +1,15 @@
 /* cmd_export.c: `hnbrdf export`: a model's materials as one GLSL include. */
 #include "cli/cli.h"
 #include "cli/texels.h"
+#include "hnbrdf/metrics.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 static const cli_command command = {
     "export",
     "MODEL [--materials A,B] [--only eval|eval+sample] [--fixed] [--weights STYLE] [--precision P]\n"
-    "              [--pack P] [--standalone] -o FILE.glsl",
+    "              [--conserve] [--pack P] [--standalone] -o FILE.glsl",
     "Writes one GLSL include: the network, the chosen materials, and\n"
     "  vec3 hnbrdf_eval(hnbrdf_material m, vec3 wi, vec3 wo)      1/sr, without the cosine\n"
     "  hnbrdf_sample_result hnbrdf_sample(hnbrdf_material m, vec3 wo, vec3 u)\n"
@@ -140,11 +142,29 @@ typedef struct settings {
     const char *materials, *path, *texels, *weights_path;
     int standalone, fixed, only; /* only: hnbrdf_glsl_only less one, -1 for everything */
     int pack;                    /* hnbrdf_texel_format, -1 for none */
-    int weights, precision;
+    int weights, precision, conserve;
 } settings;
 
+/* A factor for each material that keeps its albedo at most 1, a little less as that is known to 0.5 %; says which.
+ * malloc'ed, NULL after a message. */
+static float *conserving_factors(const hnbrdf_model *model, const int *materials, int count, FILE *told)
+{
+    float *factors = malloc((size_t)count * sizeof *factors);
+    if (!factors)
+        return cli_fail("out of memory"), NULL;
+    for (int k = 0; k < count; k++) {
+        hnbrdf_physics p;
+        hnbrdf_physics_of(model, hnbrdf_model_material(model, materials[k]), &p);
+        factors[k] = p.albedo > 1.0 ? (float)(0.995 / p.albedo) : 1.0f;
+        if (p.albedo > 1.0)
+            fprintf(told, "%s: albedo %.3f, values times %.4f\n", hnbrdf_model_material_name(model, materials[k]),
+                    p.albedo, (double)factors[k]);
+    }
+    return factors;
+}
+
 static int export_materials(const hnbrdf_model *model, const settings *set, const int *materials,
-                            int count)
+                            int count, const float *energy)
 {
     cli_texels texels = {.model = model, .materials = materials, .count = count};
     hnbrdf_error error;
@@ -156,6 +176,7 @@ static int export_materials(const hnbrdf_model *model, const settings *set, cons
                                          .standalone = set->standalone,
                                          .only = (hnbrdf_glsl_only)(set->only + 1),
                                          .fixed = set->fixed,
+                                         .energy = energy,
                                          .packing = set->pack >= 0 ? &texels.packing : NULL,
                                          .weights = (hnbrdf_glsl_weights)set->weights,
                                          .precision = (hnbrdf_glsl_precision)set->precision};
@@ -185,6 +206,8 @@ int cmd_export(int argc, char **argv)
          "with --weights uniform: where to write the bytes of the buffer"},
         {"precision", 0, CLI_CHOICE, &set.precision, 0, 0, "float|half",
          "of the hidden layers (default float)"},
+        {"conserve", 0, CLI_FLAG, &set.conserve, 0, 0, NULL,
+         "scale materials whose albedo (hnbrdf info) is above 1"},
         {"pack", 0, CLI_CHOICE, &set.pack, 0, 0, "half|byte", "with a function that unpacks texels"},
         {"texels", 0, CLI_TEXT, &set.texels, 0, 0, "FILE",
          "with --pack: where to write the materials as texels"},
@@ -200,6 +223,8 @@ int cmd_export(int argc, char **argv)
         return cli_usage(&command, "no -o FILE.glsl");
     if (set.weights_path && set.weights != HNBRDF_GLSL_UNIFORM)
         return cli_usage(&command, "--weights-out without --weights uniform");
+    if (set.conserve && set.pack >= 0)
+        return cli_usage(&command, "--conserve and --pack: materials from textures have no factor");
     if (set.fixed && set.pack >= 0)
         return cli_usage(&command, "--fixed and --pack: materials from textures are not fixed");
     if (set.texels && set.pack < 0)
@@ -210,8 +235,14 @@ int cmd_export(int argc, char **argv)
         return cli_fail("%s", error.text);
     int *materials = NULL, chosen = 0;
     result = cli_choose_materials(model, set.materials, &materials, &chosen);
+    float *energy = NULL;
+    if (result == CLI_OK && set.conserve) {
+        energy = conserving_factors(model, materials, chosen, strcmp(set.path, "-") == 0 ? stderr : stdout);
+        result = energy ? CLI_OK : CLI_FAILURE;
+    }
     if (result == CLI_OK)
-        result = export_materials(model, &set, materials, chosen);
+        result = export_materials(model, &set, materials, chosen, energy);
+    free(energy);
     free(materials);
     hnbrdf_model_free(model);
     return result;

@@ -36,6 +36,12 @@ static void put_exponent(hnbrdf_printer *out, const hnbrdf_scene *s)
     hnbrdf_put(out, ";\n");
 }
 
+/* On every value, where the scene asks for it. */
+static const char *factor(const hnbrdf_scene *s)
+{
+    return s->energy ? "m.energy * " : "";
+}
+
 static void put_analytic(hnbrdf_printer *out, const hnbrdf_scene *s)
 {
     hnbrdf_put(out, "// f_a before it is clamped to what f may be.\n");
@@ -53,7 +59,7 @@ static void put_eval_analytic(hnbrdf_printer *out, const hnbrdf_scene *s)
                analytic ? "" : "; this kind of model has none");
     hnbrdf_put(out, "vec3 hnbrdf_eval_analytic(hnbrdf_material m, vec3 wi, vec3 wo)\n{\n");
     if (analytic)
-        hnbrdf_put(out, "%s    return hnbrdf_finish(hnbrdf_analytic(m, p));\n}\n\n", HORIZON);
+        hnbrdf_put(out, "%s    return %shnbrdf_finish(hnbrdf_analytic(m, p));\n}\n\n", HORIZON, factor(s));
     else
         hnbrdf_put(out, "    return vec3(0.0);\n}\n\n");
 }
@@ -63,7 +69,7 @@ static void put_eval(hnbrdf_printer *out, const hnbrdf_scene *s)
     hnbrdf_put(out, "// f(wi, wo) in 1/sr without the cosine; 0 below the horizon.\n");
     hnbrdf_put(out, "vec3 hnbrdf_eval(hnbrdf_material m, vec3 wi, vec3 wo)\n{\n%s", HORIZON);
     if (!hnbrdf_scene_has_network(s)) {
-        hnbrdf_put(out, "    return hnbrdf_finish(hnbrdf_analytic(m, p));\n}\n");
+        hnbrdf_put(out, "    return %shnbrdf_finish(hnbrdf_analytic(m, p));\n}\n", factor(s));
         return;
     }
     int hybrid = s->desc->kind == HNBRDF_KIND_HYBRID;
@@ -71,8 +77,9 @@ static void put_eval(hnbrdf_printer *out, const hnbrdf_scene *s)
     hnbrdf_put(out, "    HNBRDF_SCENE_ENCODE(p, x0, x1);\n");
     hnbrdf_put(out, "    hnbrdf_network(m, x0, x1, c%s);\n", hybrid ? ", g" : "");
     put_exponent(out, s);
-    hnbrdf_put(out, hybrid ? "    return hnbrdf_compose_hybrid(exponent, g, hnbrdf_analytic(m, p), "
-                           : "    return hnbrdf_compose_neural(exponent, ");
+    hnbrdf_put(out, "    return %s%s", factor(s),
+               hybrid ? "hnbrdf_compose_hybrid(exponent, g, hnbrdf_analytic(m, p), "
+                      : "hnbrdf_compose_neural(exponent, ");
     hnbrdf_put_constant(out, s, 2);
     hnbrdf_put(out, ");\n}\n");
 }

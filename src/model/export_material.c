@@ -25,6 +25,8 @@ void hnbrdf_put_material_struct(hnbrdf_printer *out, const hnbrdf_scene *s)
     for (int v = 0; v < hnbrdf_scene_bias_vectors(s); v++)
         hnbrdf_put(out, "    vec4 bias%d;%s\n", v,
                    v == 0 ? "    // of the first layer, the latent code folded in" : "");
+    if (s->energy)
+        hnbrdf_put(out, "    float energy;  // factor on f: 1, or what brings an albedo above 1 down to it\n");
     hnbrdf_put(out, "};\n\n");
 }
 
@@ -78,6 +80,10 @@ void hnbrdf_put_material(hnbrdf_printer *out, const hnbrdf_scene *s, int k)
     for (int v = 0; v < hnbrdf_scene_bias_vectors(s); v++) {
         put_next(out, &fields);
         hnbrdf_put_vector(out, 4, prepared.first + 4 * v, s->desc->hidden - 4 * v);
+    }
+    if (s->energy) {
+        put_next(out, &fields);
+        hnbrdf_put_float(out, s->energy[k]);
     }
     hnbrdf_put(out, ")");
 }

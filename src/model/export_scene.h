@@ -15,6 +15,7 @@ typedef struct hnbrdf_scene {
     int folded; /* 1: their latent codes are in the first layer's bias; not for half or loaded weights */
     const hnbrdf_packing *packing; /* NULL: no materials from textures */
     const int *indices;            /* NULL: all materials in order */
+    const float *energy;           /* NULL, or a factor on the values of each */
     int count;
     int anisotropic, rotated;       /* 1 if any of these materials is, or the packing stores it */
     float first[HNBRDF_MAX_HIDDEN]; /* bias of the first layer; of a single material: folded */
