@@ -145,7 +145,8 @@ static int add_style(bench *b, gpu_bench_device *on, const bench_model *model,
                          hnbrdf_glsl_precision_name(precision));
     if (code == CLI_OK && precision == HNBRDF_GLSL_HALF) {
         bench_row *row = &b->rows[b->row_count - 1];
-        row->smape = row->psnr = (double)NAN; /* those of the model are of single precision */
+        row->smape = model->half_smape;
+        row->psnr = model->half_psnr;
     }
     free_scene(&scene);
     return code;

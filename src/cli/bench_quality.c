@@ -4,6 +4,9 @@
 #include "cli/picture.h"
 #include "fit/workers.h"
 #include "hnbrdf/metrics.h"
+#ifdef HNBRDF_WITH_VULKAN
+#include "gpu/half.h"
+#endif
 
 #include <math.h>
 #include <stdlib.h>
@@ -12,13 +15,14 @@
 typedef struct subject {
     const hnbrdf_model *model;
     hnbrdf_model *owned; /* peers are made for this */
+    int half;            /* 1: its network in half precision, as shaders have it */
     double *smape, *psnr;
 } subject;
 
 typedef struct quality {
     const bench *b;
     const cli_data *data;
-    subject subjects[2 * BENCH_MODELS];
+    subject subjects[3 * BENCH_MODELS];
     int count;
     double *smape, *psnr; /* [subjects][materials]; NaN where a model has no such material */
     render_environment environment;
@@ -26,10 +30,55 @@ typedef struct quality {
     cli_progress line;
 } quality;
 
-static void add_subject(quality *q, const hnbrdf_model *model, hnbrdf_model *owned, double *smape,
-                        double *psnr)
+/* ---- Half precision, as the exported shaders compute where + and * round correctly -----------------
+ */
+
+#ifdef HNBRDF_WITH_VULKAN
+static const int has_half = 1;
+
+static void eval_half(const render_surface *surface, size_t count, const float *wi, const float *wo,
+                      float *f)
 {
-    q->subjects[q->count++] = (subject){model, owned, smape, psnr};
+    for (size_t i = 0; i < count; i++)
+        gpu_half_eval(surface->model, &surface->material, wi + 3 * i, wo + 3 * i, f + 3 * i);
+}
+#else
+static const int has_half = 0;
+
+static void eval_half(const render_surface *surface, size_t count, const float *wi, const float *wo,
+                      float *f)
+{
+    hnbrdf_eval_batch(surface->model, &surface->material, count, wi, 0, wo, 0, f, 0);
+}
+#endif
+
+/* hnbrdf_compare() for a surface: the same pairs of the same seed. NaN without a valid pair. */
+static double smape_of_surface(const quality *q, const render_surface *surface,
+                               const hnbrdf_measured *measured)
+{
+    double sum = 0.0;
+    long valid = 0;
+    hnbrdf_rng rng;
+    hnbrdf_rng_seed(&rng, 1, 0x636f6d70617265u); /* the sequence of hnbrdf_compare() */
+    for (long draws = 0; valid < q->b->pairs && draws < 1000 * q->b->pairs; draws++) {
+        float wi[3], wo[3], f[3], reference[3];
+        hnbrdf_sampler_draw((hnbrdf_sampler)q->b->sampler, &rng, wi, wo);
+        if (!hnbrdf_measured_eval(measured, wi, wo, reference))
+            continue;
+        surface->eval(surface, 1, wi, wo, f);
+        for (int c = 0; c < 3; c++)
+            sum += hnbrdf_smape((double)f[c], (double)reference[c]) / 3.0;
+        valid++;
+    }
+    return valid ? sum / (double)valid : (double)NAN;
+}
+
+/* ---- Who is measured ------------------------------------------------------------------------------
+ */
+
+static void add_subject(quality *q, const subject *s)
+{
+    q->subjects[q->count++] = *s;
 }
 
 static void choose_subjects(quality *q, bench *b, int peers)
@@ -39,9 +88,11 @@ static void choose_subjects(quality *q, bench *b, int peers)
         int has_peer = m->desc.kind == HNBRDF_KIND_HYBRID && m->desc.hidden % 4 == 0 &&
                        m->desc.encoding == HNBRDF_ENCODING_DIRECTIONS;
         hnbrdf_model *peer = peers && has_peer ? bench_peer_model(&m->desc) : NULL;
-        add_subject(q, m->model, NULL, &m->smape, &m->psnr);
+        add_subject(q, &(subject){m->model, NULL, 0, &m->smape, &m->psnr});
+        if (has_half && m->desc.kind != HNBRDF_KIND_GGX)
+            add_subject(q, &(subject){m->model, NULL, 1, &m->half_smape, &m->half_psnr});
         if (peer)
-            add_subject(q, peer, peer, &m->peer_smape, &m->peer_psnr);
+            add_subject(q, &(subject){peer, peer, 0, &m->peer_smape, &m->peer_psnr});
     }
 }
 
@@ -62,9 +113,13 @@ static void compare_one(void *context, int index, int worker)
     const hnbrdf_material *material = material_of(q, s, m);
     hnbrdf_comparison error;
     (void)worker;
-    if (material &&
-        hnbrdf_compare(q->subjects[s].model, material, q->data->items[m], (hnbrdf_sampler)q->b->sampler,
-                       (size_t)q->b->pairs, 1, &error, NULL) == HNBRDF_OK)
+    if (material && q->subjects[s].half) {
+        render_surface surface = render_surface_model(q->subjects[s].model, material);
+        surface.eval = eval_half;
+        q->smape[index] = smape_of_surface(q, &surface, q->data->items[m]);
+    } else if (material && hnbrdf_compare(q->subjects[s].model, material, q->data->items[m],
+                                          (hnbrdf_sampler)q->b->sampler, (size_t)q->b->pairs, 1, &error,
+                                          NULL) == HNBRDF_OK)
         q->smape[index] = error.smape;
 }
 
@@ -102,6 +157,8 @@ static int compare_spheres(quality *q, int m, render_surface *surfaces, const re
     for (int s = 0; s < q->count; s++)
         if (material_of(q, s, m)) {
             surfaces[s + 1] = render_surface_model(q->subjects[s].model, material_of(q, s, m));
+            if (q->subjects[s].half)
+                surfaces[s + 1].eval = eval_half;
             all[count++] = &surfaces[s + 1];
         }
     render_guide guide = render_guide_fit(all, count, q->guide);
