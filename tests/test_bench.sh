@@ -107,14 +107,14 @@ if command -v python3 >/dev/null; then
     python3 -c 'import json, sys; json.load(open(sys.argv[1]))' b.json 2>err || fail "JSON"
     python3 -c 'import sys, xml.dom.minidom as m; m.parse(sys.argv[1])' b.svg 2>err || fail "the plot is not XML"
 fi
-# For every backend two panels, in each of them a mark for each model, on Vulkan for the peer with a known error too
-# and for each network in half precision; and the legend's.
-backends=$(cut -d, -f5 b.csv | sed 1d | sort -u | wc -l)
+# Two panels for c-batch, c-single-prepared and each device; in each of them a mark for each model, on Vulkan for the
+# peer with a known error too; and the legend's.
+devices=$(cut -d, -f5 b.csv | grep vulkan | sort -u | wc -l)
+backends=$((2 + devices))
 peers=$(grep ',directions,.*,published-style,' b.csv | grep -c '^paper')
-halves=$(grep -c ',half,' b.csv)
 kinds=2
 [ "$peers" -eq 0 ] || kinds=3
-[ "$(grep -c "class='mark'" b.svg)" -eq "$((2 * 3 * backends + 2 * peers + 2 * halves + kinds))" ] || fail "marks in the plot"
+[ "$(grep -c "class='mark'" b.svg)" -eq "$((2 * 3 * backends + 2 * peers + kinds))" ] || fail "marks in the plot"
 [ "$(grep -c '<polyline' b.svg)" -eq "$((2 * backends))" ] || fail "Pareto fronts in the plot"
 
 # ---- without a model --------------------------------------------------------------------------------

@@ -55,10 +55,11 @@ static plot_kind kind_of(const bench_row *row)
 
 static int same_point(const bench_row *a, const bench_row *b)
 {
-    return a->model == b->model && kind_of(a) == kind_of(b) && strcmp(a->precision, b->precision) == 0;
+    return a->model == b->model && kind_of(a) == kind_of(b);
 }
 
-/* Of the rows of one model on a backend, which differ in variant and storage, the fastest. */
+/* Of the rows of one model on a backend, which differ in variant, storage and precision, the fastest.
+ */
 static void add_point(plot_panel *panel, const bench_row *row, double error)
 {
     double ns = bench_ns(row);
@@ -90,12 +91,13 @@ static void choose_points(const bench *b, const char *backend, int psnr, plot_pa
     qsort(panel->points, (size_t)panel->count, sizeof *panel->points, compare_points);
 }
 
-/* Every backend once. */
+/* Batches, single evaluations as renderers should make them, and every device, once each. */
 static int choose_backends(const bench *b, const char *backends[PLOT_BACKENDS])
 {
     int count = 0;
     for (int k = 0; k < b->row_count; k++) {
-        int known = 0;
+        int known =
+            strcmp(b->rows[k].backend, "c-single") == 0 || strcmp(b->rows[k].backend, "c-many") == 0;
         for (int i = 0; i < count; i++)
             known = known || strcmp(backends[i], b->rows[k].backend) == 0;
         if (!known && count < PLOT_BACKENDS)
@@ -181,10 +183,10 @@ static void draw_panel(const bench *b, const char *backend, int psnr, double lef
     svg_axis_pad(&axes.y, 0.12);
     svg_panel_draw(file, &axes);
     draw_front(&panel, &axes, file);
+    draw_labels(&panel, &axes, file); /* under the marks, which their rims would hide */
     for (int k = 0; k < panel.count; k++)
         svg_mark(file, kind_shapes[kind_of(panel.points[k].row)], svg_x(&axes, panel.points[k].ns),
                  svg_y(&axes, panel.points[k].error), 5.0, kind_color(kind_of(panel.points[k].row)), 0);
-    draw_labels(&panel, &axes, file);
 }
 
 static int has_kind(const bench *b, plot_kind kind)

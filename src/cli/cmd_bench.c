@@ -437,7 +437,8 @@ int cmd_bench(int argc, char **argv)
         {"csv", 0, CLI_TEXT, &set.csv, 0, 0, "FILE", "the table as CSV; - is standard output"},
         {"json", 0, CLI_TEXT, &set.json, 0, 0, "FILE", "the table and the machine as JSON; - likewise"},
         {"plot", 0, CLI_TEXT, &set.plot, 0, 0, "FILE",
-         "SVG: error against run time for every backend (needs --data with MODEL)"},
+         "SVG: error against run time; c-batch, c-single-prepared and Vulkan (with MODEL needs "
+         "--data)"},
         {"nets", 0, CLI_TEXT, &set.nets, 0, 0, "LIST",
          "without MODEL: what to fit (default 16x2,32x2,64x3)"},
         {"seconds", 0, CLI_REAL, &set.seconds, 0.1, 1e6, "S",
