@@ -262,8 +262,9 @@ HNBRDF_API size_t hnbrdf_model_multiplications(const hnbrdf_model *model);
  * material need not belong to the model: any edited or interpolated copy will do.
  *
  * Edges: wi.z <= 0 or wo.z <= 0 (or a NaN there) gives 0. wi = -wo cannot happen above the horizon.
- * Directions that are not unit length give the value of the formulas as they stand, clamped to
- * [0, HNBRDF_MAX_VALUE]; NaN or infinity in any argument gives a finite value, 0 where undefined.
+ * Directions that are not unit length give the value of the formulas as they stand (c = |wi + wo|/2 for
+ * wi.h), as long as squares of their lengths are floats, clamped to [0, HNBRDF_MAX_VALUE]; a subnormal wi.z or
+ * wo.z is below the horizon where the caller or the device flushes those; NaN or infinity in any argument gives a finite value, 0 where undefined.
  * Swapping wi and wo gives the same bits, unless the encoding is HNBRDF_ENCODING_DIRECTIONS. */
 
 /* f(wi, wo) without the cosine. */

@@ -107,6 +107,13 @@ static void draw_axes(render_image *image, int x, int y, stability_map_kind kind
     text_at(image, x - 8, y - 10, 1.0, half ? "alpha" : "cos theta_o", BLACK);
 }
 
+/* Without what a driver says of itself in parentheses. */
+static size_t name_length(const char *title)
+{
+    const char *note = strstr(title, " (");
+    return note ? (size_t)(note - title) : strlen(title);
+}
+
 static void draw_panel(render_image *image, int x, int y, stability_map_kind kind, const char *title,
                        float (*errors)[STABILITY_MAP_SIDE])
 {
@@ -119,7 +126,7 @@ static void draw_panel(render_image *image, int x, int y, stability_map_kind kin
             worst = fmaxf(worst, errors[row][column]);
         }
     draw_axes(image, x, y, kind);
-    snprintf(line, sizeof line, "%.*s, %s: worst %.2g", (int)strcspn(title, "("), title,
+    snprintf(line, sizeof line, "%.*s, %s: worst %.2g", (int)name_length(title), title,
              kind == STABILITY_MAP_HALF ? "f_a" : "f", (double)worst);
     text_at(image, x + 4, y - 10, 0.0, line, BLACK);
 }

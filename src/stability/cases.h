@@ -16,7 +16,7 @@ typedef struct stability_block {
 /* What is asked of a case. */
 typedef enum stability_demand {
     STABILITY_ACCURATE = 0, /* the bars of judge.h */
-    STABILITY_TURNED,       /* the same, and what rounding a turned direction costs a narrow lobe */
+    STABILITY_TURNED,       /* the same; kept apart in summaries: see turned_bar() in run.c */
     STABILITY_FINITE        /* a finite value that is not negative; errors are shown, `why` says why */
 } stability_demand;
 

@@ -77,7 +77,7 @@ static double bar_of(const stability_case *what, const stability_backend *backen
     double bar = stage == STABILITY_VALUE ? STABILITY_VALUE_BAR : STABILITY_ANALYTIC_BAR;
     if (demand == STABILITY_FINITE)
         return (double)INFINITY;
-    if (demand == STABILITY_TURNED)
+    if (material->rotation != 0.0f) /* of the case turned, or as the model has it */
         bar += turned_bar(material, pair);
     return bar * (stage == STABILITY_VALUE ? backend->loosen_value : backend->loosen);
 }
