@@ -8,8 +8,8 @@
 
 static const cli_command command = {
     "export",
-    "MODEL [--materials A,B] [--only eval|eval+sample] [--fixed] [--weights STYLE] [--precision P]\n"
-    "              [--conserve] [--pack P] [--standalone] -o FILE.glsl",
+    "MODEL [--materials A,B] [--only eval|eval+sample] [--fixed] [--weights STYLE]\n"
+    "              [--precision P] [--conserve] [--pack P] [--standalone] -o FILE.glsl",
     "Writes one GLSL include: the network, the chosen materials, and\n"
     "  vec3 hnbrdf_eval(hnbrdf_material m, vec3 wi, vec3 wo)      1/sr, without the cosine\n"
     "  hnbrdf_sample_result hnbrdf_sample(hnbrdf_material m, vec3 wo, vec3 u)\n"
@@ -23,13 +23,11 @@ static const cli_command command = {
     "not need (anisotropy, rotation); with --only what is not asked for, in a standalone text also of\n"
     "hybrid_brdf.glsl; with --fixed the means to change a material, whose latent code is then folded "
     "into the\n"
-    "first layer. hnbrdf_eval_NAME(wi, wo) of a fixed material takes no material at all. Whatever is "
-    "left out,\n"
-    "the values are the same to the last bit.\n"
+    "first layer. hnbrdf_eval_NAME(wi, wo) of a fixed material takes no material at all. Whatever\n"
+    "is left out, the values are the same to the last bit.\n"
     "\n"
-    "--weights constants is the fastest, one shader a network; columns are the same constants in vec4. "
-    "uniform\n"
-    "reads them from a buffer whose bytes --weights-out writes: slower, but compiled soon, and any "
+    "--weights constants is the fastest, one shader a network; columns are the same constants in vec4.\n"
+    "uniform reads them from a buffer whose bytes --weights-out writes: slower, but compiled soon, and any "
     "network\n"
     "of the same size can be loaded at run time (hnbrdf.h tells the layout). --precision half computes "
     "the\n"

@@ -11,7 +11,8 @@
 
 static const cli_command command = {
     "stability",
-    "MODEL... [--blocks N] [--device N|all|none] [--all] [--csv FILE] [--json FILE] [--plot FILE.png]",
+    "MODEL... [--blocks N] [--device N|all|none] [--all]\n"
+    "              [--csv FILE] [--json FILE] [--plot FILE.png]",
     "How far from the true value is what the library computes? The formulas in 113 bits (where the "
     "compiler\n"
     "has them) against C, singly and in batches, in every rounding mode and with subnormals flushed, "

@@ -9,7 +9,8 @@
 
 static const cli_command command = {
     "verify",
-    "MODEL [--materials A,B] [--weights STYLE] [--precision P] [--fixed] [--device N|all] [--pairs N]",
+    "MODEL [--materials A,B] [--weights STYLE] [--precision P] [--fixed]\n"
+    "              [--device N|all] [--pairs N]",
     "Proves on every Vulkan device that the exported shader gives what the C library gives. Compared "
     "are\n"
     "the encoding, the network alone, the analytic part and the whole BRDF, on random, mirror, "
