@@ -8,9 +8,9 @@ first=$("$HNBRDF" info builtin | awk 'NR == 2 { print $1 }')
 second=$("$HNBRDF" info builtin | awk 'NR == 3 { print $1 }')
 cp hybrid.safetensors original.safetensors
 
-# line MODEL NAME: the material's row of numbers.
+# line MODEL NAME: the row of the material's numbers, the first that `info` prints of it.
 line() {
-    "$HNBRDF" info "$1" | awk -v name="$2" '$1 == name { $1 = ""; print }'
+    "$HNBRDF" info "$1" | awk -v name="$2" '$1 == name { $1 = ""; print; exit }'
 }
 # values MODEL NAME: f for three pairs of directions.
 values() {
