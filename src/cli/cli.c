@@ -123,7 +123,7 @@ static void print_wrapped(const char *text, int column)
 {
     int at = column;
     while (*text) {
-        int length = (int)strcspn(text, " ");
+        int length = (int)strcspn(text, " \n");
         if (at > column && at + 1 + length > HELP_COLUMNS) {
             printf("\n%*s", column, "");
             at = column;
@@ -134,7 +134,7 @@ static void print_wrapped(const char *text, int column)
         printf("%.*s", length, text);
         at += length;
         text += length;
-        text += strspn(text, " ");
+        text += strspn(text, " \n");
     }
     putchar('\n');
 }
@@ -176,7 +176,9 @@ static void print_help(const cli_command *command, const cli_option *options)
         spell_option(option, text, sizeof text);
         width = (int)strlen(text) > width ? (int)strlen(text) : width;
     }
-    printf("usage: hnbrdf %s %s\n\n%s\n\noptions:\n", command->name, command->synopsis, command->about);
+    int column = printf("usage: hnbrdf %s ", command->name);
+    print_wrapped(command->synopsis, column);
+    printf("\n%s\n\noptions:\n", command->about);
     for (const cli_option *option = options; option->name; option++)
         print_option(option, width);
     print_option(&help, width);
