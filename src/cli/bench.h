@@ -45,7 +45,7 @@ typedef struct bench_model {
     hnbrdf_model_desc desc;
     const hnbrdf_material *material; /* the one that is evaluated */
     double smape, psnr;              /* means over the materials that have data; NaN: unknown */
-    double half_smape, half_psnr;    /* of the network in half precision; NaN without Vulkan */
+    double half_smape;               /* of the network in half precision; NaN without Vulkan */
     double peer_smape, peer_psnr; /* of bench_peer_model(); NaN unless the encoding is `directions` */
 } bench_model;
 

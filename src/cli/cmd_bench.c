@@ -147,7 +147,7 @@ static int add_model(bench *b, hnbrdf_model *model, const char *name)
     bench_model *m = &b->models[b->model_count++];
     m->model = model;
     m->material = hnbrdf_model_material(model, 0);
-    m->smape = m->psnr = m->half_smape = m->half_psnr = m->peer_smape = m->peer_psnr = (double)NAN;
+    m->smape = m->psnr = m->half_smape = m->peer_smape = m->peer_psnr = (double)NAN;
     hnbrdf_model_describe(model, &m->desc);
     snprintf(m->name, sizeof m->name, "%s", name);
     return CLI_OK;
