@@ -428,7 +428,8 @@ typedef enum hnbrdf_glsl_precision {
                               single elsewhere or where HNBRDF_HALF_NATIVE is defined as 0. Weights are rounded
                               to half, those of hidden layers clamped to 2048, biases to 8192, and units to
                               what the next layer can sum without passing 65504: finite whatever the weights.
-                              SMAPE against measurements grows by about 0.0001. */
+                              SMAPE against measurements grew by at most 0.0003 on the models tried; the
+                              tests allow 0.002. */
 } hnbrdf_glsl_precision;
 
 /* "constants", "columns", "uniform"; "float", "half"; NULL for any other value. */
