@@ -5,7 +5,7 @@
 
 # One part may not use what another part hides. (Sanitizers leave their runtime to the executable.)
 include(CheckLinkerFlag)
-if(NOT HNBRDF_SANITIZE)
+if(NOT HNBRDF_SANITIZE AND NOT HNBRDF_BUILD_FUZZERS)
   check_linker_flag(C LINKER:-z,defs LINKER_REFUSES_UNDEFINED)
 endif()
 

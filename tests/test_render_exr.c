@@ -54,7 +54,7 @@ static render_image decode(const render_bytes *bytes)
 {
     render_image image;
     hnbrdf_error error;
-    if (render_exr_decode(bytes->data, bytes->size, "x.exr", &image, &error) != HNBRDF_OK)
+    if (render_exr_decode(bytes->data, bytes->size, "x.exr", NULL, &image, &error) != HNBRDF_OK)
         fail_msg("%s", error.text);
     return image;
 }
@@ -295,7 +295,7 @@ static hnbrdf_result decode_copy(const unsigned char *data, size_t size, hnbrdf_
     unsigned char *copy = malloc(size ? size : 1);
     render_image image = {0};
     memcpy(copy, data, size);
-    hnbrdf_result result = render_exr_decode(copy, size, "x.exr", &image, error);
+    hnbrdf_result result = render_exr_decode(copy, size, "x.exr", NULL, &image, error);
     render_image_free(&image);
     free(copy);
     return result;

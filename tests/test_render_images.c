@@ -168,7 +168,7 @@ static void radiance_decodes_flat_and_coded_scanlines(void **state)
         int coded = kind & 1, bottom_up = kind & 2, width = coded ? 300 : 5, height = 19;
         render_bytes bytes = make_hdr(width, height, coded, bottom_up ? "+" : "-");
         render_image image;
-        assert_int_equal(render_radiance_decode(bytes.data, bytes.size, "x.hdr", &image, NULL),
+        assert_int_equal(render_radiance_decode(bytes.data, bytes.size, "x.hdr", NULL, &image, NULL),
                          HNBRDF_OK);
         assert_int_equal(image.width, width);
         assert_int_equal(image.height, height);
@@ -191,7 +191,7 @@ static hnbrdf_result decode_copy(const unsigned char *data, size_t size, hnbrdf_
     unsigned char *copy = malloc(size ? size : 1);
     render_image image = {0};
     memcpy(copy, data, size);
-    hnbrdf_result result = render_radiance_decode(copy, size, "x.hdr", &image, error);
+    hnbrdf_result result = render_radiance_decode(copy, size, "x.hdr", NULL, &image, error);
     render_image_free(&image);
     free(copy);
     return result;
@@ -285,18 +285,18 @@ static void files_are_recognised_by_content(void **state)
     render_image image;
     render_bytes bytes = make_hdr(20, 3, 1, "-");
     write_file(path, bytes.data, bytes.size);
-    assert_int_equal(render_image_read(path, &image, &error), HNBRDF_OK);
+    assert_int_equal(render_image_read(path, NULL, &image, &error), HNBRDF_OK);
     assert_int_equal(image.width, 20);
     render_image_free(&image);
     free(bytes.data);
     for (size_t size = 0; size < 5; size++) {
         write_file(path, "GIF89", size);
-        assert_int_equal(render_image_read(path, &image, &error), HNBRDF_ERROR_FORMAT);
+        assert_int_equal(render_image_read(path, NULL, &image, &error), HNBRDF_ERROR_FORMAT);
         assert_non_null(strstr(error.text, path));
         assert_one_line(&error);
     }
     remove(path);
-    assert_int_equal(render_image_read(path, &image, &error), HNBRDF_ERROR_IO);
+    assert_int_equal(render_image_read(path, NULL, &image, &error), HNBRDF_ERROR_IO);
     assert_one_line(&error);
 }
 

@@ -20,6 +20,9 @@ hnbrdf_fail(hnbrdf_error *error, hnbrdf_result result, const char *format, ...)
         va_start(arguments, format);
         vsnprintf(error->text, sizeof error->text, format, arguments);
         va_end(arguments);
+        for (char *c = error->text; *c; ++c) {
+            *c = (unsigned char)*c < 0x20 || *c == 0x7f ? '?' : *c; /* from names and contents of files */
+        }
     }
     return result;
 }

@@ -6,6 +6,9 @@
 
 #include "core/error.h"
 
+#include <float.h>
+#include <limits.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -85,6 +88,15 @@ static int transfer(trainer *t, FILE *file, int writing)
     return 1;
 }
 
+/* 1 if parameters, moments and squares, count of each, are finite, and squares not negative. */
+static int numbers_are_sound(const float *numbers, size_t count)
+{
+    for (size_t i = 0; i < 3 * count; i++)
+        if (!isfinite(numbers[i]) || (i >= 2 * count && numbers[i] < 0.0f))
+            return 0;
+    return 1;
+}
+
 hnbrdf_result hnbrdf_fit_checkpoint_save(const trainer *t, hnbrdf_error *error)
 {
     const char *path = t->options.checkpoint;
@@ -105,6 +117,8 @@ hnbrdf_result hnbrdf_fit_checkpoint_save(const trainer *t, hnbrdf_error *error)
     h.step = t->step;
     h.order_at = t->order_at;
     trainer view = *t; /* transfer() takes what it may write to; it only reads here */
+    if (!numbers_are_sound(t->parameters, t->layout.count))
+        view.parameters = t->snapshot; /* stopped before a step that diverged was taken back */
     FILE *file = fopen(aside, "wb");
     int good = file && fwrite(&h, sizeof h, 1, file) == 1 && transfer(&view, file, 1);
     if (file && fclose(file))
@@ -116,6 +130,17 @@ hnbrdf_result hnbrdf_fit_checkpoint_save(const trainer *t, hnbrdf_error *error)
     }
     free(aside);
     return HNBRDF_OK;
+}
+
+/* 1 if training could have stood like this: indices that exist, and numbers in range. */
+static int is_sound(const trainer *t, const header *h)
+{
+    int good = h->step >= 0 && h->step < LONG_MAX && h->share >= 0.0 && h->share < 1.0 && h->peak > 0.0 &&
+               h->peak <= DBL_MAX && !isinf(h->running) && h->order_at >= 0 && h->order_at < t->count;
+    for (int m = 0; m < t->count; m++)
+        good &= t->order[m] >= 0 && t->order[m] < t->count && t->cursor[m] >= 0 &&
+                t->cursor[m] < t->pool.tiles;
+    return good && numbers_are_sound(t->parameters, t->layout.count);
 }
 
 hnbrdf_result hnbrdf_fit_checkpoint_load(trainer *t, hnbrdf_error *error)
@@ -139,11 +164,9 @@ hnbrdf_result hnbrdf_fit_checkpoint_load(trainer *t, hnbrdf_error *error)
     else if (!transfer(t, file, 0) || fgetc(file) != EOF)
         result = hnbrdf_fail(error, HNBRDF_ERROR_FORMAT,
                              "%s: the checkpoint is damaged: its size is wrong", path);
-    for (int m = 0; m < t->count && !result; m++)
-        if (t->order[m] < 0 || t->order[m] >= t->count || t->cursor[m] < 0 ||
-            t->cursor[m] >= t->pool.tiles)
-            result = hnbrdf_fail(error, HNBRDF_ERROR_FORMAT,
-                                 "%s: the checkpoint is damaged: material %d", path, m);
+    else if (!is_sound(t, &h))
+        result = hnbrdf_fail(error, HNBRDF_ERROR_FORMAT,
+                             "%s: the checkpoint is damaged: it holds numbers that no training has", path);
     fclose(file);
     if (result)
         return result;
@@ -152,6 +175,6 @@ hnbrdf_result hnbrdf_fit_checkpoint_load(trainer *t, hnbrdf_error *error)
     t->peak = h.peak;
     t->running = h.running;
     t->step = (long)h.step;
-    t->order_at = h.order_at >= 0 && h.order_at < t->count ? (int)h.order_at : 0;
+    t->order_at = (int)h.order_at;
     return HNBRDF_OK;
 }

@@ -22,10 +22,10 @@ hnbrdf_result render_exr_encode(const render_image *image, const render_write_op
                        "this program was built without OpenEXR: write a .png instead");
 }
 
-hnbrdf_result render_exr_decode(const void *data, size_t size, const char *name, render_image *image,
-                                hnbrdf_error *error)
+hnbrdf_result render_exr_decode(const void *data, size_t size, const char *name,
+                                const render_limits *limits, render_image *image, hnbrdf_error *error)
 {
-    (void)data, (void)size, (void)image;
+    (void)data, (void)size, (void)limits, (void)image;
     return hnbrdf_fail(error, HNBRDF_ERROR_UNSUPPORTED,
                        "%s: this program was built without OpenEXR: use a Radiance .hdr file", name);
 }
@@ -34,9 +34,9 @@ hnbrdf_result render_exr_decode(const void *data, size_t size, const char *name,
 
 #include <openexr.h>
 
-/* The largest block of lines or tile that is decoded at once, and the most channels of a file. */
-#define MAX_CHUNK ((uint64_t)1 << 30)
-enum { MAX_CHANNELS = 64 };
+/* Bytes of the largest block of lines or tile that is decoded at once, per pixel that a picture may have, and
+ * the most channels of a file. */
+enum { MAX_CHUNK_SHARE = 16, MAX_CHANNELS = 64 };
 
 int render_has_exr(void)
 {
@@ -52,18 +52,17 @@ typedef struct exr_memory {
     char message[160];
 } exr_memory;
 
+/* Of the call under way. The library may hold its lock while it reports, and would wait for itself if it were
+ * asked for its user data then. */
+static _Thread_local exr_memory *reporting;
+
 static void keep_message(exr_const_context_t context, exr_result_t code, const char *text)
 {
-    void *user = NULL;
-    (void)code;
-    if (exr_get_user_data(context, &user) != EXR_ERR_SUCCESS || !user)
-        return;
-    exr_memory *memory = user;
-    if (!memory->message[0]) /* the first one names the cause */
-        snprintf(memory->message, sizeof memory->message, "%s", text ? text : "");
-    for (char *c = memory->message; *c; c++)
-        if ((unsigned char)*c < ' ')
-            *c = ' ';
+    (void)context;
+    if (reporting && code == EXR_ERR_OUT_OF_MEMORY)
+        reporting->out_of_memory = 1; /* what is returned in the end may be another error */
+    if (reporting && !reporting->message[0]) /* the first one names the cause */
+        snprintf(reporting->message, sizeof reporting->message, "%s", text ? text : "");
 }
 
 /* Like pread: fewer bytes near the end, 0 beyond it; the library asks for headers block by block. */
@@ -103,6 +102,7 @@ static exr_context_initializer_t initializer(exr_memory *memory)
     exr_context_initializer_t init = EXR_DEFAULT_CONTEXT_INITIALIZER;
     init.user_data = memory;
     init.error_handler_fn = keep_message;
+    reporting = memory;
     init.max_image_width = init.max_image_height = RENDER_MAX_SIDE;
     init.max_tile_width = init.max_tile_height = RENDER_MAX_SIDE;
     init.flags = EXR_CONTEXT_FLAG_DISABLE_CHUNK_RECONSTRUCTION;
@@ -244,10 +244,11 @@ hnbrdf_result render_exr_encode(const render_image *image, const render_write_op
         exr_result_t finished = exr_finish(&context);
         result = result == EXR_ERR_SUCCESS ? finished : result;
     }
+    reporting = NULL;
     if (result != EXR_ERR_SUCCESS) {
         free(output.data);
-        return hnbrdf_fail(error, memory.out_of_memory ? HNBRDF_ERROR_MEMORY : HNBRDF_ERROR_IO,
-                           "OpenEXR: %s",
+        const int exhausted = memory.out_of_memory || result == EXR_ERR_OUT_OF_MEMORY;
+        return hnbrdf_fail(error, exhausted ? HNBRDF_ERROR_MEMORY : HNBRDF_ERROR_IO, "OpenEXR: %s",
                            memory.message[0] ? memory.message : exr_get_default_error_message(result));
     }
     *bytes = output;
@@ -261,6 +262,7 @@ typedef struct exr_input {
     const exr_memory *memory;
     const char *name;
     hnbrdf_error *error;
+    size_t max_pixels;
     exr_attr_box2i_t window;
     exr_storage_t storage;
     int grey; /* Y alone */
@@ -269,7 +271,9 @@ typedef struct exr_input {
 static hnbrdf_result library_error(const exr_input *in, exr_result_t result)
 {
     return hnbrdf_fail(
-        in->error, result == EXR_ERR_OUT_OF_MEMORY ? HNBRDF_ERROR_MEMORY : HNBRDF_ERROR_FORMAT,
+        in->error,
+        in->memory->out_of_memory || result == EXR_ERR_OUT_OF_MEMORY ? HNBRDF_ERROR_MEMORY
+                                                                     : HNBRDF_ERROR_FORMAT,
         "%s: OpenEXR: %s", in->name,
         in->memory->message[0] ? in->memory->message : exr_get_default_error_message(result));
 }
@@ -336,19 +340,20 @@ static hnbrdf_result check_size(exr_input *in, int *width, int *height)
     int64_t w = (int64_t)in->window.max.x - in->window.min.x + 1;
     int64_t h = (int64_t)in->window.max.y - in->window.min.y + 1;
     if (w < 1 || h < 1 || w > RENDER_MAX_SIDE || h > RENDER_MAX_SIDE ||
-        w * h > (int64_t)RENDER_MAX_PIXELS)
+        w * h > (int64_t)in->max_pixels)
         return hnbrdf_fail(
             in->error, HNBRDF_ERROR_LIMIT,
             "%s: data window of %lld x %lld: expected sides of 1 to %d and at most %zu pixels",
-            in->name, (long long)w, (long long)h, RENDER_MAX_SIDE, RENDER_MAX_PIXELS);
+            in->name, (long long)w, (long long)h, RENDER_MAX_SIDE, in->max_pixels);
+    const uint64_t most = MAX_CHUNK_SHARE * (uint64_t)in->max_pixels;
     uint64_t chunk;
     result = exr_get_chunk_unpacked_size(in->context, 0, &chunk);
     if (result != EXR_ERR_SUCCESS)
         return library_error(in, result);
-    if (chunk > MAX_CHUNK)
+    if (chunk > most)
         return hnbrdf_fail(in->error, HNBRDF_ERROR_LIMIT,
                            "%s: blocks of %llu bytes: expected at most %llu", in->name,
-                           (unsigned long long)chunk, (unsigned long long)MAX_CHUNK);
+                           (unsigned long long)chunk, (unsigned long long)most);
     *width = (int)w;
     *height = (int)h;
     return HNBRDF_OK;
@@ -466,19 +471,22 @@ static hnbrdf_result read_image(exr_input *in, render_image *image)
     return HNBRDF_OK;
 }
 
-hnbrdf_result render_exr_decode(const void *data, size_t size, const char *name, render_image *image,
-                                hnbrdf_error *error)
+hnbrdf_result render_exr_decode(const void *data, size_t size, const char *name,
+                                const render_limits *limits, render_image *image, hnbrdf_error *error)
 {
     exr_memory memory = {.data = data, .size = size};
     exr_context_initializer_t init = initializer(&memory);
     init.read_fn = read_memory;
     init.size_fn = memory_size;
-    exr_input in = {.memory = &memory, .name = name, .error = error};
-    exr_result_t started = exr_start_read(&in.context, "memory", &init);
-    if (started != EXR_ERR_SUCCESS)
-        return library_error(&in, started);
-    hnbrdf_result result = read_image(&in, image);
-    exr_finish(&in.context);
+    exr_input in = {.memory = &memory,
+                    .name = name,
+                    .error = error,
+                    .max_pixels = render_limits_settle(limits).max_pixels};
+    const exr_result_t started = exr_start_read(&in.context, "memory", &init);
+    hnbrdf_result result = started == EXR_ERR_SUCCESS ? read_image(&in, image) : library_error(&in, started);
+    if (started == EXR_ERR_SUCCESS)
+        exr_finish(&in.context);
+    reporting = NULL;
     return result;
 }
 

@@ -9,6 +9,18 @@
 #include <string.h>
 #include <unistd.h>
 
+static size_t settle(size_t given, size_t most)
+{
+    return given && given < most ? given : most;
+}
+
+render_limits render_limits_settle(const render_limits *limits)
+{
+    const render_limits none = {0, 0}, *given = limits ? limits : &none;
+    return (render_limits){settle(given->max_bytes, RENDER_MAX_FILE),
+                           settle(given->max_pixels, RENDER_MAX_PIXELS)};
+}
+
 hnbrdf_result render_image_create(int width, int height, int alpha, render_image *image,
                                   hnbrdf_error *error)
 {
@@ -95,14 +107,14 @@ int render_has_extension(const char *path, const char *extension)
 
 /* ---- Files --------------------------------------------------------------------------------------- */
 
-static hnbrdf_result read_stream(FILE *file, const char *path, render_bytes *bytes, hnbrdf_error *error)
+static hnbrdf_result read_stream(FILE *file, const char *path, size_t limit, render_bytes *bytes,
+                                 hnbrdf_error *error)
 {
     unsigned char block[65536];
     size_t count;
     while ((count = fread(block, 1, sizeof block, file)) > 0) {
-        if (bytes->size + count > RENDER_MAX_FILE)
-            return hnbrdf_fail(error, HNBRDF_ERROR_LIMIT, "%s: larger than %zu bytes", path,
-                               RENDER_MAX_FILE);
+        if (bytes->size + count > limit)
+            return hnbrdf_fail(error, HNBRDF_ERROR_LIMIT, "%s: larger than %zu bytes", path, limit);
         if (render_bytes_put(bytes, bytes->size, block, count))
             return hnbrdf_fail(error, HNBRDF_ERROR_MEMORY, "%s: no memory for its bytes", path);
     }
@@ -111,20 +123,21 @@ static hnbrdf_result read_stream(FILE *file, const char *path, render_bytes *byt
     return HNBRDF_OK;
 }
 
-hnbrdf_result render_image_read(const char *path, render_image *image, hnbrdf_error *error)
+hnbrdf_result render_image_read(const char *path, const render_limits *limits, render_image *image,
+                                hnbrdf_error *error)
 {
     FILE *file = fopen(path, "rb");
     if (!file)
         return hnbrdf_fail(error, HNBRDF_ERROR_IO, "%s: cannot be opened: %s", path, strerror(errno));
     render_bytes bytes = {0};
-    hnbrdf_result result = read_stream(file, path, &bytes, error);
+    hnbrdf_result result = read_stream(file, path, render_limits_settle(limits).max_bytes, &bytes, error);
     fclose(file);
     if (result == HNBRDF_OK) {
         static const unsigned char exr_magic[4] = {0x76, 0x2f, 0x31, 0x01};
         if (bytes.size >= 4 && memcmp(bytes.data, exr_magic, 4) == 0)
-            result = render_exr_decode(bytes.data, bytes.size, path, image, error);
+            result = render_exr_decode(bytes.data, bytes.size, path, limits, image, error);
         else if (bytes.size >= 2 && memcmp(bytes.data, "#?", 2) == 0)
-            result = render_radiance_decode(bytes.data, bytes.size, path, image, error);
+            result = render_radiance_decode(bytes.data, bytes.size, path, limits, image, error);
         else
             result = hnbrdf_fail(error, HNBRDF_ERROR_FORMAT,
                                  "%s: neither OpenEXR nor Radiance .hdr (%zu bytes)", path, bytes.size);

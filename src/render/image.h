@@ -5,11 +5,19 @@
 
 #include "hnbrdf/hnbrdf.h"
 
-/* Files that claim more are refused before anything is allocated for them. */
 #define RENDER_MAX_SIDE 65536
 #define RENDER_MAX_PIXELS ((size_t)1 << 26)
 #define RENDER_MAX_FILE ((size_t)1 << 30)
 #define RENDER_MAX_LAYERS 16
+
+/* What a picture file may ask for: files that claim more are refused before anything is allocated for them.
+ * Zero-initialise for the defaults, and pass NULL for those; more than a default is taken as the default.
+ * Memory while reading is at most the file, 32 bytes a pixel, and 16 bytes times max_pixels for one block of
+ * compressed lines. */
+typedef struct render_limits {
+    size_t max_bytes;  /* of the file; 0 stands for RENDER_MAX_FILE */
+    size_t max_pixels; /* of the picture; 0 stands for RENDER_MAX_PIXELS */
+} render_limits;
 
 /* A further RGB picture of the same size inside an image; EXR channels NAME.R, NAME.G, NAME.B. */
 typedef struct render_layer {
@@ -46,7 +54,10 @@ typedef struct render_write_options {
 hnbrdf_result render_image_write(const render_image *image, const char *path,
                                  const render_write_options *options, hnbrdf_error *error);
 /* EXR or Radiance .hdr, recognised by content. Layers are not read; alpha is if there is one. */
-hnbrdf_result render_image_read(const char *path, render_image *image, hnbrdf_error *error);
+hnbrdf_result render_image_read(const char *path, const render_limits *limits, render_image *image,
+                                hnbrdf_error *error);
+/* limits with its zeros settled; limits may be NULL. */
+render_limits render_limits_settle(const render_limits *limits);
 
 /* 1 if path ends in extension (with its dot), whatever the case. */
 int render_has_extension(const char *path, const char *extension);
@@ -68,11 +79,12 @@ hnbrdf_result render_exr_encode(const render_image *image, const render_write_op
                                 render_bytes *bytes, hnbrdf_error *error);
 /* The first part of the file: scanlines or the largest level of tiles, half or float, channels R, G, B
  * or Y alone. DWAA and DWAB are beyond the OpenEXR 3.1 C library and are refused with advice. */
-hnbrdf_result render_exr_decode(const void *data, size_t size, const char *name, render_image *image,
-                                hnbrdf_error *error);
+hnbrdf_result render_exr_decode(const void *data, size_t size, const char *name,
+                                const render_limits *limits, render_image *image, hnbrdf_error *error);
 /* RGBE, flat or run-length coded, top or bottom row first. */
 hnbrdf_result render_radiance_decode(const void *data, size_t size, const char *name,
-                                     render_image *image, hnbrdf_error *error);
+                                     const render_limits *limits, render_image *image,
+                                     hnbrdf_error *error);
 /* 8 bits a channel: value * 2^exposure, clamped to [0, 1], the sRGB curve (IEC 61966-2-1), rounded.
  * NaN becomes 0. With alpha the PNG is RGBA, its colour divided by alpha as PNG asks. */
 hnbrdf_result render_png_encode(const render_image *image, double exposure, render_bytes *bytes,

@@ -2,10 +2,10 @@
 #include "render/image.h"
 
 #include "core/error.h"
+#include "render/png_memory.h"
 
 #include <math.h>
-#include <stdint.h>
-#include <stdlib.h>
+#include <string.h>
 
 #define STB_IMAGE_WRITE_STATIC
 #define STB_IMAGE_WRITE_IMPLEMENTATION
@@ -26,11 +26,22 @@ static double srgb_curve(double linear)
     return linear <= 0.0031308 ? 12.92 * linear : 1.055 * pow(linear, 1.0 / 2.4) - 0.055;
 }
 
-static void append(void *user, void *data, int size)
+/* The whole file; 0 without memory. rows: [height][width][channels]. */
+static int compress(const render_image *image, const unsigned char *rows, int channels, render_bytes *bytes)
 {
-    render_bytes *bytes = user;
-    if (render_bytes_put(bytes, bytes->size, data, (size_t)size))
-        bytes->size = SIZE_MAX / 2; /* makes every further put fail, and tells the caller */
+    png_memory memory = {NULL};
+    int size;
+    png_current = &memory;
+    if (setjmp(memory.exhausted)) {
+        png_current = NULL;
+        return 0;
+    }
+    unsigned char *file = stbi_write_png_to_mem(rows, image->width * channels, image->width, image->height,
+                                                channels, &size);
+    const int done = render_bytes_put(bytes, 0, file, (size_t)size) == 0;
+    png_free(file);
+    png_current = NULL;
+    return done;
 }
 
 hnbrdf_result render_png_encode(const render_image *image, double exposure, render_bytes *bytes,
@@ -53,14 +64,11 @@ hnbrdf_result render_png_encode(const render_image *image, double exposure, rend
             out[3] = to_byte(alpha);
     }
     render_bytes result = {0};
-    int done = stbi_write_png_to_func(append, &result, image->width, image->height, channels, packed,
-                                      image->width * channels);
+    const int done = compress(image, packed, channels, &result);
     free(packed);
-    if (!done || result.size >= SIZE_MAX / 2) {
-        free(result.data);
+    if (!done)
         return hnbrdf_fail(error, HNBRDF_ERROR_MEMORY, "no memory for a PNG of %d x %d", image->width,
                            image->height);
-    }
     *bytes = result;
     return HNBRDF_OK;
 }

@@ -154,8 +154,10 @@ static hnbrdf_result pixels(reader *in, render_image *image, int bottom_up)
 }
 
 hnbrdf_result render_radiance_decode(const void *data, size_t size, const char *name,
-                                     render_image *image, hnbrdf_error *error)
+                                     const render_limits *limits, render_image *image,
+                                     hnbrdf_error *error)
 {
+    const size_t max_pixels = render_limits_settle(limits).max_pixels;
     reader in = {.data = data, .size = size, .name = name, .error = error};
     int width = 0, height = 0, bottom_up = 0;
     hnbrdf_result result = header(&in, &width, &height, &bottom_up);
@@ -164,9 +166,9 @@ hnbrdf_result render_radiance_decode(const void *data, size_t size, const char *
     /* The shortest coding of a scanline: 2 bytes for 127 pixels, in each of 4 planes. */
     size_t least =
         (size_t)height * (width < 8 ? 4 * (size_t)width : 4 + 8 * (((size_t)width + 126) / 127));
-    if ((size_t)width * (size_t)height > RENDER_MAX_PIXELS)
+    if ((size_t)width * (size_t)height > max_pixels)
         return hnbrdf_fail(error, HNBRDF_ERROR_LIMIT, "%s: %d x %d pixels: expected at most %zu", name,
-                           width, height, RENDER_MAX_PIXELS);
+                           width, height, max_pixels);
     if (size - in.at < least)
         return hnbrdf_fail(error, HNBRDF_ERROR_FORMAT,
                            "%s: %zu bytes of pixels, expected at least %zu for %d x %d", name,

@@ -1,0 +1,2 @@
+# Hostile input: fuzz targets replayed, allocations and writes that fail.
+add_subdirectory(fuzz)

@@ -1,0 +1,90 @@
+/* fuzz_checkpoint.c: the bytes are the state of a fit to go on from, after the fingerprint, which would else
+ * refuse them all. What is taken is a state that training can stand in. */
+#include "fuzz.h"
+
+#include "fit/trainer.h"
+
+#include <sys/mman.h>
+#include <unistd.h>
+
+enum { NUMBERS = 5, MATERIALS = 2, TILES = 4, MAGIC = 16, FINGERPRINT = 8, ROOM = 4096 };
+
+static hnbrdf_measured *data_of[MATERIALS];
+static unsigned char start[MAGIC + FINGERPRINT]; /* of every checkpoint of this fit */
+static char path[64];
+static int file;
+
+/* The smallest part of a trainer that checkpoints look at. */
+static trainer make_trainer(float *parameters, int *order, int *cursor)
+{
+    trainer t;
+    memset(&t, 0, sizeof t);
+    t.data = (const hnbrdf_measured *const *)data_of;
+    t.count = MATERIALS;
+    t.options.checkpoint = path;
+    t.layout.count = NUMBERS;
+    t.pool.tiles = TILES;
+    t.parameters = parameters;
+    t.order = order;
+    t.cursor = cursor;
+    return t;
+}
+
+/* A checkpoint is written once, in a folder that is gone afterwards, for its first bytes. */
+static void learn_start(void)
+{
+    float parameters[3 * NUMBERS] = {0};
+    int order[MATERIALS] = {0, 1}, cursor[MATERIALS] = {0};
+    char folder[] = "/tmp/hnbrdf_fuzz_XXXXXX";
+    FUZZ_CHECK(mkdtemp(folder) != NULL);
+    snprintf(path, sizeof path, "%s/c", folder);
+    for (int m = 0; m < MATERIALS; m++)
+        FUZZ_CHECK(hnbrdf_measured_open_builtin(m, &data_of[m], NULL) == HNBRDF_OK);
+    trainer t = make_trainer(parameters, order, cursor);
+    FUZZ_CHECK(hnbrdf_fit_checkpoint_save(&t, NULL) == HNBRDF_OK);
+    FILE *written = fopen(path, "rb");
+    FUZZ_CHECK(written && fread(start, 1, sizeof start, written) == sizeof start);
+    fclose(written);
+    remove(path);
+    rmdir(folder);
+    file = memfd_create("fuzz", 0);
+    FUZZ_CHECK(file >= 0);
+    snprintf(path, sizeof path, "/proc/self/fd/%d", file);
+}
+
+static void check_state(const trainer *t)
+{
+    FUZZ_CHECK(t->step >= 0 && t->share >= 0.0 && t->share < 1.0 && t->peak > 0.0 && isfinite(t->peak));
+    FUZZ_CHECK(t->order_at >= 0 && t->order_at < MATERIALS);
+    for (int i = 0; i < 3 * NUMBERS; i++)
+        FUZZ_CHECK(isfinite(t->parameters[i]));
+    for (int m = 0; m < MATERIALS; m++)
+        FUZZ_CHECK(t->order[m] >= 0 && t->order[m] < MATERIALS && t->cursor[m] >= 0 && t->cursor[m] < TILES);
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+    unsigned char bytes[sizeof start + ROOM];
+    float *parameters = calloc(3 * NUMBERS, sizeof *parameters);
+    int *order = calloc(MATERIALS, sizeof *order), *cursor = calloc(MATERIALS, sizeof *cursor);
+    hnbrdf_error error = {""};
+    FUZZ_CHECK(parameters && order && cursor);
+    if (!data_of[0])
+        learn_start();
+    size = size < ROOM ? size : ROOM;
+    memcpy(bytes, start, sizeof start);
+    if (size)
+        memcpy(bytes + sizeof start, data, size);
+    FUZZ_CHECK(ftruncate(file, 0) == 0);
+    FUZZ_CHECK(pwrite(file, bytes, sizeof start + size, 0) == (ssize_t)(sizeof start + size));
+    trainer t = make_trainer(parameters, order, cursor);
+    const hnbrdf_result result = hnbrdf_fit_checkpoint_load(&t, &error);
+    if (result)
+        fuzz_check_refusal(result, &error);
+    else
+        check_state(&t);
+    free(parameters);
+    free(order);
+    free(cursor);
+    return 0;
+}

@@ -1,0 +1,241 @@
+/* seeds.c: writes the seed corpora of the fuzz targets, DIRECTORY/TARGET/NAME: small files of each kind that are
+ * read without a complaint, made by the library's own writers where it has one. */
+#include "fuzz.h"
+
+#include "measured_support.h"
+#include "render/image.h"
+
+#include <sys/stat.h>
+
+static const char *directory, *target;
+
+/* Opens DIRECTORY/target/name for writing. */
+static FILE *create(const char *name)
+{
+    char path[4096];
+    FUZZ_CHECK((size_t)snprintf(path, sizeof path, "%s/%s", directory, target) < sizeof path);
+    mkdir(path, 0777);
+    FUZZ_CHECK((size_t)snprintf(path, sizeof path, "%s/%s/%s", directory, target, name) < sizeof path);
+    FILE *file = fopen(path, "wb");
+    FUZZ_CHECK(file != NULL);
+    return file;
+}
+
+static void put(const char *name, const void *data, size_t size)
+{
+    FILE *file = create(name);
+    FUZZ_CHECK(size == 0 || fwrite(data, 1, size, file) == size);
+    FUZZ_CHECK(fclose(file) == 0);
+}
+
+static void put_text(const char *name, const char *text)
+{
+    put(name, text, strlen(text));
+}
+
+/* ---- Models -------------------------------------------------------------------------------------- */
+
+static int write_stream(void *user, const void *data, size_t size)
+{
+    return fwrite(data, 1, size, user) != size;
+}
+
+static void put_model(const char *name, hnbrdf_kind kind, hnbrdf_encoding encoding, int layers)
+{
+    static float numbers[256];
+    static const char *const names[2] = {"plain", "with \"quotes\" and \xc3\xa9"};
+    hnbrdf_material materials[2];
+    hnbrdf_model_desc desc = {
+        .kind = kind, .encoding = encoding, .material_count = 2, .materials = materials, .names = names};
+    hnbrdf_model *model = NULL;
+    for (int i = 0; i < 256; i++)
+        numbers[i] = (float)(i % 7 - 3) / 8.0f;
+    hnbrdf_material_init(&materials[0]);
+    materials[1] = materials[0];
+    materials[1].alpha[1] = 0.25f;
+    materials[1].rotation = 0.5f;
+    if (kind != HNBRDF_KIND_GGX) {
+        desc.hidden = 4;
+        desc.layers = layers;
+        desc.latent = 2;
+        desc.scale = 1.5f;
+        desc.floor = 0.003f;
+        materials[1].latent[0] = 1.0f;
+        for (int k = 0; k <= layers; k++)
+            desc.weights[k] = desc.biases[k] = numbers + k;
+    }
+    FUZZ_CHECK(hnbrdf_model_create(&desc, NULL, &model, NULL) == HNBRDF_OK);
+    FILE *file = create(name);
+    FUZZ_CHECK(hnbrdf_model_write(model, write_stream, file, NULL) == HNBRDF_OK);
+    FUZZ_CHECK(fclose(file) == 0);
+    hnbrdf_model_free(model);
+}
+
+static void write_models(void)
+{
+    target = "safetensors";
+    put_model("hybrid", HNBRDF_KIND_HYBRID, HNBRDF_ENCODING_ANGLES, 2);
+    put_model("neural", HNBRDF_KIND_NEURAL, HNBRDF_ENCODING_DIRECTIONS, 1);
+    put_model("ggx", HNBRDF_KIND_GGX, HNBRDF_ENCODING_DIRECTIONS, 0);
+}
+
+static size_t read_file(const char *path, char *text, size_t room)
+{
+    FILE *file = fopen(path, "rb");
+    FUZZ_CHECK(file != NULL);
+    const size_t size = fread(text, 1, room, file);
+    FUZZ_CHECK(size > 0 && size < room);
+    fclose(file);
+    return size;
+}
+
+/* The samples of the import test, alone and both in one. */
+static void write_shaders(void)
+{
+    static char text[1 << 16];
+    target = "brdf";
+    const size_t first = read_file(HNBRDF_TEST_DATA "/sample_plain.brdf", text, sizeof text / 2);
+    put("plain", text, first);
+    const size_t second = read_file(HNBRDF_TEST_DATA "/sample_brushed.brdf", text + first + 1, sizeof text / 2);
+    put("brushed", text + first + 1, second);
+    text[first] = '\0';
+    put("both", text, first + 1 + second);
+}
+
+/* ---- Measurements -------------------------------------------------------------------------------- */
+
+static void put_bytes(const char *name, test_bytes file)
+{
+    put(name, file.data, file.size);
+    free(file.data);
+}
+
+static void write_measured(void)
+{
+    static const unsigned char merl[12] = {90, 0, 0, 0, 90, 0, 0, 0, 180, 0, 0, 0};
+    unsigned char patch[12 + 1 + 24] = {0};
+    target = "rgl";
+    put_bytes("isotropic", test_rgl(TEST_ISOTROPIC));
+    put_bytes("quarter", test_rgl(TEST_QUARTER));
+    put_bytes("spectral", test_rgl_spectral(0));
+    put_bytes("both", test_rgl_spectral(1));
+    target = "merl";
+    put("header", merl, sizeof merl);
+    memcpy(patch, merl, sizeof merl);
+    patch[12] = 1;
+    put_double(patch + 17, 0.5);
+    put_le(patch + 25, 1000000, 4);
+    put_double(patch + 29, -1.0);
+    put("patched", patch, sizeof patch);
+    target = "utia";
+    memset(patch, 0, sizeof patch);
+    put_float(patch + 1, 1.0f);
+    put_double(patch + 9, 0.5);
+    put("djb", patch, 5 + 24);
+    patch[0] = 2 | 4;
+    put("srgb", patch, 5 + 24);
+}
+
+/* ---- Pictures ------------------------------------------------------------------------------------ */
+
+/* The file, and as one of every other compression: a block that does not get smaller is stored as it is,
+ * whatever the compression. */
+static void put_compressions(const char *name, render_bytes *file)
+{
+    static const char attribute[] = "compression\0compression\0\1\0\0"; /* and the NUL is the fourth byte */
+    size_t at = 0;
+    while (memcmp(file->data + at, attribute, sizeof attribute) != 0)
+        FUZZ_CHECK(++at + sizeof attribute < file->size);
+    for (int compression = 0; compression < 10; compression++) {
+        char title[64];
+        snprintf(title, sizeof title, "%s_%d", name, compression);
+        file->data[at + sizeof attribute] = (unsigned char)compression;
+        put(title, file->data, file->size);
+    }
+}
+
+static void put_exr(const char *name, int width, int height, int alpha, int half)
+{
+    render_image image;
+    render_bytes bytes = {0};
+    const render_write_options options = {.half = half};
+    FUZZ_CHECK(render_image_create(width, height, alpha, &image, NULL) == HNBRDF_OK);
+    for (int i = 0; i < 3 * width * height; i++)
+        image.rgb[i] = (float)(i % 11) / 4.0f;
+    if (render_exr_encode(&image, &options, &bytes, NULL) == HNBRDF_OK)
+        put_compressions(name, &bytes);
+    else
+        put(name, "\x76\x2f\x31\x01", 4); /* built without OpenEXR */
+    free(bytes.data);
+    render_image_free(&image);
+}
+
+static void write_pictures(void)
+{
+    static const char flat[] = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n+Y 1 +X 2\n\x80\x80\x80\x81\x40\x20\x10\x82";
+    static const char runs[] = "#?RGBE\n# a comment\nEXPOSURE=1\n\n-Y 2 +X 8\n"
+                               "\x02\x02\x00\x08\x88\x40\x88\x50\x88\x60\x88\x81"
+                               "\x02\x02\x00\x08\x04\x01\x02\x03\x04\x84\x07\x88\x50\x88\x60\x88\x81";
+    target = "exr";
+    put_exr("half", 4, 2, 0, 1);
+    put_exr("float_alpha", 3, 18, 1, 0);
+    put_exr("line", 5, 1, 0, 0);
+    target = "radiance";
+    put("flat", flat, sizeof flat - 1);
+    put("runs", runs, sizeof runs - 1);
+}
+
+/* ---- The rest ------------------------------------------------------------------------------------ */
+
+static void write_pairs(void)
+{
+    target = "csv";
+    put_text("builtin", " 0,0,1,0.6,0,0.8\r\n0.6,0,0.8,0,0,1\n");
+    put_text("header", " \xef\xbb\xbfwo_z,\"wo_y\",wo_x, wi_z ,wi_y,wi_x,note\n1,0,0,1,0,0,\"a \"\"b\"\"\"\n\n");
+    put_text("material", "\1wi_x,wi_y,wi_z,wo_x,wo_y,wo_z,material\n0,0,1,0,0,1,a\n0,0,1,1e-3,0,1,\"b, \"\"c\"\"\"\n");
+    put_text("named", "\3" "0,0,1,-.5,+0.5,7.0710678E-1\n");
+}
+
+static void write_texels(void)
+{
+    unsigned char bytes[96];
+    target = "texels";
+    for (size_t i = 0; i < sizeof bytes; i++)
+        bytes[i] = (unsigned char)(37 * i);
+    bytes[0] = 2 | 4 | 8; /* half floats, all fields */
+    bytes[1] = 5;
+    put("half", bytes, sizeof bytes);
+    bytes[0] = 1 | 2 | 16; /* bytes, isotropic */
+    bytes[1] = 1;
+    put("bytes", bytes, sizeof bytes);
+}
+
+/* As fuzz_checkpoint.c has it: 5 numbers, 2 materials, 4 tiles each; after magic and fingerprint. */
+static void write_checkpoint(void)
+{
+    unsigned char bytes[16 + 3 * 8 + 2 * 8 + 3 * 5 * 4 + 4 * 4] = {0};
+    target = "checkpoint";
+    put_double(bytes + 16, 0.5);
+    put_double(bytes + 24, 0.06);
+    put_double(bytes + 32, 0.3);
+    put_le(bytes + 40, 100, 8);
+    put_le(bytes + 60 + 60, 1, 4);
+    for (int i = 0; i < 15; i++)
+        put_float(bytes + 56 + 4 * i, 0.25f);
+    put("half_way", bytes, sizeof bytes);
+}
+
+int main(int argc, char **argv)
+{
+    FUZZ_CHECK(argc == 2);
+    directory = argv[1];
+    mkdir(directory, 0777);
+    write_models();
+    write_shaders();
+    write_measured();
+    write_pictures();
+    write_pairs();
+    write_texels();
+    write_checkpoint();
+    return 0;
+}

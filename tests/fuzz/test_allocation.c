@@ -1,0 +1,328 @@
+/* test_allocation.c: whichever allocation of a call fails, first, second and so on up to the last, the call says
+ * HNBRDF_ERROR_MEMORY in one line, leaves its result alone and leaks nothing. */
+#include "failing_malloc.h"
+#include "measured_support.h"
+
+#include "hnbrdf/fit.h"
+#include "hnbrdf/metrics.h"
+#include "render/environment.h"
+
+#include <unistd.h>
+#ifdef HNBRDF_WITH_OPENEXR
+#include <openexr.h>
+#endif
+
+static const char MODEL[] = HNBRDF_EXAMPLE_MODEL;
+enum { MOST_SITES = 200 };
+
+/* Does its work once and frees what it made. */
+typedef hnbrdf_result (*job)(const void *with, hnbrdf_error *error);
+
+/* Runs it with allocation 0, 1, 2 ... failing until none is left to fail; there must be `least` sites. */
+static void survive(job work, const void *with, long least)
+{
+    long sites = 0, alive = 0;
+    for (;; sites++) {
+        hnbrdf_error error = {""};
+        failing_malloc_begin(sites);
+        const hnbrdf_result result = work(with, &error);
+        const long calls = failing_malloc_end(&alive);
+        if (alive != 0)
+            fail_msg("allocation %ld fails: %ld blocks leak", sites, alive);
+        if (calls <= sites) {
+            assert_int_equal(result, HNBRDF_OK);
+            break;
+        }
+        if (result == HNBRDF_OK && failing_malloc_was_foreign())
+            continue; /* OpenEXR can go on without some; the job checks what comes out */
+        if (result != HNBRDF_ERROR_MEMORY || strlen(error.text) < 10)
+            fail_msg("allocation %ld fails: result %d \"%s\"", sites, (int)result, error.text);
+        assert_true(sites < MOST_SITES);
+    }
+    if (sites < least)
+        fail_msg("%ld allocations, expected at least %ld", sites, least);
+}
+
+static int count_bytes(void *user, const void *data, size_t size)
+{
+    (void)data;
+    *(size_t *)user += size;
+    return 0;
+}
+
+/* ---- Models -------------------------------------------------------------------------------------- */
+
+/* Loads a file, describes it and makes the same again, saves and exports that. */
+static hnbrdf_result use_model(const void *with, hnbrdf_error *error)
+{
+    const char *path = with;
+    hnbrdf_model *model = NULL, *made = NULL;
+    hnbrdf_model_desc desc;
+    size_t count = 0;
+    hnbrdf_result result = hnbrdf_model_load(MODEL, NULL, &model, error);
+    assert_int_equal(result == HNBRDF_OK, model != NULL);
+    if (!result) {
+        hnbrdf_model_describe(model, &desc);
+        result = hnbrdf_model_create(&desc, NULL, &made, error);
+        assert_int_equal(result == HNBRDF_OK, made != NULL);
+    }
+    if (!result)
+        result = hnbrdf_model_save(made, path, error);
+    for (int style = 0; !result && style < 3; style++) {
+        const hnbrdf_glsl_options options = {.standalone = 1, .weights = (hnbrdf_glsl_weights)style};
+        result = hnbrdf_export_glsl(made, &options, count_bytes, &count, error);
+        if (!result)
+            result = hnbrdf_export_weights(made, &options, count_bytes, &count, error);
+    }
+    hnbrdf_model_free(model);
+    hnbrdf_model_free(made);
+    return result;
+}
+
+static void models_survive(void **state)
+{
+    char path[] = "/tmp/hnbrdf_allocation_XXXXXX";
+    int descriptor = mkstemp(path);
+    (void)state;
+    assert_true(descriptor >= 0);
+    close(descriptor);
+    survive(use_model, path, 6);
+    remove(path);
+}
+
+static hnbrdf_result import_shader(const void *with, hnbrdf_error *error)
+{
+    static char text[1 << 16];
+    const char *texts[] = {text}, *names[] = {"a"};
+    hnbrdf_model *model = NULL;
+    if (!text[0]) {
+        FILE *file = fopen(with, "rb");
+        assert_non_null(file);
+        assert_true(fread(text, 1, sizeof text - 1, file) > 0);
+        fclose(file);
+    }
+    const size_t sizes[] = {strlen(text)};
+    const hnbrdf_result result = hnbrdf_model_import_brdf(texts, sizes, names, 1, NULL, &model, error);
+    hnbrdf_model_free(model);
+    return result;
+}
+
+static void imports_survive(void **state)
+{
+    (void)state;
+    survive(import_shader, HNBRDF_TEST_DATA "/sample_plain.brdf", 2);
+}
+
+/* ---- Measurements -------------------------------------------------------------------------------- */
+
+typedef struct measured_file {
+    test_bytes bytes;
+    const char *path; /* opened if there are no bytes */
+    hnbrdf_measured_options options;
+} measured_file;
+
+static hnbrdf_result open_measured(const void *with, hnbrdf_error *error)
+{
+    const measured_file *file = with;
+    hnbrdf_measured *measured = NULL;
+    const hnbrdf_result result =
+        file->bytes.data ? hnbrdf_measured_open_memory(file->bytes.data, file->bytes.size, file->path,
+                                                       &file->options, &measured, error)
+                         : hnbrdf_measured_open(file->path, &file->options, &measured, error);
+    assert_int_equal(result == HNBRDF_OK, measured != NULL);
+    hnbrdf_measured_close(measured);
+    return result;
+}
+
+static void rgl_files_survive(void **state)
+{
+    (void)state;
+    measured_file files[] = {{test_rgl(TEST_ISOTROPIC), "a.bsdf", {0}},
+                             {test_rgl(TEST_WHOLE), "a.bsdf", {0}},
+                             {test_rgl_spectral(1), "a.bsdf", {.rgl_spectra = 1}},
+                             {test_rgl_spectral(0), "a.bsdf", {0}}};
+    for (size_t i = 0; i < sizeof files / sizeof files[0]; i++) {
+        survive(open_measured, &files[i], 10);
+        free(files[i].bytes.data);
+    }
+}
+
+static void tables_survive(void **state)
+{
+    const size_t merl = 12 + (size_t)90 * 90 * 180 * 24, utia = (size_t)3 * 288 * 288 * 8;
+    char path[] = "/tmp/hnbrdf_allocation_XXXXXX";
+    unsigned char *zeros = calloc(1, merl);
+    (void)state;
+    assert_non_null(zeros);
+    memcpy(zeros, "\132\0\0\0\132\0\0\0\264\0\0\0", 12);
+    measured_file table = {{zeros, merl}, "a.binary", {.merl_identify = 0}};
+    survive(open_measured, &table, 2);
+    int descriptor = mkstemp(path); /* read from a file: a buffer that grows */
+    assert_true(descriptor >= 0);
+    assert_true(write(descriptor, zeros, merl) == (ssize_t)merl);
+    close(descriptor);
+    measured_file from_file = {{NULL, 0}, path, {0}};
+    survive(open_measured, &from_file, 7);
+    remove(path);
+    memset(zeros, 0, 12);
+    table = (measured_file){{zeros, utia}, "a.bin", {0}};
+    survive(open_measured, &table, 2);
+    free(zeros);
+}
+
+static int give_one(const void *user, const float wi[3], const float wo[3], float f[3])
+{
+    (void)user, (void)wi, (void)wo;
+    f[0] = f[1] = f[2] = 1.0f;
+    return 1;
+}
+
+static hnbrdf_result open_others(const void *with, hnbrdf_error *error)
+{
+    const hnbrdf_measured_custom custom = {.name = "one", .eval = give_one};
+    hnbrdf_measured *builtin = NULL, *made = NULL;
+    (void)with;
+    hnbrdf_result result = hnbrdf_measured_open_builtin(0, &builtin, error);
+    if (!result)
+        result = hnbrdf_measured_create_custom(&custom, &made, error);
+    hnbrdf_measured_close(builtin);
+    hnbrdf_measured_close(made);
+    return result;
+}
+
+static void built_in_and_custom_materials_survive(void **state)
+{
+    (void)state;
+    survive(open_others, NULL, 3);
+}
+
+/* ---- Fitting ------------------------------------------------------------------------------------- */
+
+typedef struct fit_case {
+    hnbrdf_measured *data[2];
+    hnbrdf_fit_options options;
+} fit_case;
+
+static hnbrdf_result fit(const void *with, hnbrdf_error *error)
+{
+    const fit_case *c = with;
+    hnbrdf_model *model = NULL;
+    const hnbrdf_result result =
+        hnbrdf_fit((const hnbrdf_measured *const *)c->data, 2, &c->options, &model, NULL, error);
+    assert_int_equal(result == HNBRDF_OK, model != NULL);
+    hnbrdf_model_free(model);
+    return result;
+}
+
+static int stop(void *user, const hnbrdf_fit_progress *progress)
+{
+    (void)user;
+    return progress->step > 0;
+}
+
+/* Materials are given so that no GGX fit takes its time; one case stops at a step and so writes a checkpoint,
+ * the next goes on from one. */
+static void fits_survive(void **state)
+{
+    char path[] = "/tmp/hnbrdf_allocation_XXXXXX";
+    hnbrdf_material materials[2];
+    hnbrdf_model *frozen = NULL;
+    int descriptor = mkstemp(path);
+    (void)state;
+    assert_true(descriptor >= 0);
+    close(descriptor);
+    hnbrdf_material_init(&materials[0]);
+    hnbrdf_material_init(&materials[1]);
+    fit_case c = {{NULL, NULL},
+                  {.hidden = 4, .layers = 1, .latent = 2, .steps = 150, .batch = 1024, .pool = 1024,
+                   .threads = 2, .materials = materials}};
+    assert_int_equal(hnbrdf_measured_open_builtin(2, &c.data[0], NULL), HNBRDF_OK);
+    assert_int_equal(hnbrdf_measured_open_builtin(9, &c.data[1], NULL), HNBRDF_OK);
+    c.options.checkpoint = path;
+    c.options.progress = stop;
+    survive(fit, &c, 18);
+    c.options.progress = NULL;
+    c.options.resume = 1;
+    survive(fit, &c, 18);
+    c.options.checkpoint = NULL;
+    c.options.resume = 0;
+    c.options.steps = 1;
+    c.options.threads = 1;
+    c.options.kind = HNBRDF_KIND_NEURAL;
+    survive(fit, &c, 18);
+    c.options.kind = HNBRDF_KIND_GGX;
+    survive(fit, &c, 15);
+    c.options.kind = HNBRDF_KIND_HYBRID;
+    assert_int_equal(hnbrdf_model_load(MODEL, NULL, &frozen, NULL), HNBRDF_OK);
+    c.options.freeze = frozen;
+    survive(fit, &c, 18);
+    hnbrdf_model_free(frozen);
+    hnbrdf_measured_close(c.data[0]);
+    hnbrdf_measured_close(c.data[1]);
+    remove(path);
+}
+
+/* ---- Pictures ------------------------------------------------------------------------------------ */
+
+/* A picture to a file and back, and light of it. `with` is the file's path. */
+static hnbrdf_result use_picture(const void *with, hnbrdf_error *error)
+{
+    const char *path = with;
+    render_image image = {0}, back = {0};
+    render_environment environment = {0};
+    hnbrdf_result result = render_image_create(20, 20, 1, &image, error);
+    for (int i = 0; !result && i < 3 * 20 * 20; i++)
+        image.rgb[i] = (float)(i % 5);
+    if (!result)
+        result = render_image_write(&image, path, NULL, error);
+    if (!result && render_has_extension(path, ".exr"))
+        result = render_image_read(path, NULL, &back, error);
+    if (!result && back.rgb) {
+        assert_memory_equal(back.rgb, image.rgb, sizeof(float) * 3 * 20 * 20);
+        result = render_environment_create(&back, 0.0, path, &environment, error);
+    }
+    render_image_free(&image);
+    render_image_free(&back);
+    render_environment_free(&environment);
+    return result;
+}
+
+static hnbrdf_result decode_radiance(const void *with, hnbrdf_error *error)
+{
+    static const char flat[] = "#?RGBE\n\n-Y 1 +X 2\n\x80\x80\x80\x81\x40\x20\x10\x82";
+    render_image image = {0};
+    (void)with;
+    const hnbrdf_result result =
+        render_radiance_decode(flat, sizeof flat - 1, "x.hdr", NULL, &image, error);
+    render_image_free(&image);
+    return result;
+}
+
+static void pictures_survive(void **state)
+{
+    char directory[] = "/tmp/hnbrdf_allocation_XXXXXX", path[64];
+    (void)state;
+    assert_non_null(mkdtemp(directory));
+    snprintf(path, sizeof path, "%s/a.png", directory);
+    survive(use_picture, path, 4);
+    remove(path);
+#ifdef HNBRDF_WITH_OPENEXR
+    exr_set_default_memory_routines(failing_malloc, failing_free);
+    snprintf(path, sizeof path, "%s/a.exr", directory);
+    survive(use_picture, path, 10);
+    remove(path);
+#endif
+    survive(decode_radiance, NULL, 2);
+    assert_int_equal(rmdir(directory), 0); /* nothing was left beside the files */
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(models_survive),    cmocka_unit_test(imports_survive),
+        cmocka_unit_test(rgl_files_survive), cmocka_unit_test(tables_survive),
+        cmocka_unit_test(built_in_and_custom_materials_survive),
+        cmocka_unit_test(fits_survive),      cmocka_unit_test(pictures_survive),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
