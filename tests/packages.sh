@@ -9,6 +9,10 @@ demo) ;;
 tests)
     wanted="$wanted g++ clang libcmocka-dev vulkan-validationlayers spirv-cross"
     wanted="$wanted gcc-aarch64-linux-gnu libc6-dev-arm64-cross qemu-user-static"
+    # libFuzzer and the sanitizers of clang; the package carries the version of the clang that is installed or
+    # will be. Without it clang fuzzes nothing.
+    clang=$(clang -dumpversion 2> /dev/null || apt-cache depends clang 2> /dev/null | sed -n 's/.*Depends: clang-//p')
+    [ -z "$clang" ] || wanted="$wanted libclang-rt-${clang%%.*}-dev"
     ;;
 *)
     echo "usage: sh $0 demo|tests" >&2

@@ -1,14 +1,14 @@
 #!/bin/sh
 # run.sh: everything that must hold before a change is accepted. Installs what is missing, builds with gcc and
-# clang without a warning, with parts left out, and with sanitizers, and runs the tests, those of the release
-# build last. Stops at the first failure.
+# clang without a warning, with parts left out, and with sanitizers, fuzzes the readers for a moment, and runs the
+# tests, those of the release build last. Stops at the first failure.
 set -eu
 cd "$(dirname "$0")/.."
 jobs=$(getconf _NPROCESSORS_ONLN 2> /dev/null || echo 2)
 start=$(date +%s)
 everything="-DHNBRDF_BUILD_FIT=ON -DHNBRDF_BUILD_CLI=ON -DHNBRDF_BUILD_TESTS=ON -DHNBRDF_BUILD_EXAMPLES=ON
     -DHNBRDF_WITH_OPENEXR=ON -DHNBRDF_WITH_VULKAN=ON -DHNBRDF_WERROR=ON"
-steps=5 step=0
+steps=6 step=0
 
 announce() {
     step=$((step + 1))
@@ -52,6 +52,10 @@ announce "AddressSanitizer and UndefinedBehaviorSanitizer"
 build gcc build/sanitize -DCMAKE_BUILD_TYPE=RelWithDebInfo -DHNBRDF_SANITIZE=ON
 UBSAN_OPTIONS=print_stacktrace=1 ctest --test-dir build/sanitize -j "$jobs" --output-on-failure ||
     fail "tests under sanitizers"
+
+seconds=${HNBRDF_FUZZ_SECONDS:-3}
+announce "fuzzing every reader for $seconds s (HNBRDF_FUZZ_SECONDS)"
+HNBRDF_FUZZ_JOBS=$jobs sh tests/fuzz/run.sh "$seconds" || fail "fuzzing"
 
 announce "release build with gcc, warnings are errors"
 build gcc build -DCMAKE_BUILD_TYPE=Release

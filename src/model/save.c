@@ -7,6 +7,9 @@
 
 #include <stdio.h>
 #include <string.h>
+#if defined(__unix__) || defined(__APPLE__)
+#include <sys/stat.h>
+#endif
 
 /* ---- Bytes on their way ------------------------------------------------------------------------ */
 
@@ -211,7 +214,19 @@ static int write_stream(void *user, const void *data, size_t size)
     return fwrite(data, 1, size, user) != size;
 }
 
-/* Writes `aside` and moves it to `path`; leaves no `aside` behind. */
+/* Existing pipes and devices, /dev/null for one, must not be replaced by a file. */
+static int is_written_directly(const char *path)
+{
+#if defined(__unix__) || defined(__APPLE__)
+    struct stat status;
+    return stat(path, &status) == 0 && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode);
+#else
+    (void)path;
+    return 0;
+#endif
+}
+
+/* Writes `aside` and, where that is another file, moves it to `path` or leaves nothing behind. */
 static hnbrdf_result save_aside(const hnbrdf_model *model, const char *path, const char *aside,
                                 hnbrdf_error *error)
 {
@@ -224,10 +239,10 @@ static hnbrdf_result save_aside(const hnbrdf_model *model, const char *path, con
     if (result || !closed) {
         result = hnbrdf_fail(error, HNBRDF_ERROR_IO,
                              "%s: cannot be written, expected room for a model file", aside);
-    } else if (rename(aside, path) != 0) {
+    } else if (strcmp(aside, path) != 0 && rename(aside, path) != 0) {
         result = hnbrdf_fail(error, HNBRDF_ERROR_IO, "%s: cannot be renamed to %s", aside, path);
     }
-    if (result) {
+    if (result && strcmp(aside, path) != 0) {
         remove(aside);
     }
     return result;
@@ -238,6 +253,9 @@ hnbrdf_result hnbrdf_model_save(const hnbrdf_model *model, const char *path, hnb
     static const char SUFFIX[] = ".tmp";
     if (!model || !path) {
         return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT, "%s is NULL", model ? "path" : "model");
+    }
+    if (is_written_directly(path)) {
+        return save_aside(model, path, path, error);
     }
     const size_t length = strlen(path), size = length + sizeof SUFFIX;
     char *aside = hnbrdf_allocate(&model->allocator, size);
