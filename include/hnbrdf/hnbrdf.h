@@ -208,7 +208,8 @@ typedef int (*hnbrdf_write_fn)(void *user, const void *data, size_t size);
 /* Zero-initialise for defaults. */
 typedef struct hnbrdf_load_options {
     hnbrdf_allocator allocator;
-    size_t max_bytes;      /* refuse larger input; 0 stands for 256 MiB */
+    size_t max_bytes;      /* refuse larger input; 0 stands for 256 MiB. Whatever a file claims of itself, no block
+                              asked for while loading is larger than 16 times the input and 200000 bytes */
     hnbrdf_read_fn read;   /* if set, bytes come from here and `path` is only a name for messages */
     void *read_user;
     hnbrdf_variant variant;
@@ -236,7 +237,8 @@ HNBRDF_API hnbrdf_result hnbrdf_model_write(const hnbrdf_model *model, hnbrdf_wr
                                             void *user, hnbrdf_error *error);
 
 /* Import published BRDF-Explorer .brdf shaders of this method: every text carries one material and
- * the same network, which is checked. names[i] becomes the material's name. */
+ * the same network, which is checked. names[i] becomes the material's name. 1 to HNBRDF_MAX_MATERIALS texts
+ * of any size; memory depends on their number alone. */
 HNBRDF_API hnbrdf_result hnbrdf_model_import_brdf(const char *const *texts, const size_t *sizes,
                                                   const char *const *names, int count,
                                                   const hnbrdf_allocator *allocator,

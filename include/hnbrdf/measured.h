@@ -57,7 +57,8 @@ typedef enum hnbrdf_utia_mode {
 
 /* Zero-initialise for defaults. A value outside its range is HNBRDF_ERROR_ARGUMENT on opening. */
 typedef struct hnbrdf_measured_options {
-    size_t max_bytes; /* refuse larger files; 0 stands for 1 GiB */
+    size_t max_bytes; /* refuse larger files; 0 stands for 1 GiB. Whatever a file claims of itself, opening takes at
+                         most 20 times its size in memory (RGL as published: about 4 times) */
     hnbrdf_merl_lookup merl_lookup;
     hnbrdf_merl_node merl_node;
     int merl_identify; /* 1: compare the SHA-256 of a MERL file with the published ones, see

@@ -39,6 +39,7 @@ typedef struct eval_job {
     int material; /* of a model, when no column names it */
     csv_reader in;
     FILE *out;
+    const char *out_name;
     int fields;                    /* expected in every line */
     int columns[COLUMNS];          /* where each is among the fields, -1: nowhere */
     long not_unit, first_not_unit; /* lines with directions that are no unit vectors */
@@ -125,15 +126,16 @@ static int evaluate(eval_job *job, const float pair[6], float f[3])
     return CLI_OK;
 }
 
-static int write_value(FILE *file, const float f[3])
+static int write_value(const eval_job *job, const float f[3])
 {
+    FILE *file = job->out;
     for (int channel = 0; channel < 3; channel++) {
         char text[HNBRDF_NUMBER_TEXT];
         hnbrdf_format_float(text, sizeof text, f[channel]);
         fputs(text, file);
         putc(channel < 2 ? ',' : '\n', file);
     }
-    return ferror(file) ? cli_fail("cannot write: %s", strerror(errno)) : CLI_OK;
+    return ferror(file) ? cli_fail("%s: cannot write: %s", job->out_name, strerror(errno)) : CLI_OK;
 }
 
 static int evaluate_line(eval_job *job)
@@ -143,7 +145,7 @@ static int evaluate_line(eval_job *job)
         return CLI_FAILURE;
     note_length(job, pair);
     note_length(job, pair + 3);
-    return write_value(job->out, f);
+    return write_value(job, f);
 }
 
 static int evaluate_lines(eval_job *job)
@@ -179,6 +181,7 @@ static int run(eval_job *job, const char *in, const char *out)
     int result = cli_output_open(out, &output);
     if (result == CLI_OK) {
         job->out = output.file;
+        job->out_name = out;
         result = evaluate_lines(job);
         if (result == CLI_OK)
             result = cli_output_close(&output);

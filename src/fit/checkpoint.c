@@ -135,8 +135,9 @@ hnbrdf_result hnbrdf_fit_checkpoint_save(const trainer *t, hnbrdf_error *error)
 /* 1 if training could have stood like this: indices that exist, and numbers in range. */
 static int is_sound(const trainer *t, const header *h)
 {
-    int good = h->step >= 0 && h->step < LONG_MAX && h->share >= 0.0 && h->share < 1.0 && h->peak > 0.0 &&
-               h->peak <= DBL_MAX && !isinf(h->running) && h->order_at >= 0 && h->order_at < t->count;
+    int good = h->step >= 0 && h->step < LONG_MAX && h->share >= 0.0 && h->share < 1.0 &&
+               h->peak > 0.0 && h->peak <= DBL_MAX && !isinf(h->running) && h->order_at >= 0 &&
+               h->order_at < t->count;
     for (int m = 0; m < t->count; m++)
         good &= t->order[m] >= 0 && t->order[m] < t->count && t->cursor[m] >= 0 &&
                 t->cursor[m] < t->pool.tiles;
@@ -165,8 +166,9 @@ hnbrdf_result hnbrdf_fit_checkpoint_load(trainer *t, hnbrdf_error *error)
         result = hnbrdf_fail(error, HNBRDF_ERROR_FORMAT,
                              "%s: the checkpoint is damaged: its size is wrong", path);
     else if (!is_sound(t, &h))
-        result = hnbrdf_fail(error, HNBRDF_ERROR_FORMAT,
-                             "%s: the checkpoint is damaged: it holds numbers that no training has", path);
+        result =
+            hnbrdf_fail(error, HNBRDF_ERROR_FORMAT,
+                        "%s: the checkpoint is damaged: it holds numbers that no training has", path);
     fclose(file);
     if (result)
         return result;

@@ -34,8 +34,8 @@ hnbrdf_result render_exr_decode(const void *data, size_t size, const char *name,
 
 #include <openexr.h>
 
-/* Bytes of the largest block of lines or tile that is decoded at once, per pixel that a picture may have, and
- * the most channels of a file. */
+/* Bytes of the largest block of lines or tile that is decoded at once, per pixel that a picture may
+ * have, and the most channels of a file. */
 enum { MAX_CHUNK_SHARE = 16, MAX_CHANNELS = 64 };
 
 int render_has_exr(void)
@@ -52,15 +52,15 @@ typedef struct exr_memory {
     char message[160];
 } exr_memory;
 
-/* Of the call under way. The library may hold its lock while it reports, and would wait for itself if it were
- * asked for its user data then. */
+/* Of the call under way. The library may hold its lock while it reports, and would wait for itself if
+ * it were asked for its user data then. */
 static _Thread_local exr_memory *reporting;
 
 static void keep_message(exr_const_context_t context, exr_result_t code, const char *text)
 {
     (void)context;
     if (reporting && code == EXR_ERR_OUT_OF_MEMORY)
-        reporting->out_of_memory = 1; /* what is returned in the end may be another error */
+        reporting->out_of_memory = 1;        /* what is returned in the end may be another error */
     if (reporting && !reporting->message[0]) /* the first one names the cause */
         snprintf(reporting->message, sizeof reporting->message, "%s", text ? text : "");
 }
@@ -339,8 +339,7 @@ static hnbrdf_result check_size(exr_input *in, int *width, int *height)
                            "%s: deep data: expected a flat picture", in->name);
     int64_t w = (int64_t)in->window.max.x - in->window.min.x + 1;
     int64_t h = (int64_t)in->window.max.y - in->window.min.y + 1;
-    if (w < 1 || h < 1 || w > RENDER_MAX_SIDE || h > RENDER_MAX_SIDE ||
-        w * h > (int64_t)in->max_pixels)
+    if (w < 1 || h < 1 || w > RENDER_MAX_SIDE || h > RENDER_MAX_SIDE || w * h > (int64_t)in->max_pixels)
         return hnbrdf_fail(
             in->error, HNBRDF_ERROR_LIMIT,
             "%s: data window of %lld x %lld: expected sides of 1 to %d and at most %zu pixels",
@@ -483,7 +482,8 @@ hnbrdf_result render_exr_decode(const void *data, size_t size, const char *name,
                     .error = error,
                     .max_pixels = render_limits_settle(limits).max_pixels};
     const exr_result_t started = exr_start_read(&in.context, "memory", &init);
-    hnbrdf_result result = started == EXR_ERR_SUCCESS ? read_image(&in, image) : library_error(&in, started);
+    hnbrdf_result result =
+        started == EXR_ERR_SUCCESS ? read_image(&in, image) : library_error(&in, started);
     if (started == EXR_ERR_SUCCESS)
         exr_finish(&in.context);
     reporting = NULL;

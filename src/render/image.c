@@ -130,7 +130,8 @@ hnbrdf_result render_image_read(const char *path, const render_limits *limits, r
     if (!file)
         return hnbrdf_fail(error, HNBRDF_ERROR_IO, "%s: cannot be opened: %s", path, strerror(errno));
     render_bytes bytes = {0};
-    hnbrdf_result result = read_stream(file, path, render_limits_settle(limits).max_bytes, &bytes, error);
+    hnbrdf_result result =
+        read_stream(file, path, render_limits_settle(limits).max_bytes, &bytes, error);
     fclose(file);
     if (result == HNBRDF_OK) {
         static const unsigned char exr_magic[4] = {0x76, 0x2f, 0x31, 0x01};

@@ -10,10 +10,10 @@
 #define RENDER_MAX_FILE ((size_t)1 << 30)
 #define RENDER_MAX_LAYERS 16
 
-/* What a picture file may ask for: files that claim more are refused before anything is allocated for them.
- * Zero-initialise for the defaults, and pass NULL for those; more than a default is taken as the default.
- * Memory while reading is at most the file, 32 bytes a pixel, and 16 bytes times max_pixels for one block of
- * compressed lines. */
+/* What a picture file may ask for: files that claim more are refused before anything is allocated for
+ * them. Zero-initialise for the defaults, and pass NULL for those; more than a default is taken as the
+ * default. Memory while reading is at most the file, 32 bytes a pixel, and 16 bytes times max_pixels
+ * for one block of compressed lines. */
 typedef struct render_limits {
     size_t max_bytes;  /* of the file; 0 stands for RENDER_MAX_FILE */
     size_t max_pixels; /* of the picture; 0 stands for RENDER_MAX_PIXELS */

@@ -27,7 +27,8 @@ static double srgb_curve(double linear)
 }
 
 /* The whole file; 0 without memory. rows: [height][width][channels]. */
-static int compress(const render_image *image, const unsigned char *rows, int channels, render_bytes *bytes)
+static int compress(const render_image *image, const unsigned char *rows, int channels,
+                    render_bytes *bytes)
 {
     png_memory memory = {NULL};
     int size;
@@ -36,8 +37,8 @@ static int compress(const render_image *image, const unsigned char *rows, int ch
         png_current = NULL;
         return 0;
     }
-    unsigned char *file = stbi_write_png_to_mem(rows, image->width * channels, image->width, image->height,
-                                                channels, &size);
+    unsigned char *file = stbi_write_png_to_mem(rows, image->width * channels, image->width,
+                                                image->height, channels, &size);
     const int done = render_bytes_put(bytes, 0, file, (size_t)size) == 0;
     png_free(file);
     png_current = NULL;

@@ -1,5 +1,6 @@
-/* png_memory.h: memory for stb_image_write, which writes through what malloc returned without looking: when there
- * is no more, everything it holds is freed and control leaves it by longjmp. For png.c alone. */
+/* png_memory.h: memory for stb_image_write, which writes through what malloc returned without looking:
+ * when there is no more, everything it holds is freed and control leaves it by longjmp. For png.c
+ * alone. */
 #ifndef HNBRDF_RENDER_PNG_MEMORY_H
 #define HNBRDF_RENDER_PNG_MEMORY_H
 

@@ -1,4 +1,5 @@
-/* failing_malloc.h: malloc and its kin under test: they count, and fail on demand. The program is linked with
+/* failing_malloc.h: malloc and its kin under test: they count, and fail on demand. The program is
+ * linked with
  * --wrap for the four, which reaches every call from this project's code. */
 #ifndef HNBRDF_TESTS_FAILING_MALLOC_H
 #define HNBRDF_TESTS_FAILING_MALLOC_H

@@ -1,5 +1,5 @@
-/* fuzz_checkpoint.c: the bytes are the state of a fit to go on from, after the fingerprint, which would else
- * refuse them all. What is taken is a state that training can stand in. */
+/* fuzz_checkpoint.c: the bytes are the state of a fit to go on from, after the fingerprint, which would
+ * else refuse them all. What is taken is a state that training can stand in. */
 #include "fuzz.h"
 
 #include "fit/trainer.h"
@@ -59,7 +59,8 @@ static void check_state(const trainer *t)
     for (int i = 0; i < 3 * NUMBERS; i++)
         FUZZ_CHECK(isfinite(t->parameters[i]));
     for (int m = 0; m < MATERIALS; m++)
-        FUZZ_CHECK(t->order[m] >= 0 && t->order[m] < MATERIALS && t->cursor[m] >= 0 && t->cursor[m] < TILES);
+        FUZZ_CHECK(t->order[m] >= 0 && t->order[m] < MATERIALS && t->cursor[m] >= 0 &&
+                   t->cursor[m] < TILES);
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)

@@ -1,5 +1,5 @@
-/* fuzz_csv.c: after a byte that says of what, the bytes are what `hnbrdf eval` reads: pairs of directions as
- * CSV. The whole command runs, on files in memory. */
+/* fuzz_csv.c: after a byte that says of what, the bytes are what `hnbrdf eval` reads: pairs of
+ * directions as CSV. The whole command runs, on files in memory. */
 #include "fuzz.h"
 
 #include "cli/cli.h"
@@ -50,8 +50,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     FUZZ_CHECK(pwrite(in, data + 1, size - 1, 0) == (ssize_t)(size - 1));
     char eval[] = "eval", builtin[] = "builtin:rough-clay", input[] = "-i", output[] = "-o";
     char nowhere[] = "/dev/null", material[] = "-m", name[] = "a";
-    char *arguments[] = {eval,   data[0] & 1 ? model_path : builtin, input, in_path,
-                         output, nowhere,                            NULL,  NULL, NULL};
+    char *arguments[] = {
+        eval, data[0] & 1 ? model_path : builtin, input, in_path, output, nowhere, NULL, NULL, NULL};
     const int named = data[0] & 1 && data[0] & 2;
     arguments[6] = named ? material : NULL;
     arguments[7] = named ? name : NULL;

@@ -5,7 +5,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     render_image image = {0};
     hnbrdf_error error = {""};
-    const hnbrdf_result result = render_exr_decode(data, size, "picture.exr", &fuzz_limits, &image, &error);
+    const hnbrdf_result result =
+        render_exr_decode(data, size, "picture.exr", &fuzz_limits, &image, &error);
     fuzz_environment(result, &image, &error);
     return 0;
 }

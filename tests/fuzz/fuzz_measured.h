@@ -6,13 +6,15 @@
 
 #include "hnbrdf/measured.h"
 
-/* The bytes at `data` opened under the name `path`; what opens gives values within the promised range. */
+/* The bytes at `data` opened under the name `path`; what opens gives values within the promised range.
+ */
 static inline void fuzz_measured(const uint8_t *data, size_t size, const char *path,
                                  const hnbrdf_measured_options *options)
 {
     hnbrdf_measured *measured = NULL;
     hnbrdf_error error = {""};
-    const hnbrdf_result result = hnbrdf_measured_open_memory(data, size, path, options, &measured, &error);
+    const hnbrdf_result result =
+        hnbrdf_measured_open_memory(data, size, path, options, &measured, &error);
     FUZZ_CHECK((result == HNBRDF_OK) == (measured != NULL));
     if (result) {
         fuzz_check_refusal(result, &error);

@@ -1,6 +1,7 @@
-/* fuzz_merl.c: the bytes are a MERL .binary file as they stand, and, where a whole header of the right sizes
- * is there, one of full size: a byte of options, then records of 12 bytes, each a place and a double that
- * replaces the sample there. A full table takes tens of milliseconds, so most of the search is cheap. */
+/* fuzz_merl.c: the bytes are a MERL .binary file as they stand, and, where a whole header of the right
+ * sizes is there, one of full size: a byte of options, then records of 12 bytes, each a place and a
+ * double that replaces the sample there. A full table takes tens of milliseconds, so most of the search
+ * is cheap. */
 #include "fuzz_measured.h"
 
 enum { BINS = 90 * 90 * 180, HEADER = 12, RECORD = 12, MOST_RECORDS = 64 };
@@ -28,7 +29,8 @@ static unsigned char *make_table(void)
 /* Where record r goes; bins near the fixed pairs of fuzz_pair() are as likely as any. */
 static unsigned char *place(unsigned char *table, const uint8_t *record)
 {
-    const size_t at = record[0] | (size_t)record[1] << 8 | (size_t)record[2] << 16 | (size_t)record[3] << 24;
+    const size_t at =
+        record[0] | (size_t)record[1] << 8 | (size_t)record[2] << 16 | (size_t)record[3] << 24;
     return table + HEADER + 8 * (at % (3 * (size_t)BINS));
 }
 

@@ -1,5 +1,5 @@
-/* fuzz_safetensors.c: the bytes are a model file. What loads is sound: it evaluates, exports, and saved and
- * loaded again it is the same. */
+/* fuzz_safetensors.c: the bytes are a model file. What loads is sound: it evaluates, exports, and saved
+ * and loaded again it is the same. */
 #include "fuzz.h"
 
 /* Largest block asked for while loading. */

@@ -1,12 +1,14 @@
 /* fuzz_utia.c: the bytes are a UTIA .bin file as they stand, and patches of one of full size: a byte of
- * options, a float for utia_scale, then records of 12 bytes, each a place and a double for the sample there. */
+ * options, a float for utia_scale, then records of 12 bytes, each a place and a double for the sample
+ * there. */
 #include "fuzz_measured.h"
 
 enum { SAMPLES = 3 * 288 * 288, START = 5, RECORD = 12, MOST_RECORDS = 64 };
 
 static unsigned char *place(unsigned char *table, const uint8_t *record)
 {
-    const size_t at = record[0] | (size_t)record[1] << 8 | (size_t)record[2] << 16 | (size_t)record[3] << 24;
+    const size_t at =
+        record[0] | (size_t)record[1] << 8 | (size_t)record[2] << 16 | (size_t)record[3] << 24;
     return table + 8 * (at % SAMPLES);
 }
 

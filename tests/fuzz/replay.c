@@ -1,5 +1,5 @@
-/* replay.c: runs a fuzz target over files and directories given as arguments, in byte order of their names,
- * with any compiler: what the fuzzer once found must never come back. */
+/* replay.c: runs a fuzz target over files and directories given as arguments, in byte order of their
+ * names, with any compiler: what the fuzzer once found must never come back. */
 #include "fuzz.h"
 
 #include <dirent.h>
@@ -50,7 +50,8 @@ static void replay(const char *path)
     FUZZ_CHECK(count >= 0);
     for (int i = 0; i < count; i++) {
         char name[4096];
-        FUZZ_CHECK((size_t)snprintf(name, sizeof name, "%s/%s", path, entries[i]->d_name) < sizeof name);
+        FUZZ_CHECK((size_t)snprintf(name, sizeof name, "%s/%s", path, entries[i]->d_name) <
+                   sizeof name);
         replay_file(name);
         free(entries[i]);
     }

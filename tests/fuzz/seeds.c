@@ -1,5 +1,5 @@
-/* seeds.c: writes the seed corpora of the fuzz targets, DIRECTORY/TARGET/NAME: small files of each kind that are
- * read without a complaint, made by the library's own writers where it has one. */
+/* seeds.c: writes the seed corpora of the fuzz targets, DIRECTORY/TARGET/NAME: small files of each kind
+ * that are read without a complaint, made by the library's own writers where it has one. */
 #include "fuzz.h"
 
 #include "measured_support.h"
@@ -45,8 +45,11 @@ static void put_model(const char *name, hnbrdf_kind kind, hnbrdf_encoding encodi
     static float numbers[256];
     static const char *const names[2] = {"plain", "with \"quotes\" and \xc3\xa9"};
     hnbrdf_material materials[2];
-    hnbrdf_model_desc desc = {
-        .kind = kind, .encoding = encoding, .material_count = 2, .materials = materials, .names = names};
+    hnbrdf_model_desc desc = {.kind = kind,
+                              .encoding = encoding,
+                              .material_count = 2,
+                              .materials = materials,
+                              .names = names};
     hnbrdf_model *model = NULL;
     for (int i = 0; i < 256; i++)
         numbers[i] = (float)(i % 7 - 3) / 8.0f;
@@ -96,7 +99,8 @@ static void write_shaders(void)
     target = "brdf";
     const size_t first = read_file(HNBRDF_TEST_DATA "/sample_plain.brdf", text, sizeof text / 2);
     put("plain", text, first);
-    const size_t second = read_file(HNBRDF_TEST_DATA "/sample_brushed.brdf", text + first + 1, sizeof text / 2);
+    const size_t second =
+        read_file(HNBRDF_TEST_DATA "/sample_brushed.brdf", text + first + 1, sizeof text / 2);
     put("brushed", text + first + 1, second);
     text[first] = '\0';
     put("both", text, first + 1 + second);
@@ -138,11 +142,12 @@ static void write_measured(void)
 
 /* ---- Pictures ------------------------------------------------------------------------------------ */
 
-/* The file, and as one of every other compression: a block that does not get smaller is stored as it is,
- * whatever the compression. */
+/* The file, and as one of every other compression: a block that does not get smaller is stored as it
+ * is, whatever the compression. */
 static void put_compressions(const char *name, render_bytes *file)
 {
-    static const char attribute[] = "compression\0compression\0\1\0\0"; /* and the NUL is the fourth byte */
+    static const char attribute[] =
+        "compression\0compression\0\1\0\0"; /* and the NUL is the fourth byte */
     size_t at = 0;
     while (memcmp(file->data + at, attribute, sizeof attribute) != 0)
         FUZZ_CHECK(++at + sizeof attribute < file->size);
@@ -172,7 +177,8 @@ static void put_exr(const char *name, int width, int height, int alpha, int half
 
 static void write_pictures(void)
 {
-    static const char flat[] = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n+Y 1 +X 2\n\x80\x80\x80\x81\x40\x20\x10\x82";
+    static const char flat[] =
+        "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n+Y 1 +X 2\n\x80\x80\x80\x81\x40\x20\x10\x82";
     static const char runs[] = "#?RGBE\n# a comment\nEXPOSURE=1\n\n-Y 2 +X 8\n"
                                "\x02\x02\x00\x08\x88\x40\x88\x50\x88\x60\x88\x81"
                                "\x02\x02\x00\x08\x04\x01\x02\x03\x04\x84\x07\x88\x50\x88\x60\x88\x81";
@@ -191,9 +197,13 @@ static void write_pairs(void)
 {
     target = "csv";
     put_text("builtin", " 0,0,1,0.6,0,0.8\r\n0.6,0,0.8,0,0,1\n");
-    put_text("header", " \xef\xbb\xbfwo_z,\"wo_y\",wo_x, wi_z ,wi_y,wi_x,note\n1,0,0,1,0,0,\"a \"\"b\"\"\"\n\n");
-    put_text("material", "\1wi_x,wi_y,wi_z,wo_x,wo_y,wo_z,material\n0,0,1,0,0,1,a\n0,0,1,1e-3,0,1,\"b, \"\"c\"\"\"\n");
-    put_text("named", "\3" "0,0,1,-.5,+0.5,7.0710678E-1\n");
+    put_text("header",
+             " \xef\xbb\xbfwo_z,\"wo_y\",wo_x, wi_z ,wi_y,wi_x,note\n1,0,0,1,0,0,\"a \"\"b\"\"\"\n\n");
+    put_text(
+        "material",
+        "\1wi_x,wi_y,wi_z,wo_x,wo_y,wo_z,material\n0,0,1,0,0,1,a\n0,0,1,1e-3,0,1,\"b, \"\"c\"\"\"\n");
+    put_text("named", "\3"
+                      "0,0,1,-.5,+0.5,7.0710678E-1\n");
 }
 
 static void write_texels(void)

@@ -1,5 +1,5 @@
-/* test_allocation.c: whichever allocation of a call fails, first, second and so on up to the last, the call says
- * HNBRDF_ERROR_MEMORY in one line, leaves its result alone and leaks nothing. */
+/* test_allocation.c: whichever allocation of a call fails, first, second and so on up to the last, the
+ * call says HNBRDF_ERROR_MEMORY in one line, leaves its result alone and leaks nothing. */
 #include "failing_malloc.h"
 #include "measured_support.h"
 
@@ -18,7 +18,8 @@ enum { MOST_SITES = 200 };
 /* Does its work once and frees what it made. */
 typedef hnbrdf_result (*job)(const void *with, hnbrdf_error *error);
 
-/* Runs it with allocation 0, 1, 2 ... failing until none is left to fail; there must be `least` sites. */
+/* Runs it with allocation 0, 1, 2 ... failing until none is left to fail; there must be `least` sites.
+ */
 static void survive(job work, const void *with, long least)
 {
     long sites = 0, alive = 0;
@@ -220,8 +221,8 @@ static int stop(void *user, const hnbrdf_fit_progress *progress)
     return progress->step > 0;
 }
 
-/* Materials are given so that no GGX fit takes its time; one case stops at a step and so writes a checkpoint,
- * the next goes on from one. */
+/* Materials are given so that no GGX fit takes its time; one case stops at a step and so writes a
+ * checkpoint, the next goes on from one. */
 static void fits_survive(void **state)
 {
     char path[] = "/tmp/hnbrdf_allocation_XXXXXX";
@@ -234,8 +235,14 @@ static void fits_survive(void **state)
     hnbrdf_material_init(&materials[0]);
     hnbrdf_material_init(&materials[1]);
     fit_case c = {{NULL, NULL},
-                  {.hidden = 4, .layers = 1, .latent = 2, .steps = 150, .batch = 1024, .pool = 1024,
-                   .threads = 2, .materials = materials}};
+                  {.hidden = 4,
+                   .layers = 1,
+                   .latent = 2,
+                   .steps = 150,
+                   .batch = 1024,
+                   .pool = 1024,
+                   .threads = 2,
+                   .materials = materials}};
     assert_int_equal(hnbrdf_measured_open_builtin(2, &c.data[0], NULL), HNBRDF_OK);
     assert_int_equal(hnbrdf_measured_open_builtin(9, &c.data[1], NULL), HNBRDF_OK);
     c.options.checkpoint = path;
@@ -319,10 +326,13 @@ static void pictures_survive(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(models_survive),    cmocka_unit_test(imports_survive),
-        cmocka_unit_test(rgl_files_survive), cmocka_unit_test(tables_survive),
+        cmocka_unit_test(models_survive),
+        cmocka_unit_test(imports_survive),
+        cmocka_unit_test(rgl_files_survive),
+        cmocka_unit_test(tables_survive),
         cmocka_unit_test(built_in_and_custom_materials_survive),
-        cmocka_unit_test(fits_survive),      cmocka_unit_test(pictures_survive),
+        cmocka_unit_test(fits_survive),
+        cmocka_unit_test(pictures_survive),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,6 +1,7 @@
-/* test_writes.c: files that stop short and disks that are full, at any byte: reading and writing fail in words,
- * and the old file stays as it was, also when the process ends in the middle. The limit on the size of files
- * (RLIMIT_FSIZE) stands for the full disk: it needs no rights, and can be had at every byte. */
+/* test_writes.c: files that stop short and disks that are full, at any byte: reading and writing fail
+ * in words, and the old file stays as it was, also when the process ends in the middle. The limit on
+ * the size of files (RLIMIT_FSIZE) stands for the full disk: it needs no rights, and can be had at
+ * every byte. */
 #include "model_support.h"
 
 #include "render/image.h"
@@ -94,14 +95,16 @@ static hnbrdf_result write_picture(const char *path, int is_new, hnbrdf_error *e
     return result;
 }
 
-static const writer writers[] = {{"a.safetensors", save_model, 1}, {"a.png", write_picture, 61},
+static const writer writers[] = {{"a.safetensors", save_model, 1},
+                                 {"a.png", write_picture, 61},
 #ifdef HNBRDF_WITH_OPENEXR
                                  {"a.exr", write_picture, 211}
 #endif
 };
 enum { WRITERS = sizeof writers / sizeof writers[0] };
 
-/* The path of the writer's file, with the old content, which is also given back; *size that of the new one. */
+/* The path of the writer's file, with the old content, which is also given back; *size that of the new
+ * one. */
 static bytes begin(const writer *w, char path[256], size_t *size)
 {
     snprintf(path, 256, "%s/%s", directory, w->name);
@@ -126,8 +129,8 @@ static void a_full_disk_leaves_the_old_file(void **state)
             const hnbrdf_result result = writers[i].write(path, 1, &error);
             limit_files(RLIM_INFINITY);
             if (result != HNBRDF_ERROR_IO || !strstr(error.text, path))
-                fail_msg("%s: room for %zu of %zu bytes: result %d \"%s\"", path, room, size, (int)result,
-                         error.text);
+                fail_msg("%s: room for %zu of %zu bytes: result %d \"%s\"", path, room, size,
+                         (int)result, error.text);
             assert_file(path, &old);
         }
         limit_files(size);
@@ -220,7 +223,7 @@ static hnbrdf_result write_weights(hnbrdf_write_fn write, void *user, hnbrdf_err
 static void a_callback_may_refuse_at_every_byte(void **state)
 {
     hnbrdf_result (*const all[])(hnbrdf_write_fn, void *, hnbrdf_error *) = {write_model, write_glsl,
-                                                                              write_weights};
+                                                                             write_weights};
     (void)state;
     for (int i = 0; i < 3; i++) {
         const size_t size = total(all[i]);
