@@ -30,8 +30,9 @@ static double srgb_curve(double linear)
 static int compress(const render_image *image, const unsigned char *rows, int channels,
                     render_bytes *bytes)
 {
-    png_memory memory = {NULL};
+    png_memory memory;
     int size;
+    memory.blocks = NULL;
     png_current = &memory;
     if (setjmp(memory.exhausted)) {
         png_current = NULL;
