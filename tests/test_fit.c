@@ -257,7 +257,7 @@ static void learning_rate_100_times_too_large_stays_finite(void **state)
 {
     (void)state;
     hnbrdf_fit_options o = small(HNBRDF_KIND_HYBRID);
-    o.learning_rate = 0.5f;
+    o.learning_rate = 6.0f;
     o.steps = 300;
     hnbrdf_fit_report report;
     hnbrdf_model *model = fit(&o, &report); /* create() refuses a weight that is not finite */
