@@ -228,8 +228,8 @@ int cmd_fit(int argc, char **argv)
         {"pool", 0, CLI_INT, &pool, 64, 1 << 26, "N",
          "direction pairs drawn a material (default 131072)"},
         {"rate", 0, CLI_REAL, &rate, 1e-7, 10, "R",
-         "peak learning rate of Adam (default 0.06; beyond 64 hidden units in all, in inverse "
-         "proportion to them)"},
+         "peak learning rate of Adam (default 0.06; beyond 64 hidden units in all, times "
+         "(64/units)^2)"},
         {"loss", 0, CLI_TEXT, &loss, 0, 0, "NAME",
          "log-to-smape: log-L1 that turns into SMAPE between 30 and 70 %; log; smape (default the "
          "first)"},

@@ -18,8 +18,8 @@ enum {
 };
 enum { ASYMMETRY_PAIRS = 4096 };
 #define RECIPROCAL 0.02 /* data whose asymmetry is less count as reciprocal */
-/* The peak rate of networks with up to RATE_UNITS hidden units in all; larger ones need less in proportion (at the
- * same rate 64x3 ends a third worse on 100 materials, and the paper's form of it does not learn at all). */
+/* The peak rate of networks with up to RATE_UNITS hidden units in all; larger ones need less, or units die early and
+ * for good (64x3 on 100 materials: SMAPE 0.11 at 0.02 and above, 0.06 at 0.01). */
 #define DEFAULT_RATE 6e-2f
 #define RATE_UNITS 64
 #define DEFAULT_FLOOR 0.003f
@@ -251,7 +251,8 @@ static hnbrdf_encoding default_encoding(const hnbrdf_measured *const *data, int 
 
 static float default_rate(float units)
 {
-    return DEFAULT_RATE * fminf(1.0f, (float)RATE_UNITS / units);
+    float share = fminf(1.0f, (float)RATE_UNITS / units);
+    return DEFAULT_RATE * share * share;
 }
 
 static hnbrdf_result fill_options(hnbrdf_fit_options *o, int count, hnbrdf_error *error)
