@@ -78,7 +78,7 @@ typedef struct hnbrdf_fit_options {
     double seconds;            /* time budget for the network stage instead of steps */
     int batch;                 /* pairs a step; 0 stands for 2048; rounded up to a multiple of 1024 */
     int pool;                  /* pairs drawn per material before training; 0: 131072 */
-    float learning_rate;       /* Adam's peak rate; 0 stands for 6e-2 min(1, 64/(HN))^2, HxN the network */
+    float learning_rate;       /* Adam's peak rate; 0 stands for 6e-2 min(1, 64/(HN)), HxN the network */
     hnbrdf_fit_loss loss;
     hnbrdf_fit_schedule schedule;
     float uniform_share; /* of the pairs, drawn by the uniform sampler, the others by grid; 0 stands

@@ -208,7 +208,7 @@ int cmd_fit(int argc, char **argv)
     double uniform_share = 0.5;
     int net[2] = {0, 0};
     long latent = 0, steps = 0, seed = 1, threads = 0, batch = 0, pool = 0;
-    double seconds = 0.0, floor = 0.003, rate = 6e-2;
+    double seconds = 0.0, floor = 0.003, rate = 0.0;
     const cli_option options[] = {
         {"output", 'o', CLI_TEXT, &output, 0, 0, "FILE", "the model file to write (required)"},
         {"kind", 0, CLI_TEXT, &kind, 0, 0, "KIND", "hybrid, neural or ggx (default hybrid)"},
@@ -228,8 +228,8 @@ int cmd_fit(int argc, char **argv)
         {"pool", 0, CLI_INT, &pool, 64, 1 << 26, "N",
          "direction pairs drawn a material (default 131072)"},
         {"rate", 0, CLI_REAL, &rate, 1e-7, 10, "R",
-         "peak learning rate of Adam (default 0.06; beyond 64 hidden units in all, times "
-         "(64/units)^2)"},
+         "peak learning rate of Adam (default 0.06; beyond 64 hidden units in all, in inverse "
+         "proportion to them)"},
         {"loss", 0, CLI_TEXT, &loss, 0, 0, "NAME",
          "log-to-smape: log-L1 that turns into SMAPE between 30 and 70 %; log; smape (default the "
          "first)"},

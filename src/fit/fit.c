@@ -18,8 +18,8 @@ enum {
 };
 enum { ASYMMETRY_PAIRS = 4096 };
 #define RECIPROCAL 0.02 /* data whose asymmetry is less count as reciprocal */
-/* The peak rate of networks with up to RATE_UNITS hidden units in all; larger ones need less, or units die early and
- * for good (64x3 on 100 materials: SMAPE 0.11 at 0.02 and above, 0.06 at 0.01). */
+/* The peak rate of networks with up to RATE_UNITS hidden units in all; larger ones need less in proportion, or units
+ * die early and for good (64x3 on 100 materials, 8000 steps: SMAPE 0.098 at 0.06, 0.075 at 0.02, 0.081 at 0.01). */
 #define DEFAULT_RATE 6e-2f
 #define RATE_UNITS 64
 #define DEFAULT_FLOOR 0.003f
@@ -251,8 +251,7 @@ static hnbrdf_encoding default_encoding(const hnbrdf_measured *const *data, int 
 
 static float default_rate(float units)
 {
-    float share = fminf(1.0f, (float)RATE_UNITS / units);
-    return DEFAULT_RATE * share * share;
+    return DEFAULT_RATE * fminf(1.0f, (float)RATE_UNITS / units);
 }
 
 static hnbrdf_result fill_options(hnbrdf_fit_options *o, int count, hnbrdf_error *error)
