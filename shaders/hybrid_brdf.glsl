@@ -398,9 +398,16 @@ struct hnbrdf_sample_result {
     vec3 weight; // f wi.z / pdf
 };
 
-// Share of samples that go to the GGX lobe: reflectance at normal incidence, raised a little for what
-// Fresnel adds towards grazing, against the diffuse albedo.
-HNBRDF_PRECISE float hnbrdf_specular_share(vec3 kd, vec3 eta)
+// The two GGX lobes of a material, beside the cosine lobe: of roughness |scale| alpha, with visible normals where
+// the scale is positive, all normals where it is negative. Shares at wo.z = 0, 1/9, 4/9, 1; the rest is cosine.
+struct hnbrdf_lobes {
+    vec2 scale;
+    vec4 share0, share1;
+};
+
+// Of a material without fitted lobes: one of roughness alpha, its share that of the reflectance at normal
+// incidence, raised a little for what Fresnel adds towards grazing, against the diffuse albedo.
+HNBRDF_PRECISE hnbrdf_lobes hnbrdf_lobes_guess(vec3 kd, vec3 eta)
 {
     HNBRDF_PRECISE vec3 r = (eta - 1.0) / (eta + 1.0);
     HNBRDF_PRECISE vec3 r2 = r * r * 0.333333333;
@@ -408,17 +415,63 @@ HNBRDF_PRECISE float hnbrdf_specular_share(vec3 kd, vec3 eta)
     HNBRDF_PRECISE float specular = ((0.05 + r2.x) + r2.y) + r2.z;
     HNBRDF_PRECISE float diffuse = (d.x + d.y) + d.z;
     HNBRDF_PRECISE float share = specular / (specular + diffuse);
-    return hnbrdf_clamp(share, 0.2, 0.9);
+    share = hnbrdf_clamp(share, 0.2, 0.9);
+    return hnbrdf_lobes(vec2(1.0, 0.0), vec4(share), vec4(0.0));
+}
+
+HNBRDF_PRECISE vec2 hnbrdf_lobe_alpha(float scale, vec2 alpha)
+{
+    HNBRDF_PRECISE vec2 a = abs(scale) * alpha;
+    return vec2(hnbrdf_clamp(a.x, 1e-4, 1.0), hnbrdf_clamp(a.y, 1e-4, 1.0));
+}
+
+// Shares at this view, piecewise linear in sqrt(z): each knot weighs in by its distance.
+HNBRDF_PRECISE vec2 hnbrdf_lobe_shares(hnbrdf_lobes lobes, float z)
+{
+    HNBRDF_PRECISE float x = hnbrdf_clamp(3.0 * sqrt(z), 0.0, 3.0);
+    HNBRDF_PRECISE vec4 hat = clamp(1.0 - abs(x - vec4(0.0, 1.0, 2.0, 3.0)), 0.0, 1.0);
+    HNBRDF_PRECISE vec4 s0 = hat * lobes.share0;
+    HNBRDF_PRECISE vec4 s1 = hat * lobes.share1;
+    return vec2(((s0.x + s0.y) + s0.z) + s0.w, ((s1.x + s1.y) + s1.z) + s1.w);
+}
+
+// Visible normals of w, D V(w)/2 of which is their density as reflections (Heitz 2018 Eq. 17): V(w), the cap of
+// normals cut off where all reflections go below the horizon (Eto and Tokuyoshi 2023).
+HNBRDF_PRECISE float hnbrdf_cap_bound(vec3 w, vec2 alpha)
+{
+    float a = alpha.x < alpha.y ? alpha.x : alpha.y;
+    HNBRDF_PRECISE float a2 = a * a;
+    HNBRDF_PRECISE float s = 1.0 + sqrt(w.x * w.x + w.y * w.y);
+    HNBRDF_PRECISE float s2 = s * s;
+    return ((1.0 - a2) * s2) / (s2 + a2 * (w.z * w.z));
+}
+
+HNBRDF_PRECISE float hnbrdf_visible_v(vec3 w, vec2 alpha)
+{
+    return 1.0 / (hnbrdf_cap_bound(w, alpha) * w.z + sqrt(hnbrdf_dot3(vec3(alpha * w.xy, w.z))));
+}
+
+// Of reflections about visible normals D V(wo)/2; about all normals D h.n / (4 wo.h).
+HNBRDF_PRECISE float hnbrdf_lobe_density(hnbrdf_pair p, float scale, vec2 alpha)
+{
+    vec2 a = hnbrdf_lobe_alpha(scale, alpha);
+    HNBRDF_PRECISE float d = hnbrdf_ggx_d(p.s, p.length2, a);
+    HNBRDF_PRECISE float v = scale < 0.0 ? p.s.z / p.length2 : hnbrdf_visible_v(p.wo, a);
+    return d * (0.5 * v);
 }
 
 // The one density that sample and pdf share; directions in the tangent frame, both above the horizon.
-// Visible normals: D G1(wo) / (4 wo.z) = D V(wo) / 2 (Heitz 2018 Eq. 17).
-float hnbrdf_density(vec2 alpha, float area, float share, vec3 wi, vec3 wo)
+float hnbrdf_density(vec2 alpha, hnbrdf_lobes lobes, vec3 wi, vec3 wo)
 {
     hnbrdf_pair p = hnbrdf_pair_make(wi, wo);
-    HNBRDF_PRECISE float visible = hnbrdf_ggx_d_of_area(p.s, p.length2, alpha, area) *
-                                   (0.5 * hnbrdf_smith_v(wo, alpha));
-    HNBRDF_PRECISE float pdf = share * visible + (1.0 - share) * (wi.z * HNBRDF_INV_PI);
+    vec2 share = hnbrdf_lobe_shares(lobes, wo.z);
+    HNBRDF_PRECISE float pdf = 0.0;
+    if (share.x > 0.0)
+        pdf = pdf + share.x * hnbrdf_lobe_density(p, lobes.scale.x, alpha);
+    if (share.y > 0.0)
+        pdf = pdf + share.y * hnbrdf_lobe_density(p, lobes.scale.y, alpha);
+    HNBRDF_PRECISE float rest = hnbrdf_clamp(1.0 - (share.x + share.y), 0.0, 1.0);
+    pdf = pdf + rest * (wi.z * HNBRDF_INV_PI);
     return hnbrdf_clamp(pdf, 0.0, HNBRDF_MAX_VALUE);
 }
 
@@ -430,9 +483,9 @@ HNBRDF_PRECISE vec3 hnbrdf_draw_cosine(vec2 u)
     return vec3(r * turn.y, r * turn.x, sqrt(1.0 - u.y));
 }
 
-// Reflects wo about a visible GGX normal, drawn as a spherical cap (Dupuy and Benyoub 2023, Listing 3).
-// (0, 0, 0) if no normal comes out.
-HNBRDF_PRECISE vec3 hnbrdf_draw_ggx(vec2 alpha, vec3 wo, vec2 u)
+// A visible normal, not normalised: a point of a spherical cap (Dupuy and Benyoub 2023, Listing 3) above its
+// bound, stretched. (0, 0, 0) where there is none.
+HNBRDF_PRECISE vec3 hnbrdf_draw_visible(vec2 alpha, vec3 wo, vec2 u)
 {
     HNBRDF_PRECISE vec3 w = vec3(alpha * wo.xy, wo.z);
     HNBRDF_PRECISE float len = sqrt(hnbrdf_dot3(w));
@@ -440,14 +493,39 @@ HNBRDF_PRECISE vec3 hnbrdf_draw_ggx(vec2 alpha, vec3 wo, vec2 u)
         return vec3(0.0);
     w = w / len;
     HNBRDF_PRECISE vec2 turn = hnbrdf_sincos_turn(u.x);
-    HNBRDF_PRECISE float cap = (1.0 - u.y) * (1.0 + w.z) - w.z;
+    HNBRDF_PRECISE float low = hnbrdf_cap_bound(wo, alpha) * w.z;
+    HNBRDF_PRECISE float cap = (1.0 - u.y) * (1.0 + low) - low;
     HNBRDF_PRECISE float radius = sqrt(hnbrdf_clamp(1.0 - cap * cap, 0.0, 1.0));
-    HNBRDF_PRECISE vec3 h = vec3(alpha * (radius * turn.yx + w.xy), cap + w.z);
+    return vec3(alpha * (radius * turn.yx + w.xy), cap + w.z);
+}
+
+// Any normal, with density D h.n: slopes tan^2 = u / (1 - u) (Walter 2007 Eqs. 35 and 36), not normalised.
+HNBRDF_PRECISE vec3 hnbrdf_draw_normal(vec2 alpha, vec2 u)
+{
+    HNBRDF_PRECISE vec2 turn = hnbrdf_sincos_turn(u.x);
+    HNBRDF_PRECISE float r = sqrt(u.y);
+    return vec3(alpha * (r * turn.yx), sqrt(1.0 - u.y));
+}
+
+// Reflects wo about a normal of one lobe. (0, 0, 0) if no normal comes out.
+HNBRDF_PRECISE vec3 hnbrdf_draw_lobe(float scale, vec2 alpha, vec3 wo, vec2 u)
+{
+    vec2 a = hnbrdf_lobe_alpha(scale, alpha);
+    vec3 h = scale < 0.0 ? hnbrdf_draw_normal(a, u) : hnbrdf_draw_visible(a, wo, u);
     HNBRDF_PRECISE float h2 = hnbrdf_dot3(h);
     if (!(h2 > 0.0))
         return vec3(0.0);
     HNBRDF_PRECISE float k = 2.0 * (((wo.x * h.x + wo.y * h.y) + wo.z * h.z) / h2);
     return k * h - wo;
+}
+
+// The lobe that u.x falls to, or cosine.
+vec3 hnbrdf_draw(vec2 alpha, hnbrdf_lobes lobes, vec3 wo, vec3 u)
+{
+    vec2 share = hnbrdf_lobe_shares(lobes, wo.z);
+    if (u.x < share.x + share.y)
+        return hnbrdf_draw_lobe(u.x < share.x ? lobes.scale.x : lobes.scale.y, alpha, wo, u.yz);
+    return hnbrdf_draw_cosine(u.yz);
 }
 
 #endif

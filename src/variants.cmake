@@ -6,6 +6,9 @@ include(CheckCSourceCompiles)
 set(_kernel_flags "$<$<NOT:$<CONFIG:Debug>>:-O3>;$<$<C_COMPILER_ID:GNU>:-fno-tree-pre>;$<$<C_COMPILER_ID:GNU>:-fno-ipa-cp-clone>")
 set_source_files_properties(src/core/kernel_plain.c PROPERTIES COMPILE_OPTIONS "${_kernel_flags}")
 
+# What runs once a material, not once an evaluation, need not be unrolled.
+set_source_files_properties(src/core/material.c src/core/pack.c PROPERTIES COMPILE_OPTIONS "$<$<CONFIG:Release>:-O2>")
+
 # hnbrdf_variant(NAME condition flags...): the kernel joins if the preprocessor condition holds and the
 # compiler takes the flags.
 function(hnbrdf_variant name condition)

@@ -99,6 +99,15 @@ hnbrdf_material random_material(rng *r, int isotropic)
     return m;
 }
 
+void random_lobes(rng *r, hnbrdf_lobes *lobes)
+{
+    for (int k = 0; k < HNBRDF_LOBES; k++) {
+        lobes->scale[k] = (rng_u32(r) % 4 ? 1.0f : -1.0f) * rng_log_range(r, 0.05f, 20.0f);
+        for (int j = 0; j < HNBRDF_LOBE_KNOTS; j++)
+            lobes->share[k][j] = 0.5f * rng_float(r);
+    }
+}
+
 hnbrdf_model *random_model(rng *r, hnbrdf_kind kind, hnbrdf_encoding encoding, int hidden, int layers,
                            int latent)
 {

@@ -34,6 +34,8 @@ hnbrdf_material random_material(rng *r, int isotropic);
 
 /* A model with random weights whose outputs are of order 1, and one material, random too. Aborts the
  * test on failure; free it with hnbrdf_model_free(). */
+/* Two lobes, one in four of all normals; legal. */
+void random_lobes(rng *r, hnbrdf_lobes *lobes);
 hnbrdf_model *random_model(rng *r, hnbrdf_kind kind, hnbrdf_encoding encoding, int hidden, int layers,
                            int latent);
 

@@ -324,7 +324,7 @@ static void materials_out_of_range_are_refused(void **state)
     hnbrdf_material good, m;
     hnbrdf_material_init(&good);
     assert_int_equal(hnbrdf_material_check(&good, NULL), HNBRDF_OK);
-    assert_int_equal(sizeof good, 25 * sizeof(float));
+    assert_int_equal(sizeof good, 35 * sizeof(float));
     static const struct {
         size_t field;
         float bad[4];
@@ -338,6 +338,9 @@ static void materials_out_of_range_are_refused(void **state)
         {offsetof(hnbrdf_material, alpha[1]), {-0.5f, 9.9e-5f, INFINITY, NAN}, "alpha[1]"},
         {offsetof(hnbrdf_material, rotation), {INFINITY, -INFINITY, NAN, NAN}, "rotation"},
         {offsetof(hnbrdf_material, latent[0]), {INFINITY, -INFINITY, NAN, NAN}, "latent[0]"},
+        {offsetof(hnbrdf_material, lobes.scale[0]), {9.9e-5f, -1.1e4f, INFINITY, NAN}, "lobes.scale[0]"},
+        {offsetof(hnbrdf_material, lobes.share[0][3]), {-1e-6f, 1.0001f, INFINITY, NAN}, "lobes.share[0][3]"},
+        {offsetof(hnbrdf_material, lobes.share[1][0]), {-1e-6f, 1.0001f, INFINITY, NAN}, "lobes.share[1][0]"},
         {offsetof(hnbrdf_material, latent[15]), {INFINITY, -INFINITY, NAN, NAN}, "latent[15]"},
     };
     for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++)

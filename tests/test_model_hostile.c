@@ -31,7 +31,7 @@ static hnbrdf_result load(const unsigned char *data, size_t size, hnbrdf_error *
         assert_null(strchr(error->text, '\n'));
     }
     /* No size in a file may make us ask for much more than the file has. */
-    assert_true(count.largest <= 16 * size + 200000);
+    assert_true(count.largest <= 24 * size + 200000);
     hnbrdf_model_free(model);
     assert_int_equal(count.alive, 0);
     return result;

@@ -63,35 +63,43 @@ static void fresnel_is_the_mean_of_the_squared_amplitudes(void **state)
         }
 }
 
-/* Seen along n nothing is masked: the density of wi is D h.z/(4 wo.h) and G1(n) = 1. In slopes r a
- * (cos, sin) with r^2 = v/(1 - v), D h.z dh = dv dphi/(2 pi): of a midpoint rule in v and phi every
- * point has the same share, so the mean of density over expectation, with the share of wi below the
- * horizon, is 1. */
+/* Seen along n nothing is masked: of all normals the density of wi is D h.z/(4 wo.h); of the visible ones that is
+ * over (1 + k)/2, k = (1 - a^2)/(1 + a^2) with the smaller roughness a: the bound cuts off normals beyond 45
+ * degrees, all of them where the lobe is round. In slopes r a (cos, sin) with r^2 = v/(1 - v), D h.z dh =
+ * dv dphi/(2 pi): of a midpoint rule in v and phi every point has the same share, so the mean of density over
+ * expectation, with the share of wi below the horizon, is 1. */
 static void the_density_is_that_of_mirrored_normals_and_integrates_to_one(void **state)
 {
-    (void)state;
     const float wo[3] = {0.0f, 0.0f, 1.0f};
     static const float alphas[][2] = {{0.5f, 0.5f}, {0.3f, 0.1f}, {0.01f, 0.01f}, {0.2f, 0.002f}};
     enum { RINGS = 300, TURNS = 200 };
-    const double point = 1.0 / RINGS / TURNS, specular = 0.05 + 0.2 * 0.2, share = 0.2;
-    assert_true(specular / (specular + 0.5) < share); /* which is then held at its least */
-    for (size_t a = 0; a < sizeof alphas / sizeof alphas[0]; a++) {
+    const double point = 1.0 / RINGS / TURNS, specular = 0.05 + 0.2 * 0.2;
+    assert_true(specular / (specular + 0.5) < 0.2); /* which is then held at its least */
+    for (size_t a = 0; a < 2 * sizeof alphas / sizeof alphas[0]; a++) {
         hnbrdf_material m;
         hnbrdf_material_init(&m);
-        memcpy(m.alpha, alphas[a], sizeof m.alpha);
-        double total = 0.0;
+        memcpy(m.alpha, alphas[a / 2], sizeof m.alpha);
+        if (a % 2)
+            hnbrdf_lobes_paper(&m.lobes);
+        double share = a % 2 ? 0.5 : 0.2, total = 0.0, above = 0.0, least = fmin((double)m.alpha[0], (double)m.alpha[1]);
+        double visible = a % 2 ? 1.0 : 1 / (1 + least * least); /* (1 + k)/2 */
         for (int i = 0; i < RINGS; i++)
             for (int k = 0; k < TURNS; k++) {
                 double v = (i + 0.5) / RINGS, r = sqrt(v / (1 - v)), phi = 2 * pi * (k + 0.5) / TURNS;
                 double ax = (double)m.alpha[0], ay = (double)m.alpha[1], t = 1 + r * r;
                 double x = r * ax * cos(phi), y = r * ay * sin(phi), h2 = x * x + y * y + 1;
                 const float wi[3] = {(float)(2 * x / h2), (float)(2 * y / h2), (float)(2 / h2 - 1)};
-                double lobe = (ggx_point(&m, wi, wo).pdf - (1 - share) * (double)wi[2] / pi) / share;
-                total += wi[2] > 0.0f ? point * lobe * 4 * pi * ax * ay * t * t / (h2 * h2) : point;
+                double lobe = (ggx_point(&m, wi, wo).pdf - (1 - share) * (double)wi[2] / pi) / share * visible;
+                double all = point * lobe * 4 * pi * ax * ay * t * t / (h2 * h2);
+                total += wi[2] > 0.0f ? all : point;
+                above += wi[2] > 0.0f ? all / visible : 0.0;
             }
         /* Float directions, some 2^-24 off the mirror image, seen through slopes of size alpha. */
         assert_true(fabs(total - 1) <= 1e-4);
+        if (m.alpha[0] == m.alpha[1] && a % 2 == 0) /* up to a ring of the rule */
+            assert_true(fabs(above - 1) <= 2.0 / RINGS);
     }
+    (void)state;
 }
 
 static void normal_incidence_has_its_closed_form(void **state)

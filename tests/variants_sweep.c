@@ -5,6 +5,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 uint32_t sweep_u32(sweep *s)
 {
@@ -71,6 +72,12 @@ void sweep_material(sweep *s, int wild, hnbrdf_material *material)
     material->rotation = sweep_u32(s) % 2 ? 0.0f : sweep_range(s, -3.0f, 3.0f);
     for (int i = 0; i < HNBRDF_MAX_LATENT; i++)
         material->latent[i] = sweep_range(s, -1.5f, 1.5f);
+    memset(&material->lobes, 0, sizeof material->lobes);
+    for (int k = 0; k < HNBRDF_LOBES && sweep_u32(s) % 2; k++) {
+        material->lobes.scale[k] = (sweep_u32(s) % 4 ? 1.0f : -1.0f) * sweep_range(s, 0.01f, 3.0f);
+        for (int j = 0; j < HNBRDF_LOBE_KNOTS; j++)
+            material->lobes.share[k][j] = sweep_range(s, 0.0f, 1.0f - material->lobes.share[0][j]);
+    }
     if (wild && sweep_u32(s) % 4 == 0)
         ((float *)material)[sweep_u32(s) % (sizeof *material / sizeof(float))] = odd[sweep_u32(s) % 8];
 }

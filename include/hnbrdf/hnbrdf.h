@@ -98,7 +98,21 @@ typedef struct hnbrdf_error {
 
 /* ---- Materials ------------------------------------------------------------------------------- */
 
-/* One material. Plain data that the caller owns, copies and edits; 25 floats.
+/* Where hnbrdf_sample() looks for light besides the cosine lobe: two GGX lobes about the mirror direction, of
+ * roughness clamp(|scale| alpha) (|scale| itself in a neural model, whose alpha means nothing) and in the
+ * material's tangent frame. Each gets a share of the samples that depends on the view: given at wo.z = 0, 1/9,
+ * 4/9 and 1, linear in sqrt(wo.z) between; what is left of 1 is cosine. The value f does not depend on them.
+ * Made by hnbrdf_lobes_fit(); an edit of alpha carries them along. All zeros, as hnbrdf_material_init() has them:
+ * one lobe of roughness alpha, whose share is guessed from kd and eta (none in a neural model). 40 bytes. */
+#define HNBRDF_LOBES 2
+#define HNBRDF_LOBE_KNOTS 4
+typedef struct hnbrdf_lobes {
+    float scale[HNBRDF_LOBES]; /* > 0: visible normals (bounded, Eto and Tokuyoshi 2023); < 0: all normals, as the
+                                  paper draws them; 0: no such lobe. |scale| in [1e-4, 1e4] */
+    float share[HNBRDF_LOBES][HNBRDF_LOBE_KNOTS]; /* [0, 1]; at each knot they sum to at most 1 */
+} hnbrdf_lobes;
+
+/* One material. Plain data that the caller owns, copies and edits; 35 floats.
  * Evaluation trusts these ranges: call hnbrdf_material_check() after an edit. Out of range it still
  * returns finite values, without a promise which. */
 typedef struct hnbrdf_material {
@@ -107,9 +121,10 @@ typedef struct hnbrdf_material {
     float alpha[2]; /* GGX roughness along x and y, [HNBRDF_MIN_ALPHA, 1]; equal when isotropic */
     float rotation; /* of the tangent frame about n, radians counter-clockwise; finite */
     float latent[HNBRDF_MAX_LATENT]; /* latent code z; the model uses the first l floats */
+    hnbrdf_lobes lobes;              /* for sampling alone */
 } hnbrdf_material;
 
-/* kd 0.5, eta 1.5, alpha 0.5, no rotation, latent 0. */
+/* kd 0.5, eta 1.5, alpha 0.5, no rotation, latent 0, lobes 0. */
 HNBRDF_API void hnbrdf_material_init(hnbrdf_material *material);
 
 /* HNBRDF_OK if every field is finite and in its range; else HNBRDF_ERROR_ARGUMENT and a message
@@ -119,7 +134,8 @@ HNBRDF_API hnbrdf_result hnbrdf_material_check(const hnbrdf_material *material, 
 /* The material between a and b: at t <= 0 (or NaN) *a and at t >= 1 *b, bit by bit. Each kd, the latent code
  * and the reflectance at normal incidence ((eta - 1)/(eta + 1))^2 go linearly: eta itself would turn to
  * metal within the first steps. alpha goes linearly in its logarithm; rotation the short way modulo pi, a
- * half turn being the same GGX lobe, and all at once where one end is isotropic and has none to speak of.
+ * half turn being the same GGX lobe, and all at once where one end is isotropic and has none to speak of. Lobes
+ * go like alpha, their shares linearly; where only one end has such a lobe, all are 0: fit them again.
  * Every field stays between its two ends, so two legal materials give a legal one. out may be a or b. */
 HNBRDF_API void hnbrdf_material_mix(const hnbrdf_material *a, const hnbrdf_material *b, float t,
                                     hnbrdf_material *out);
@@ -209,7 +225,7 @@ typedef int (*hnbrdf_write_fn)(void *user, const void *data, size_t size);
 typedef struct hnbrdf_load_options {
     hnbrdf_allocator allocator;
     size_t max_bytes;      /* refuse larger input; 0 stands for 256 MiB. Whatever a file claims of itself, no block
-                              asked for while loading is larger than 16 times the input and 200000 bytes */
+                              asked for while loading is larger than 24 times the input and 200000 bytes */
     hnbrdf_read_fn read;   /* if set, bytes come from here and `path` is only a name for messages */
     void *read_user;
     hnbrdf_variant variant;
@@ -301,8 +317,9 @@ HNBRDF_API void hnbrdf_eval_analytic_batch(const hnbrdf_model *model, const hnbr
                                            size_t f_stride);
 
 /* ---- Sampling --------------------------------------------------------------------------------
- * A mixture of a cosine lobe and GGX visible normals (Heitz 2018; spherical caps of Dupuy and Benyoub
- * 2023). hnbrdf_sample() and hnbrdf_pdf() share one density function and agree to the last bit. */
+ * A mixture of a cosine lobe and the two GGX lobes of material->lobes: visible normals (Heitz 2018; spherical caps
+ * of Dupuy and Benyoub 2023, bounded after Eto and Tokuyoshi 2023). hnbrdf_sample() and hnbrdf_pdf() share one
+ * density function and agree to the last bit. */
 
 typedef struct hnbrdf_sample_result {
     float wi[3];     /* unit direction towards the light, wi.z > 0; (0, 0, 1) when pdf is 0 */
@@ -319,6 +336,16 @@ HNBRDF_API void hnbrdf_sample(const hnbrdf_model *model, const hnbrdf_material *
 HNBRDF_API float hnbrdf_pdf(const hnbrdf_model *model, const hnbrdf_material *material,
                             const float wi[3], const float wo[3]);
 
+/* The lobes with which samples of this material have the least variance under even light: roughnesses and
+ * shares that minimise the sum over views of the integral of (f wi.z)^2 / pdf, each view against its albedo. No
+ * share is under 1/64, so that no weight exceeds 64 pi f. Always the same lobes for the same material; some
+ * tens of milliseconds. Memory comes from the model's allocator. */
+HNBRDF_API hnbrdf_result hnbrdf_lobes_fit(const hnbrdf_model *model, const hnbrdf_material *material,
+                                          hnbrdf_lobes *lobes, hnbrdf_error *error);
+/* The paper's scheme, to compare with: half of the samples cosine, half GGX with normals drawn from D, all of them and
+ * not only the visible ones; the density is that of the mixture (one-sample MIS, balance heuristic). */
+HNBRDF_API void hnbrdf_lobes_paper(hnbrdf_lobes *lobes);
+
 /* ---- Prepared materials ----------------------------------------------------------------------
  * For renderers that shade one hit at a time: what depends on the material alone is worked out once. The
  * functions below give the bits of their namesakes above, and are as pure. */
@@ -330,7 +357,9 @@ typedef struct hnbrdf_prepared {
     float cosine, sine; /* of the rotation */
     float alpha[2];
     float area;       /* pi alpha_x alpha_y */
-    float share;      /* of samples that go to the GGX lobe */
+    float lobe_alpha[HNBRDF_LOBES][2];
+    float lobe_area[HNBRDF_LOBES];
+    hnbrdf_lobes lobes; /* never unfitted here */
     float diffuse[4]; /* kd / pi; [3] repeats [2] */
     float e[4];       /* eta^2 - 1; [3] repeats [2] */
     float first[HNBRDF_MAX_HIDDEN]; /* bias of the first layer with the latent code folded in */

@@ -36,7 +36,7 @@ void hnbrdf_prepare(const hnbrdf_model *model, const hnbrdf_material *material,
                     hnbrdf_prepared *prepared)
 {
     prepare_eval(model, material, prepared);
-    prepared->share = hnbrdf_specular_share(model, material);
+    hnbrdf_prepare_lobes(model, material, prepared);
 }
 
 /* ---- One pair ---------------------------------------------------------------------------------- */

@@ -24,6 +24,23 @@ static hnbrdf_result range(const char *field, int index, float value, float low,
                        (double)value, (double)low, (double)high);
 }
 
+static hnbrdf_result check_lobes(const hnbrdf_lobes *lobes, hnbrdf_error *error)
+{
+    hnbrdf_result result;
+    for (int k = 0; k < HNBRDF_LOBES; k++) {
+        float size = fabsf(lobes->scale[k]);
+        if (size != 0.0f && (result = range("lobes.scale", k, size, 1e-4f, 1e4f, error)))
+            return result;
+        for (int j = 0; j < HNBRDF_LOBE_KNOTS; j++)
+            if ((result = range(k ? "lobes.share[1]" : "lobes.share[0]", j, lobes->share[k][j], 0.0f, 1.0f, error)))
+                return result;
+    }
+    for (int j = 0; j < HNBRDF_LOBE_KNOTS; j++)
+        if ((result = range("sum of lobes.share", j, lobes->share[0][j] + lobes->share[1][j], 0.0f, 1.0f, error)))
+            return result;
+    return HNBRDF_OK;
+}
+
 hnbrdf_result hnbrdf_material_check(const hnbrdf_material *material, hnbrdf_error *error)
 {
     hnbrdf_result result;
@@ -44,7 +61,7 @@ hnbrdf_result hnbrdf_material_check(const hnbrdf_material *material, hnbrdf_erro
         if (!isfinite(material->latent[i]))
             return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT, "latent[%d] is %g, expected a finite number",
                                i, (double)material->latent[i]);
-    return HNBRDF_OK;
+    return check_lobes(&material->lobes, error);
 }
 
 /* Never outside its two ends, whatever rounding does; a where both are equal. */
@@ -88,6 +105,25 @@ static float mix_rotation(const hnbrdf_material *a, const hnbrdf_material *b, fl
     return (float)((double)a->rotation + (double)t * (angle - half_turns * pi));
 }
 
+/* Lobes of the same kind at both ends, or none. */
+static void mix_lobes(const hnbrdf_lobes *a, const hnbrdf_lobes *b, float t, hnbrdf_lobes *out)
+{
+    memset(out, 0, sizeof *out);
+    for (int k = 0; k < HNBRDF_LOBES; k++) {
+        float x = a->scale[k], y = b->scale[k];
+        if ((x > 0.0f) != (y > 0.0f) || (x < 0.0f) != (y < 0.0f)) {
+            memset(out, 0, sizeof *out);
+            return;
+        }
+        if (x != 0.0f)
+            out->scale[k] = copysignf(mix_log(fabsf(x), fabsf(y), t), x);
+        for (int j = 0; j < HNBRDF_LOBE_KNOTS; j++)
+            out->share[k][j] = mix_linear(a->share[k][j], b->share[k][j], t);
+    }
+    for (int j = 0; j < HNBRDF_LOBE_KNOTS; j++) /* rounding must not take the sum above 1 */
+        out->share[1][j] = hnbrdf_clamp(out->share[1][j], 0.0f, 1.0f - out->share[0][j]);
+}
+
 void hnbrdf_material_mix(const hnbrdf_material *a, const hnbrdf_material *b, float t, hnbrdf_material *out)
 {
     hnbrdf_material mixed;
@@ -104,5 +140,6 @@ void hnbrdf_material_mix(const hnbrdf_material *a, const hnbrdf_material *b, flo
     mixed.rotation = mix_rotation(a, b, t);
     for (int i = 0; i < HNBRDF_MAX_LATENT; i++)
         mixed.latent[i] = mix_linear(a->latent[i], b->latent[i], t);
+    mix_lobes(&a->lobes, &b->lobes, t, &mixed.lobes);
     *out = mixed;
 }

@@ -59,6 +59,22 @@ static inline float hnbrdf_smith_v(float x, float y, float z, float ax, float ay
     return 1.0f / (z + sqrtf(hnbrdf_dot3(ax * x, ay * y, z)));
 }
 
+/* Visible normals of w, D V(w)/2 of which is their density as reflections (Heitz 2018 Eq. 17): V(w), the cap of
+ * normals cut off where all reflections go below the horizon (Eto and Tokuyoshi 2023). */
+static inline float hnbrdf_cap_bound(float x, float y, float z, float ax, float ay)
+{
+    float a = ax < ay ? ax : ay;
+    float a2 = a * a;
+    float s = 1.0f + sqrtf(x * x + y * y);
+    float s2 = s * s;
+    return ((1.0f - a2) * s2) / (s2 + a2 * (z * z));
+}
+
+static inline float hnbrdf_visible_v(float x, float y, float z, float ax, float ay)
+{
+    return 1.0f / (hnbrdf_cap_bound(x, y, z, ax, ay) * z + sqrtf(hnbrdf_dot3(ax * x, ay * y, z)));
+}
+
 /* Unpolarised Fresnel reflectance of a dielectric with index eta > 1 at cosine c = wi.h (Walter 2007
  * Eq. 22). g - c is taken as (eta^2 - 1)/(g + c): the difference itself loses digits as eta nears 1. */
 static inline float hnbrdf_fresnel_e(float eta)

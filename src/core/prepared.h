@@ -6,13 +6,16 @@
 #include "core/microfacet.h"
 #include "core/model.h"
 
-/* Everything but share and first. */
+/* Everything but the lobes and first. */
 void hnbrdf_prepare_analytic(const hnbrdf_model *model, const hnbrdf_material *material,
                              hnbrdf_prepared *prepared);
 
-/* Share of samples that go to the GGX lobe: reflectance at normal incidence, raised a little for what
- * Fresnel adds towards grazing, against the diffuse albedo. 0 where there is no analytic part. */
+/* Share of samples that go to the GGX lobe where no lobes were fitted: reflectance at normal incidence, raised
+ * a little for what Fresnel adds towards grazing, against the diffuse albedo. 0 where there is no analytic part. */
 float hnbrdf_specular_share(const hnbrdf_model *model, const hnbrdf_material *material);
+/* lobe_alpha, lobe_area and lobes: all that sampling adds. */
+void hnbrdf_prepare_lobes(const hnbrdf_model *model, const hnbrdf_material *material,
+                          hnbrdf_prepared *prepared);
 
 static inline int hnbrdf_above_horizon(const float wi[3], const float wo[3])
 {

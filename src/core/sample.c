@@ -1,6 +1,8 @@
-/* sample.c: draw wi given wo from a cosine lobe and GGX visible normals, and the density of that. */
+/* sample.c: draw wi given wo from a cosine lobe and the GGX lobes of the material, and the density of that. */
 #include "core/compose.h"
 #include "core/prepared.h"
+
+/* ---- Lobes ------------------------------------------------------------------------------------- */
 
 float hnbrdf_specular_share(const hnbrdf_model *model, const hnbrdf_material *material)
 {
@@ -15,15 +17,69 @@ float hnbrdf_specular_share(const hnbrdf_model *model, const hnbrdf_material *ma
     return hnbrdf_clamp(specular / (specular + diffuse), 0.2f, 0.9f);
 }
 
-/* The one density that sample and pdf share; directions in the tangent frame, both above the horizon.
- * Visible normals: D G1(wo) / (4 wo.z) = D V(wo) / 2 (Heitz 2018 Eq. 17). */
+void hnbrdf_prepare_lobes(const hnbrdf_model *model, const hnbrdf_material *material,
+                          hnbrdf_prepared *prepared)
+{
+    int neural = model->desc.kind == HNBRDF_KIND_NEURAL;
+    prepared->lobes = material->lobes;
+    if (material->lobes.scale[0] == 0.0f) {
+        float share = hnbrdf_specular_share(model, material);
+        for (int j = 0; j < HNBRDF_LOBE_KNOTS; j++)
+            prepared->lobes.share[0][j] = share;
+        prepared->lobes.scale[0] = 1.0f;
+        prepared->lobes.scale[1] = 0.0f;
+    }
+    for (int k = 0; k < HNBRDF_LOBES; k++) {
+        float *alpha = prepared->lobe_alpha[k], *share = prepared->lobes.share[k];
+        for (int a = 0; a < 2; a++)
+            alpha[a] = hnbrdf_clamp(fabsf(prepared->lobes.scale[k]) * (neural ? 1.0f : material->alpha[a]),
+                                    HNBRDF_MIN_ALPHA, HNBRDF_MAX_ALPHA);
+        prepared->lobe_area[k] = hnbrdf_ggx_area(alpha[0], alpha[1]);
+        for (int j = 0; j < HNBRDF_LOBE_KNOTS && prepared->lobes.scale[k] == 0.0f; j++)
+            share[j] = 0.0f;
+    }
+}
+
+void hnbrdf_lobes_paper(hnbrdf_lobes *lobes)
+{
+    static const hnbrdf_lobes paper = {{-1.0f, 0.0f}, {{0.5f, 0.5f, 0.5f, 0.5f}, {0.0f}}};
+    *lobes = paper;
+}
+
+/* Shares at this view, piecewise linear: each knot weighs in by its distance. */
+static void shares_at(const hnbrdf_lobes *lobes, float z, float share[HNBRDF_LOBES])
+{
+    float x = hnbrdf_clamp(3.0f * sqrtf(z), 0.0f, 3.0f), hat[HNBRDF_LOBE_KNOTS];
+    for (int j = 0; j < HNBRDF_LOBE_KNOTS; j++)
+        hat[j] = hnbrdf_clamp(1.0f - fabsf(x - (float)j), 0.0f, 1.0f);
+    for (int k = 0; k < HNBRDF_LOBES; k++) {
+        const float *s = lobes->share[k];
+        share[k] = ((hat[0] * s[0] + hat[1] * s[1]) + hat[2] * s[2]) + hat[3] * s[3];
+    }
+}
+
+/* ---- Density ----------------------------------------------------------------------------------- */
+
+/* Of reflections about visible normals D V(wo)/2; about all normals D h.n / (4 wo.h). */
+static float lobe_density(const hnbrdf_prepared *m, int k, const hnbrdf_pair *p)
+{
+    float ax = m->lobe_alpha[k][0], ay = m->lobe_alpha[k][1];
+    float d = hnbrdf_ggx_d_of_area(p->sx, p->sy, p->sz, p->length2, ax, ay, m->lobe_area[k]);
+    return d * (0.5f * (m->lobes.scale[k] < 0.0f ? p->sz / p->length2
+                                                 : hnbrdf_visible_v(p->wo[0], p->wo[1], p->wo[2], ax, ay)));
+}
+
+/* The one density that sample and pdf share; directions in the tangent frame, both above the horizon. */
 static float density(const hnbrdf_prepared *m, const float wi[3], const float wo[3])
 {
-    float ax = m->alpha[0], ay = m->alpha[1];
+    float share[HNBRDF_LOBES], sum = 0.0f;
     hnbrdf_pair p = hnbrdf_pair_make(wi, wo);
-    float visible = hnbrdf_ggx_d_of_area(p.sx, p.sy, p.sz, p.length2, ax, ay, m->area) *
-                    (0.5f * hnbrdf_smith_v(wo[0], wo[1], wo[2], ax, ay));
-    return hnbrdf_finish(m->share * visible + (1.0f - m->share) * (wi[2] * HNBRDF_INV_PI));
+    shares_at(&m->lobes, wo[2], share);
+    for (int k = 0; k < HNBRDF_LOBES; k++)
+        if (share[k] > 0.0f)
+            sum += share[k] * lobe_density(m, k, &p);
+    float rest = hnbrdf_clamp(1.0f - (share[0] + share[1]), 0.0f, 1.0f);
+    return hnbrdf_finish(sum + rest * (wi[2] * HNBRDF_INV_PI));
 }
 
 float hnbrdf_prepared_pdf(const hnbrdf_prepared *prepared, const float wi[3], const float wo[3])
@@ -42,9 +98,11 @@ float hnbrdf_pdf(const hnbrdf_model *model, const hnbrdf_material *material, con
 {
     hnbrdf_prepared prepared;
     hnbrdf_prepare_analytic(model, material, &prepared);
-    prepared.share = hnbrdf_specular_share(model, material);
+    hnbrdf_prepare_lobes(model, material, &prepared);
     return hnbrdf_prepared_pdf(&prepared, wi, wo);
 }
+
+/* ---- Drawing ----------------------------------------------------------------------------------- */
 
 /* Cosine-distributed direction; u2 < 1 keeps z above 0. */
 static void draw_cosine(float u1, float u2, float w[3])
@@ -56,9 +114,9 @@ static void draw_cosine(float u1, float u2, float w[3])
     w[2] = sqrtf(1.0f - u2);
 }
 
-/* Reflect wo about a visible GGX normal, drawn as a spherical cap (Dupuy and Benyoub 2023, Listing 3).
- * Returns 0 if no normal comes out. */
-static int draw_ggx(float ax, float ay, const float wo[3], float u1, float u2, float w[3])
+/* A visible normal, not normalised: a point of a spherical cap (Dupuy and Benyoub 2023, Listing 3) above its
+ * bound, stretched. Returns 0 where there is none. */
+static int draw_visible(float ax, float ay, const float wo[3], float u1, float u2, float h[3])
 {
     float x = ax * wo[0], y = ay * wo[1], z = wo[2];
     float length = sqrtf(hnbrdf_dot3(x, y, z));
@@ -67,18 +125,40 @@ static int draw_ggx(float ax, float ay, const float wo[3], float u1, float u2, f
     x /= length;
     y /= length;
     z /= length;
-    float sine, cosine;
+    float sine, cosine, low = hnbrdf_cap_bound(wo[0], wo[1], wo[2], ax, ay) * z;
     hnbrdf_sincos_turn(u1, &sine, &cosine);
-    float cap = (1.0f - u2) * (1.0f + z) - z;
+    float cap = (1.0f - u2) * (1.0f + low) - low;
     float radius = sqrtf(hnbrdf_clamp(1.0f - cap * cap, 0.0f, 1.0f));
-    float hx = ax * (radius * cosine + x), hy = ay * (radius * sine + y), hz = cap + z;
-    float h2 = hnbrdf_dot3(hx, hy, hz);
+    h[0] = ax * (radius * cosine + x);
+    h[1] = ay * (radius * sine + y);
+    h[2] = cap + z;
+    return 1;
+}
+
+/* Any normal, with density D h.n: slopes tan^2 = u / (1 - u) (Walter 2007 Eqs. 35 and 36), not normalised. */
+static void draw_normal(float ax, float ay, float u1, float u2, float h[3])
+{
+    float sine, cosine, r = sqrtf(u2);
+    hnbrdf_sincos_turn(u1, &sine, &cosine);
+    h[0] = ax * (r * cosine);
+    h[1] = ay * (r * sine);
+    h[2] = sqrtf(1.0f - u2);
+}
+
+/* Reflects wo about a normal of lobe k. Returns 0 if no normal comes out. */
+static int draw_lobe(const hnbrdf_prepared *m, int k, const float wo[3], float u1, float u2, float w[3])
+{
+    float ax = m->lobe_alpha[k][0], ay = m->lobe_alpha[k][1], h[3];
+    if (m->lobes.scale[k] < 0.0f)
+        draw_normal(ax, ay, u1, u2, h);
+    else if (!draw_visible(ax, ay, wo, u1, u2, h))
+        return 0;
+    float h2 = hnbrdf_dot3(h[0], h[1], h[2]);
     if (!(h2 > 0.0f))
         return 0;
-    float k = 2.0f * (((wo[0] * hx + wo[1] * hy) + wo[2] * hz) / h2);
-    w[0] = k * hx - wo[0];
-    w[1] = k * hy - wo[1];
-    w[2] = k * hz - wo[2];
+    float c = 2.0f * (((wo[0] * h[0] + wo[1] * h[1]) + wo[2] * h[2]) / h2);
+    for (int a = 0; a < 3; a++)
+        w[a] = c * h[a] - wo[a];
     return 1;
 }
 
@@ -90,10 +170,11 @@ void hnbrdf_prepared_sample(const hnbrdf_prepared *prepared, const float wo[3], 
     if (!(wo[2] > 0.0f))
         return;
     const hnbrdf_frame frame = {prepared->cosine, prepared->sine};
-    float o[3], i[3], wi[3], f[3];
+    float o[3], i[3], wi[3], f[3], share[HNBRDF_LOBES];
     hnbrdf_to_tangent(frame, wo, o);
-    if (u[0] < prepared->share) {
-        if (!draw_ggx(prepared->alpha[0], prepared->alpha[1], o, u[1], u[2], i))
+    shares_at(&prepared->lobes, wo[2], share);
+    if (u[0] < share[0] + share[1]) {
+        if (!draw_lobe(prepared, u[0] < share[0] ? 0 : 1, o, u[1], u[2], i))
             return;
     } else {
         draw_cosine(u[1], u[2], i);

@@ -250,6 +250,9 @@ static const hnbrdf_material *take_materials(unsigned char **at, const hnbrdf_mo
         for (int k = desc->latent; k < HNBRDF_MAX_LATENT; ++k) {
             copy[i].latent[k] = 0;
         }
+        if (copy[i].lobes.scale[0] == 0.0f) { /* as a file gives them back */
+            memset(&copy[i].lobes, 0, sizeof copy[i].lobes);
+        }
     }
     *at += padded(count * sizeof *copy);
     return copy;

@@ -86,15 +86,10 @@ static void put_eval(hnbrdf_printer *out, const hnbrdf_scene *s)
 
 /* ---- Sampling -------------------------------------------------------------------------------- */
 
-/* How the sampling functions get at what they need of the material m. */
+/* Roughness that the scales of lobes refer to. */
 static const char *alpha_text(const hnbrdf_scene *s)
 {
-    return s->anisotropic ? "m.alpha" : "vec2(m.alpha)";
-}
-
-static const char *share_text(const hnbrdf_scene *s)
-{
-    return s->fixed ? "m.share" : "hnbrdf_specular_share(m.kd, m.eta)";
+    return !hnbrdf_scene_has_analytic(s) ? "vec2(1.0)" : s->anisotropic ? "m.alpha" : "vec2(m.alpha)";
 }
 
 static void put_pdf(hnbrdf_printer *out, const hnbrdf_scene *s)
@@ -104,15 +99,10 @@ static void put_pdf(hnbrdf_printer *out, const hnbrdf_scene *s)
         "\n// Density in 1/sr with which hnbrdf_sample() draws wi given wo; 0 below the horizon.\n");
     hnbrdf_put(out, "float hnbrdf_pdf(hnbrdf_material m, vec3 wi, vec3 wo)\n{\n"
                     "    if (!(wi.z > 0.0 && wo.z > 0.0))\n        return 0.0;\n");
-    if (!hnbrdf_scene_has_analytic(s)) {
-        hnbrdf_put(out, "    return hnbrdf_clamp(wi.z * HNBRDF_INV_PI, 0.0, HNBRDF_MAX_VALUE);\n}\n");
-        return;
-    }
     if (s->rotated)
         hnbrdf_put(out, "    wi = hnbrdf_to_tangent(m.rotation, wi);\n"
                         "    wo = hnbrdf_to_tangent(m.rotation, wo);\n");
-    hnbrdf_put(out, "    return hnbrdf_density(%s, %s, %s, wi, wo);\n}\n", alpha_text(s),
-               s->fixed ? "m.area" : "hnbrdf_ggx_area(m.alpha)", share_text(s));
+    hnbrdf_put(out, "    return hnbrdf_density(%s, m.lobes, wi, wo);\n}\n", alpha_text(s));
 }
 
 static void put_sample(hnbrdf_printer *out, const hnbrdf_scene *s)
@@ -123,15 +113,8 @@ static void put_sample(hnbrdf_printer *out, const hnbrdf_scene *s)
                     "    hnbrdf_sample_result drawn = "
                     "hnbrdf_sample_result(vec3(0.0, 0.0, 1.0), 0.0, vec3(0.0));\n"
                     "    if (!(wo.z > 0.0))\n        return drawn;\n");
-    if (hnbrdf_scene_has_analytic(s)) {
-        const char *o = s->rotated ? "hnbrdf_to_tangent(m.rotation, wo)" : "wo";
-        hnbrdf_put(out,
-                   "    vec3 wi;\n    if (u.x < %s)\n        wi = hnbrdf_draw_ggx(%s, %s, u.yz);\n",
-                   share_text(s), alpha_text(s), o);
-        hnbrdf_put(out, "    else\n        wi = hnbrdf_draw_cosine(u.yz);\n");
-    } else {
-        hnbrdf_put(out, "    vec3 wi = hnbrdf_draw_cosine(u.yz);\n");
-    }
+    hnbrdf_put(out, "    vec3 wi = hnbrdf_draw(%s, m.lobes, %s, u);\n", alpha_text(s),
+               s->rotated ? "hnbrdf_to_tangent(m.rotation, wo)" : "wo");
     if (s->rotated)
         hnbrdf_put(out, "    wi = hnbrdf_from_tangent(m.rotation, wi);\n");
     hnbrdf_put(out, "    float pdf = hnbrdf_pdf(m, wi, wo);\n"

@@ -15,8 +15,6 @@ void hnbrdf_put_material_struct(hnbrdf_printer *out, const hnbrdf_scene *s)
                             : "    float alpha;   // GGX roughness, at least 1e-4\n");
         if (s->fixed)
             hnbrdf_put(out, "    float area;    // pi alpha alpha\n");
-        if (s->fixed && hnbrdf_scene_has_sampling(s))
-            hnbrdf_put(out, "    float share;   // of samples that go to the GGX lobe\n");
     }
     if (hnbrdf_scene_has_rotation(s))
         hnbrdf_put(out, "    vec2 rotation; // cosine and sine of the tangent frame's angle\n");
@@ -25,6 +23,8 @@ void hnbrdf_put_material_struct(hnbrdf_printer *out, const hnbrdf_scene *s)
     for (int v = 0; v < hnbrdf_scene_bias_vectors(s); v++)
         hnbrdf_put(out, "    vec4 bias%d;%s\n", v,
                    v == 0 ? "    // of the first layer, the latent code folded in" : "");
+    if (hnbrdf_scene_has_sampling(s))
+        hnbrdf_put(out, "    hnbrdf_lobes lobes; // for sampling alone\n");
     if (s->energy)
         hnbrdf_put(out, "    float energy;  // factor on f: 1, or what brings an albedo above 1 down to it\n");
     hnbrdf_put(out, "};\n\n");
@@ -54,10 +54,17 @@ static void put_analytic_fields(hnbrdf_printer *out, const hnbrdf_scene *s,
         put_next(out, fields);
         hnbrdf_put_float(out, prepared->area);
     }
-    if (s->fixed && hnbrdf_scene_has_sampling(s)) {
-        put_next(out, fields);
-        hnbrdf_put_float(out, prepared->share);
+}
+
+static void put_lobes(hnbrdf_printer *out, const hnbrdf_lobes *lobes)
+{
+    hnbrdf_put(out, "hnbrdf_lobes(");
+    hnbrdf_put_vector(out, 2, lobes->scale, HNBRDF_LOBES);
+    for (int k = 0; k < HNBRDF_LOBES; k++) {
+        hnbrdf_put(out, ", ");
+        hnbrdf_put_vector(out, 4, lobes->share[k], HNBRDF_LOBE_KNOTS);
     }
+    hnbrdf_put(out, ")");
 }
 
 void hnbrdf_put_material(hnbrdf_printer *out, const hnbrdf_scene *s, int k)
@@ -80,6 +87,10 @@ void hnbrdf_put_material(hnbrdf_printer *out, const hnbrdf_scene *s, int k)
     for (int v = 0; v < hnbrdf_scene_bias_vectors(s); v++) {
         put_next(out, &fields);
         hnbrdf_put_vector(out, 4, prepared.first + 4 * v, s->desc->hidden - 4 * v);
+    }
+    if (hnbrdf_scene_has_sampling(s)) {
+        put_next(out, &fields);
+        put_lobes(out, &prepared.lobes);
     }
     if (s->energy) {
         put_next(out, &fields);

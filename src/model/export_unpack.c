@@ -151,5 +151,9 @@ void hnbrdf_put_unpack(hnbrdf_printer *out, const hnbrdf_scene *s)
     else if (hnbrdf_scene_has_rotation(s))
         hnbrdf_put(out, "    m.rotation = vec2(1.0, 0.0);\n");
     put_latent(out, packing, &layout);
+    if (hnbrdf_scene_has_sampling(s))
+        hnbrdf_put(out, packing->analytic
+                            ? "    m.lobes = hnbrdf_lobes_guess(m.kd, m.eta);\n"
+                            : "    m.lobes = hnbrdf_lobes(vec2(1.0, 0.0), vec4(0.0), vec4(0.0));\n");
     hnbrdf_put(out, "    return m;\n}\n\n");
 }

@@ -131,6 +131,16 @@ static void put_metadata(sink *s, const hnbrdf_model_desc *desc)
     put_text(s, "}");
 }
 
+/* Lobes that no material has are left out. */
+static int is_written(const hnbrdf_model_desc *desc, int tensor)
+{
+    int fitted = 0;
+    for (int i = 0; i < desc->material_count && tensor == HNBRDF_TENSOR_LOBES; ++i) {
+        fitted |= desc->materials[i].lobes.scale[0] != 0.0f;
+    }
+    return tensor != HNBRDF_TENSOR_LOBES || fitted;
+}
+
 /* Returns the bytes of the tensor. */
 static uint64_t put_entry(sink *s, int tensor, int rank, const uint64_t shape[2], uint64_t offset)
 {
@@ -156,7 +166,7 @@ static void put_header(sink *s, const hnbrdf_model_desc *desc)
     for (int i = 0; i < HNBRDF_TENSOR_COUNT; ++i) {
         uint64_t shape[2] = {0, 0};
         const int rank = hnbrdf_tensor_shape(desc, i, shape);
-        if (rank > 0) {
+        if (rank > 0 && is_written(desc, i)) {
             offset += put_entry(s, i, rank, shape, offset);
         }
     }
@@ -171,6 +181,9 @@ static void put_data(sink *s, const hnbrdf_model_desc *desc)
         uint64_t shape[2] = {0, 0};
         const int rank = hnbrdf_tensor_shape(desc, i, shape);
         const uint64_t width = rank == 2 ? shape[1] : 1;
+        if (!is_written(desc, i)) {
+            continue;
+        }
         if (i < HNBRDF_TENSOR_KD) {
             put_floats(s, i % 2 ? desc->biases[i / 2] : desc->weights[i / 2], shape[0] * width);
             continue;

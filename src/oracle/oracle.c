@@ -162,16 +162,48 @@ static real specular_share(const hnbrdf_material *material)
     return limited(specular / (specular + diffuse), (real)2 / 10, (real)9 / 10);
 }
 
+/* The share of lobe k at this view: linear between knots at wo.z = (j/3)^2. */
+static real share_at(const hnbrdf_lobes *lobes, int k, real z)
+{
+    real x = limited(3 * real_sqrt(z), 0, 3);
+    int j = x < 1 ? 0 : x < 2 ? 1 : 2;
+    return (1 - (x - j)) * lobes->share[k][j] + (x - j) * lobes->share[k][j + 1];
+}
+
+/* Density of reflections about normals drawn from D h.n, or about visible ones: D / (2 (k z + |(ax x, ay y, z)|))
+ * with the bound k of Eto and Tokuyoshi 2023. */
+static real lobe_density(vec i, vec o, real scale, real ax, real ay)
+{
+    vec h = angles_of(i, o).h;
+    real wo_h = angles_of(i, o).c, d = D(h, ax, ay);
+    if (scale < 0)
+        return d * h.z / (4 * wo_h);
+    real a = ax < ay ? ax : ay, s = 1 + real_sqrt(o.x * o.x + o.y * o.y);
+    real bound = (1 - a * a) * s * s / (s * s + a * a * o.z * o.z);
+    real length = real_sqrt(ax * ax * o.x * o.x + ay * ay * o.y * o.y + o.z * o.z);
+    return d / (2 * (bound * o.z + length));
+}
+
 double oracle_pdf(hnbrdf_kind kind, const hnbrdf_material *material, const float wi[3],
                   const float wo[3])
 {
     if (!(wi[2] > 0.0f && wo[2] > 0.0f))
         return 0.0;
     vec i = in_tangent_frame(wi, material->rotation), o = in_tangent_frame(wo, material->rotation);
-    real ax = material->alpha[0], ay = material->alpha[1];
-    real share = kind == HNBRDF_KIND_NEURAL ? 0 : specular_share(material);
-    real lobe = D(angles_of(i, o).h, ax, ay) * G1(o, ax, ay) / (4 * o.z);
-    return (double)limited(share * lobe + (1 - share) * i.z / pi(), 0, HNBRDF_MAX_VALUE);
+    const hnbrdf_lobes *lobes = &material->lobes;
+    int neural = kind == HNBRDF_KIND_NEURAL, fitted = lobes->scale[0] != 0.0f;
+    real sum = 0, rest = 1;
+    for (int k = 0; k < HNBRDF_LOBES; k++) {
+        real scale = fitted ? (real)lobes->scale[k] : k == 0 ? 1 : 0;
+        real share = fitted ? share_at(lobes, k, o.z) : k == 0 && !neural ? specular_share(material) : 0;
+        real least = (real)HNBRDF_MIN_ALPHA, size = real_abs(scale);
+        if (scale == 0 || share == 0)
+            continue;
+        sum += share * lobe_density(i, o, scale, limited(size * (neural ? 1 : (real)material->alpha[0]), least, 1),
+                                    limited(size * (neural ? 1 : (real)material->alpha[1]), least, 1));
+        rest -= share;
+    }
+    return (double)limited(sum + limited(rest, 0, 1) * i.z / pi(), 0, HNBRDF_MAX_VALUE);
 }
 
 void oracle_evaluate(const hnbrdf_model_desc *desc, const hnbrdf_material *material, const float wi[3],

@@ -28,9 +28,9 @@ typedef struct oracle_point {
 void oracle_evaluate(const hnbrdf_model_desc *desc, const hnbrdf_material *material, const float wi[3],
                      const float wo[3], oracle_point *point);
 
-/* hnbrdf_pdf() of a model of this kind: share times the visible normals' density over 4 wo.h, the rest
- * cosine; share = s/(s + d) in [0.2, 0.9], s = 0.05 + mean of ((eta - 1)/(eta + 1))^2, d = mean kd; 0
- * for neural. */
+/* hnbrdf_pdf() of a model of this kind: the shares of the lobes times their densities, the rest cosine. Without fitted
+ * lobes one of visible normals with the material's alpha and the share s/(s + d) in [0.2, 0.9], s = 0.05 + mean of
+ * ((eta - 1)/(eta + 1))^2, d = mean kd; 0 for neural. */
 double oracle_pdf(hnbrdf_kind kind, const hnbrdf_material *material, const float wi[3],
                   const float wo[3]);
 

@@ -85,7 +85,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     hnbrdf_model *model = NULL;
     hnbrdf_error error = {""};
     const hnbrdf_result result = hnbrdf_model_load_memory(data, size, &options, &model, &error);
-    FUZZ_CHECK(largest <= 16 * size + 200000); /* as in test_model_hostile.c */
+    FUZZ_CHECK(largest <= 24 * size + 200000); /* as in test_model_hostile.c */
     FUZZ_CHECK((result == HNBRDF_OK) == (model != NULL));
     if (result) {
         fuzz_check_refusal(result, &error);
