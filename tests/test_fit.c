@@ -426,7 +426,7 @@ static void a_given_analytic_part_is_kept_and_one_material_needs_no_latent_code(
     hnbrdf_model_describe(model, &desc);
     assert_int_equal(desc.latent, 0);
     given.latent[0] = 0.0f;
-    assert_memory_equal(hnbrdf_model_material(model, 0), &given, sizeof given);
+    assert_memory_equal(hnbrdf_model_material(model, 0), &given, offsetof(hnbrdf_material, lobes));
 
     /* Such a network can be frozen as any other. */
     hnbrdf_model *more = NULL;

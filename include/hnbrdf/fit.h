@@ -37,7 +37,7 @@ typedef enum hnbrdf_fit_schedule {
 
 /* What the progress callback sees, ten times a second and every 100 steps. */
 typedef struct hnbrdf_fit_progress {
-    const char *stage;   /* "sampling", "ggx" or "network" */
+    const char *stage;   /* "sampling", "ggx", "network" or "lobes" (those of the materials) */
     double done;         /* share of this stage, 0 to 1 */
     double loss;         /* running mean of the training loss; NaN while there is none */
     double pairs_per_s;  /* direction pairs trained on per second in this stage */

@@ -23,6 +23,7 @@ int cmd_mix(int argc, char **argv);
 int cmd_report(int argc, char **argv);
 int cmd_bake(int argc, char **argv);
 int cmd_bench(int argc, char **argv);
+int cmd_lobes(int argc, char **argv);
 int cmd_import(int argc, char **argv);
 int cmd_info(int argc, char **argv);
 int cmd_stability(int argc, char **argv);

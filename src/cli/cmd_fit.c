@@ -51,6 +51,7 @@ static int show(void *user, const hnbrdf_fit_progress *p)
         d->stage = p->stage;
         cli_progress_begin(&d->line, strcmp(p->stage, "sampling") == 0 ? "drawing data"
                                      : strcmp(p->stage, "ggx") == 0    ? "fitting GGX"
+                                     : strcmp(p->stage, "lobes") == 0  ? "fitting lobes for sampling"
                                                                        : "training the network");
     }
     if (isfinite(p->loss))
@@ -59,7 +60,7 @@ static int show(void *user, const hnbrdf_fit_progress *p)
     else
         detail[0] = '\0';
     cli_progress_update(&d->line, p->done, detail);
-    if (p->step > 0 && p->step % 100 == 0)
+    if (strcmp(p->stage, "network") == 0 && p->step > 0 && p->step % 100 == 0)
         fit_log_row(&d->log, p);
     return interrupted != 0;
 }

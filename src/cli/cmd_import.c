@@ -1,5 +1,5 @@
 /* cmd_import.c: `hnbrdf import`: published .brdf shaders of one data set become one model file. */
-#include "cli/cli.h"
+#include "cli/lobes.h"
 
 #include <errno.h>
 #include <stdlib.h>
@@ -88,11 +88,14 @@ static int import_and_save(const brdf_texts *texts, const char *out)
     hnbrdf_result result =
         hnbrdf_model_import_brdf((const char *const *)texts->texts, texts->sizes,
                                  (const char *const *)texts->names, texts->count, NULL, &model, &error);
-    if (result == HNBRDF_OK)
-        result = hnbrdf_model_save(model, out, &error);
-    hnbrdf_model_free(model);
     if (result != HNBRDF_OK)
         return cli_fail("%s", error.text);
+    int failed = lobes_set_all(&model, LOBES_FITTED);
+    if (!failed && hnbrdf_model_save(model, out, &error) != HNBRDF_OK)
+        failed = cli_fail("%s", error.text);
+    hnbrdf_model_free(model);
+    if (failed)
+        return failed;
     printf("%s: %d material%s\n", out, texts->count, texts->count == 1 ? "" : "s");
     return CLI_OK;
 }

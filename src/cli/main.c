@@ -22,6 +22,7 @@ static const subcommand subcommands[] = {
     {"sheet", cmd_sheet, "contact sheet: reference, GGX alone and model, side by side"},
     {"edit", cmd_edit, "change a material: colour, refraction, roughness, angle"},
     {"mix", cmd_mix, "materials between two of a model"},
+    {"lobes", cmd_lobes, "where samples of a material go: fit, or take the paper's scheme"},
     {"bake", cmd_bake, "the smallest network that is good enough for the materials of a scene"},
     {"report", cmd_report, "error of a grid of networks and baselines, as tables and plots"},
     {"bench", cmd_bench, "run time beside error, on the CPU and on GPUs"},

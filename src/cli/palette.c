@@ -47,15 +47,17 @@ int palette_put(palette *p, const char *name, const hnbrdf_material *material, i
 {
     hnbrdf_error error;
     int k = 0;
-    if (hnbrdf_material_check(material, &error) != HNBRDF_OK)
+    hnbrdf_material fitted = *material;
+    if (hnbrdf_material_check(material, &error) != HNBRDF_OK ||
+        hnbrdf_lobes_fit(p->model, material, &fitted.lobes, &error) != HNBRDF_OK)
         return cli_fail("%s: %s", name, error.text);
     while (k < p->count && strcmp(p->names[k], name) != 0)
         k++;
     if (k == p->count)
-        return append(p, name, material);
+        return append(p, name, &fitted);
     if (!replace)
         return cli_fail("%s: there is a material %s already (--replace overwrites it)", p->path, name);
-    p->materials[k] = *material;
+    p->materials[k] = fitted;
     return CLI_OK;
 }
 

@@ -15,7 +15,7 @@ typedef struct palette {
 /* Loads a model file. All return 0, or CLI_FAILURE after a message. */
 int palette_open(palette *p, const char *path);
 /* A material under a new name at the end of the list, or in place of the one of this name if `replace`;
- * otherwise a name that is taken is an error. The values are checked. */
+ * otherwise a name that is taken is an error. The values are checked; the lobes are fitted anew. */
 int palette_put(palette *p, const char *name, const hnbrdf_material *material, int replace);
 /* Writes network and materials; path may be the file they came from. */
 int palette_save(const palette *p, const char *path);

@@ -147,6 +147,23 @@ static void settle_materials(trainer *t)
     }
 }
 
+/* The same model with lobes for its first t->count materials, which stand in desc. */
+static hnbrdf_result fit_lobes(trainer *t, hnbrdf_model_desc *desc, hnbrdf_material *materials,
+                               hnbrdf_model **model, hnbrdf_error *error)
+{
+    hnbrdf_model *bare;
+    hnbrdf_result result = hnbrdf_model_create(desc, NULL, &bare, error);
+    if (result)
+        return result;
+    t->stage_started = hnbrdf_fit_seconds();
+    for (int m = 0; m < t->count && !result; m++) {
+        result = hnbrdf_lobes_fit(bare, &materials[m], &materials[m].lobes, error);
+        hnbrdf_fit_tell(t, "lobes", (double)(m + 1) / t->count, NAN, 0.0, 0);
+    }
+    hnbrdf_model_free(bare);
+    return result ? result : hnbrdf_model_create(desc, NULL, model, error);
+}
+
 static hnbrdf_result make_model(trainer *t, hnbrdf_model **model, hnbrdf_error *error)
 {
     const fit_layout *l = &t->layout;
@@ -185,7 +202,7 @@ static hnbrdf_result make_model(trainer *t, hnbrdf_model **model, hnbrdf_error *
         desc.material_count = t->count + kept;
         desc.materials = materials;
         desc.names = names;
-        result = hnbrdf_model_create(&desc, NULL, model, error);
+        result = fit_lobes(t, &desc, materials, model, error);
     }
     free(weights);
     free(materials);

@@ -70,6 +70,27 @@ static double turned_bar(const hnbrdf_material *material, const float pair[6])
     return bar < 0.1 ? bar : (double)INFINITY;
 }
 
+/* What rounding the view does to the shares of the lobes: 3 sqrt(wo.z), up to 3, is (2 x + 1) u off between its
+ * knots, and shares go with it. A share that is small there and large at the next knot feels that most; the lobe
+ * may be all there is of the density. The cosine lobe gets 1 less the others, whose roundings, 6 u, stay. */
+static double shares_bar(const hnbrdf_material *material, double z)
+{
+    double x = fmin(3.0 * sqrt(z), 3.0), worst = 0.0, rest[2] = {1.0, 1.0};
+    int j = x < 1.0 ? 0 : x < 2.0 ? 1 : 2;
+    if (material->lobes.scale[0] == 0.0f)
+        return 0.0;
+    for (int k = 0; k <= HNBRDF_LOBES; k++) {
+        double from = k < HNBRDF_LOBES ? (double)material->lobes.share[k][j] : rest[0];
+        double to = k < HNBRDF_LOBES ? (double)material->lobes.share[k][j + 1] : rest[1];
+        double share = from + (x - j) * (to - from);
+        rest[0] -= from;
+        rest[1] -= to;
+        if (share > 0.0)
+            worst = fmax(worst, ((2.0 * x + 1.0) * fabs(to - from) + (k == HNBRDF_LOBES ? 6.0 : 0.0)) / share);
+    }
+    return 0x1p-24 * worst;
+}
+
 static double bar_of(const stability_case *what, const stability_backend *backend,
                      stability_stage stage, const hnbrdf_material *material, const float pair[6])
 {
@@ -79,6 +100,8 @@ static double bar_of(const stability_case *what, const stability_backend *backen
         return (double)INFINITY;
     if (material->rotation != 0.0f) /* of the case turned, or as the model has it */
         bar += turned_bar(material, pair);
+    if (stage == STABILITY_PDF || stage == STABILITY_SAMPLE)
+        bar += shares_bar(material, (double)pair[5]);
     return bar * (stage == STABILITY_VALUE ? backend->loosen_value : backend->loosen);
 }
 

@@ -1,0 +1,112 @@
+/* cmd_lobes.c: `hnbrdf lobes`: fit the lobes with which the materials of a model are sampled, and show them. */
+#include "cli/csv.h"
+#include "cli/lobes.h"
+
+#include <math.h>
+#include <stddef.h>
+
+static const cli_command command = {
+    "lobes",
+    "MODEL [--scheme fitted|paper|guess] [-o OUT] [--show] [--csv FILE]",
+    "Makes the lobes with which hnbrdf_sample() draws the materials of a model, and writes them into it:\n"
+    "two GGX lobes a material, of their own roughness, and the share of the samples that each gets at\n"
+    "wo.z = 0, 1/9, 4/9 and 1; the rest is a cosine lobe. The values of the BRDF do not change. `fit`,\n"
+    "`edit`, `mix`, `bake` and `import` make them by themselves: this is for older files and for\n"
+    "comparisons. A roughness of 0 stands for no such lobe, one with a minus draws from all normals.",
+    "hnbrdf lobes old.safetensors\n"
+    "hnbrdf lobes model.safetensors --show --csv -\n"
+    "hnbrdf lobes model.safetensors --scheme paper -o paper.safetensors",
+};
+
+/* Along x, with the sign of the scale; 0 where there is no such lobe. */
+static double roughness(const hnbrdf_model_desc *desc, const hnbrdf_material *m, int lobe)
+{
+    double scale = (double)m->lobes.scale[lobe];
+    double alpha = fabs(scale) * (desc->kind == HNBRDF_KIND_NEURAL ? 1.0 : (double)m->alpha[0]);
+    double held = fmin(fmax(alpha, (double)HNBRDF_MIN_ALPHA), (double)HNBRDF_MAX_ALPHA);
+    return scale == 0.0 ? 0.0 : copysign(held, scale);
+}
+
+static void print_table(const hnbrdf_model_desc *desc)
+{
+    printf("%-28s %7s  %9s %5s %5s %5s %5s  %9s %5s %5s %5s %5s\n", "material", "alpha", "lobe 1", "0", "1/9", "4/9",
+           "1", "lobe 2", "0", "1/9", "4/9", "1");
+    for (int i = 0; i < desc->material_count; i++) {
+        const hnbrdf_material *m = &desc->materials[i];
+        printf("%-28s %7.4f", desc->names[i], (double)m->alpha[0]);
+        if (m->lobes.scale[0] == 0.0f)
+            printf("  none: guessed from kd and eta");
+        for (int k = 0; k < HNBRDF_LOBES && m->lobes.scale[0] != 0.0f; k++) {
+            printf("  %9.4f", roughness(desc, m, k));
+            for (int j = 0; j < HNBRDF_LOBE_KNOTS; j++)
+                printf(" %5.2f", (double)m->lobes.share[k][j]);
+        }
+        putchar('\n');
+    }
+}
+
+static int write_csv(const char *path, const hnbrdf_model_desc *desc)
+{
+    cli_output output;
+    if (cli_output_open(path, &output) != CLI_OK)
+        return CLI_FAILURE;
+    fputs("material,alpha_x,alpha_y,roughness1,share1_0,share1_1,share1_2,share1_3,roughness2,share2_0,share2_1,"
+          "share2_2,share2_3\n",
+          output.file);
+    for (int i = 0; i < desc->material_count; i++) {
+        const hnbrdf_material *m = &desc->materials[i];
+        csv_write_text(output.file, desc->names[i]);
+        fprintf(output.file, ",%.9g,%.9g", (double)m->alpha[0], (double)m->alpha[1]);
+        for (int k = 0; k < HNBRDF_LOBES; k++) {
+            fprintf(output.file, ",%.9g", roughness(desc, m, k));
+            for (int j = 0; j < HNBRDF_LOBE_KNOTS; j++)
+                fprintf(output.file, ",%.9g", (double)m->lobes.share[k][j]);
+        }
+        putc('\n', output.file);
+    }
+    return cli_output_close(&output);
+}
+
+static int run(hnbrdf_model **model, const char *path, lobes_scheme scheme, int show, const char *csv,
+               const char *output)
+{
+    hnbrdf_model_desc desc;
+    hnbrdf_error error;
+    int to_stdout = csv && csv[0] == '-' && !csv[1];
+    if (!show && (cli_output_check(output ? output : path) != CLI_OK || lobes_set_all(model, scheme) != CLI_OK))
+        return CLI_FAILURE;
+    hnbrdf_model_describe(*model, &desc);
+    if (!show && hnbrdf_model_save(*model, output ? output : path, &error) != HNBRDF_OK)
+        return cli_fail("%s", error.text);
+    if (!to_stdout)
+        print_table(&desc);
+    return csv ? write_csv(csv, &desc) : CLI_OK;
+}
+
+int cmd_lobes(int argc, char **argv)
+{
+    const char *output = NULL, *csv = NULL;
+    int scheme = LOBES_FITTED, show = 0, count;
+    const cli_option options[] = {
+        {"scheme", 0, CLI_CHOICE, &scheme, 0, 0, "fitted|paper|guess",
+         "least variance (default); half cosine, half all normals; none"},
+        {"output", 'o', CLI_TEXT, &output, 0, 0, "OUT", "the model file to write (default: MODEL, rewritten)"},
+        {"show", 0, CLI_FLAG, &show, 0, 0, NULL, "show those it has, change nothing"},
+        {"csv", 0, CLI_TEXT, &csv, 0, 0, "FILE", "write the table as CSV; - is stdout, then without the table"},
+        {0},
+    };
+    int result = cli_parse(&command, options, argc, argv, &count);
+    if (result >= 0)
+        return result;
+    if (count != 1)
+        return cli_usage(&command, count ? "more than one MODEL" : "no MODEL");
+    if (show && output)
+        return cli_usage(&command, "--show writes no model: leave out -o");
+    hnbrdf_model *model;
+    hnbrdf_error error;
+    if (hnbrdf_model_load(argv[1], NULL, &model, &error) != HNBRDF_OK)
+        return cli_fail("%s", error.text);
+    result = run(&model, argv[1], (lobes_scheme)scheme, show, csv, output);
+    hnbrdf_model_free(model);
+    return result;
+}
