@@ -9,7 +9,8 @@ set(HNBRDF_TOOL_SOURCES
   src/cli/peak.c src/cli/cmd_report.c src/cli/cmd_bake.c src/cli/bake_search.c src/cli/bake_sizes.c
   src/cli/bake_fit.c src/cli/bake_teacher.c src/cli/bake_tables.c src/cli/bake_plot.c src/cli/bake_half.c
   src/cli/report_grid.c src/cli/report_fit.c src/cli/report_tables.c
-  src/cli/report_images.c src/cli/report_ggx.c
+  src/cli/report_images.c src/cli/report_ggx.c src/cli/report_options.c
+  src/cli/cmd_report_images.c src/cli/report_image_tables.c src/cli/report_rows.c
   src/cli/report_plot.c src/cli/cmd_bench.c src/cli/bench_probe.c src/cli/bench_cpu.c
   src/cli/bench_gpu.c src/cli/bench_peer.c src/cli/bench_quality.c src/cli/bench_write.c
   src/cli/bench_plot.c src/cli/text_buffer.c)

@@ -380,7 +380,7 @@ int cmd_compare(int argc, char **argv)
         {"difference", 0, CLI_TEXT, &pictures.difference, 0, 0, "FILE",
          "with --images: false colours and their scale as FILE.png, or FILE.exr and a PNG beside it"},
         {"scale", 0, CLI_REAL, &pictures.top, 1e-30, 1e30, "X",
-         "where its colours end (default: at most one pixel in a thousand is beyond)"},
+         "where its colours end (default: at most one pixel in a hundred is beyond)"},
         {"csv", 0, CLI_TEXT, &csv, 0, 0, "FILE", "write the table as CSV; - is standard output"},
         {"json", 0, CLI_TEXT, &json, 0, 0, "FILE", "write it as JSON, with MAE and MSE; - likewise"},
         CLI_READING_OPTIONS,

@@ -51,8 +51,8 @@ double render_difference_top(const render_image *a, const render_image *b)
         if (render_covered(a, b, i))
             values[count++] = difference_at(a, b, i);
     qsort(values, count, sizeof *values, compare_values);
-    double most = count ? values[count - 1 - count / 1000] : 0.0;
-    if (count && !(most > 0.0)) /* fewer than one in a thousand differ */
+    double most = count ? values[count - 1 - count / 100] : 0.0;
+    if (count && !(most > 0.0)) /* fewer than one in a hundred differ */
         most = values[count - 1];
     free(values);
     return most > 0.0 ? round_up(most) : 1.0;

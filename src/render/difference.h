@@ -8,8 +8,8 @@
 /* 1 if this pixel counts: a or b covers it at least in part. A picture without alpha covers everything. */
 int render_covered(const render_image *a, const render_image *b, size_t pixel);
 
-/* Where the scale ends: the smallest of 1, 2 and 5 times a power of ten that at most one in a thousand of the
- * pixels that count exceeds. 1 for equal pictures; 0 without memory. */
+/* Where the scale ends: the smallest of 1, 2 and 5 times a power of ten that at most one in a hundred of the
+ * pixels that count exceeds: highlights may. 1 for equal pictures; 0 without memory. */
 double render_difference_top(const render_image *a, const render_image *b);
 
 /* The colours of render_colour_map() from 0 to `top` where pixels count, with an alpha of 0 elsewhere. */

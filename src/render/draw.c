@@ -41,6 +41,37 @@ void render_text_at(render_image *image, double x, int y, double share, const ch
     render_text(image, left, y, text, x_height, colour);
 }
 
+/* Mean over [x, x + side) x [y, y + side) of channel k; alpha is channel 3. */
+static double area_mean(const render_image *image, double x, double y, double side, int k)
+{
+    double sum = 0.0;
+    for (int row = (int)y; row < image->height && row < y + side; row++)
+        for (int column = (int)x; column < image->width && column < x + side; column++) {
+            double wide = fmin(column + 1.0, x + side) - fmax(column, x);
+            double high = fmin(row + 1.0, y + side) - fmax(row, y);
+            size_t pixel = (size_t)row * (size_t)image->width + (size_t)column;
+            double value =
+                k < 3 ? (double)image->rgb[3 * pixel + (size_t)k] : (double)image->alpha[pixel];
+            sum += wide * high * value;
+        }
+    return sum / (side * side);
+}
+
+hnbrdf_result render_resize(const render_image *image, int size, double gain, render_image *out,
+                            hnbrdf_error *error)
+{
+    hnbrdf_result result = render_image_create(size, size, image->alpha != NULL, out, error);
+    double side = (double)image->width / size;
+    for (int i = 0; result == HNBRDF_OK && i < size * size; i++) {
+        double x = i % size * side, y = i / size * side;
+        for (int k = 0; k < 3; k++)
+            out->rgb[3 * i + k] = (float)(gain * area_mean(image, x, y, side, k));
+        if (out->alpha)
+            out->alpha[i] = (float)area_mean(image, x, y, side, 3);
+    }
+    return result;
+}
+
 void render_colour_map(double t, float rgb[3])
 {
     static const float stops[5][3] = {

@@ -71,6 +71,15 @@ static layout lay_out(const render_sheet *sheet)
     return l;
 }
 
+/* Centred on a cell that begins at x, and never wider than cells are apart. */
+static void draw_label(render_image *image, const render_sheet *sheet, const layout *l, int x, int y,
+                       const char *label, const float colour[3])
+{
+    char text[64];
+    render_text_shorten(label, l->text, sheet->cell + l->pad - 2.0, text, sizeof text);
+    render_text_at(image, x + 0.5 * sheet->cell, y, 0.5, text, l->text, colour);
+}
+
 static void draw_header(const render_sheet *sheet, const layout *l, render_image *image)
 {
     int y = l->margin;
@@ -88,8 +97,7 @@ static void draw_header(const render_sheet *sheet, const layout *l, render_image
         for (int c = 0; c < sheet->columns; c++) {
             int x = l->margin + block * (l->card_width + l->gap) + l->pad + c * (sheet->cell + l->pad);
             if (sheet->titles[c])
-                render_text_at(image, x + 0.5 * sheet->cell, baseline, 0.5, sheet->titles[c], l->text,
-                               plain);
+                draw_label(image, sheet, l, x, baseline, sheet->titles[c], plain);
         }
 }
 
@@ -108,9 +116,8 @@ static void draw_card(const render_sheet *sheet, const layout *l, const render_s
         if (cell->image.rgb)
             render_paste(image, left, top, &cell->image);
         int fits = render_text_width(cell->caption, l->text) <= sheet->cell + l->pad;
-        render_text_at(image, left + 0.5 * sheet->cell, top + sheet->cell + rounded(1.7 * l->text), 0.5,
-                       fits ? cell->caption : cell->short_caption, l->text,
-                       cell->image.rgb ? plain : dim);
+        draw_label(image, sheet, l, left, top + sheet->cell + rounded(1.7 * l->text),
+                   fits ? cell->caption : cell->short_caption, cell->image.rgb ? plain : dim);
     }
 }
 
