@@ -3,13 +3,14 @@ set(HNBRDF_TOOL_SOURCES
   src/cli/main.c src/cli/cli.c src/cli/sources.c src/cli/output.c src/cli/csv.c
   src/cli/progress.c src/cli/texels.c src/cli/svg.c
   src/cli/cmd_fit.c src/cli/fit_log.c src/cli/fit_speed.c src/cli/loss_plot.c
-  src/cli/cmd_eval.c src/cli/cmd_compare.c src/cli/cmd_export.c
+  src/cli/cmd_eval.c src/cli/cmd_compare.c src/cli/compare_images.c src/cli/cmd_export.c
   src/cli/cmd_verify.c src/cli/cmd_render.c src/cli/cmd_sheet.c src/cli/cmd_import.c
   src/cli/cmd_info.c src/cli/picture.c src/cli/palette.c src/cli/cmd_edit.c src/cli/cmd_mix.c src/cli/lobes.c src/cli/cmd_lobes.c
   src/cli/peak.c src/cli/cmd_report.c src/cli/cmd_bake.c src/cli/bake_search.c src/cli/bake_sizes.c
   src/cli/bake_fit.c src/cli/bake_teacher.c src/cli/bake_tables.c src/cli/bake_plot.c src/cli/bake_half.c
   src/cli/report_grid.c src/cli/report_fit.c src/cli/report_tables.c
-  src/cli/report_images.c src/cli/report_ggx.c
+  src/cli/report_images.c src/cli/report_ggx.c src/cli/report_options.c
+  src/cli/cmd_report_images.c src/cli/report_image_tables.c src/cli/report_rows.c
   src/cli/report_plot.c src/cli/cmd_bench.c src/cli/bench_probe.c src/cli/bench_cpu.c
   src/cli/bench_gpu.c src/cli/bench_peer.c src/cli/bench_quality.c src/cli/bench_write.c
   src/cli/bench_plot.c src/cli/text_buffer.c)
@@ -19,7 +20,7 @@ add_library(hnbrdf_render STATIC EXCLUDE_FROM_ALL
   src/render/image.c src/render/exr.c src/render/radiance.c src/render/png.c
   src/render/environment.c src/render/sky.c src/render/surface.c src/render/guide.c src/render/shade.c
   src/render/sphere.c src/render/backdrop.c src/render/label.c src/render/glyphs.c
-  src/render/sheet.c)
+  src/render/sheet.c src/render/draw.c src/render/difference.c)
 target_link_libraries(hnbrdf_render PRIVATE hnbrdf_flags PUBLIC hnbrdf_measured_static Threads::Threads)
 target_include_directories(hnbrdf_render SYSTEM PRIVATE ${STB_INCLUDE_DIR})
 target_compile_definitions(hnbrdf_render PRIVATE _POSIX_C_SOURCE=200809L)

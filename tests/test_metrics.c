@@ -284,6 +284,97 @@ static void a_tenth_of_the_error_is_20_db_more(void **state)
     assert_true(fabs(error[1].psnr - error[0].psnr - 20.0) < 1e-3);
 }
 
+/* Sum of 12 uniform numbers less 6: mean 0, variance 1, normal to what is looked at here. */
+static double normal(hnbrdf_rng *rng)
+{
+    double sum = -6.0;
+    for (int k = 0; k < 12; k++)
+        sum += hnbrdf_rng_float(rng);
+    return sum;
+}
+
+enum { NOISY_PIXELS = 24, TRIALS = 4000 };
+
+/* One noisy rendering: the error of channel k is 0.1 (k + 1), its noise the same in all channels but
+ * for a part of its own. The reference has none. */
+static void render_noisily(hnbrdf_rng *rng, const float *reference, float *image)
+{
+    for (int p = 0; p < NOISY_PIXELS; p++) {
+        double shared = normal(rng);
+        for (int k = 0; k < 3; k++)
+            image[3 * p + k] = (float)((double)reference[3 * p + k] + 0.1 * (k + 1) + 0.2 * shared +
+                                       0.1 * normal(rng));
+    }
+}
+
+static void the_error_by_noise_is_the_spread_of_many_renderings(void **state)
+{
+    (void)state;
+    const double truth = (0.01 + 0.04 + 0.09) / 3.0;
+    double sum = 0.0, squares = 0.0, stated = 0.0, plain = 0.0;
+    float reference[3 * NOISY_PIXELS], image[2][3 * NOISY_PIXELS];
+    const float *images[2] = {image[0], image[1]}, *references[2] = {reference, reference};
+    hnbrdf_rng rng;
+    hnbrdf_rng_seed(&rng, 7, 0);
+    for (int k = 0; k < 3 * NOISY_PIXELS; k++)
+        reference[k] = (float)k;
+    for (int t = 0; t < TRIALS; t++) {
+        hnbrdf_image_error error;
+        hnbrdf_image_noise noise;
+        render_noisily(&rng, reference, image[0]);
+        render_noisily(&rng, reference, image[1]);
+        hnbrdf_image_compare_twice(images, references, NOISY_PIXELS, &error, &noise);
+        sum += noise.mse / TRIALS;
+        squares += noise.mse * noise.mse / TRIALS;
+        stated += noise.mse_error * noise.mse_error / TRIALS;
+        plain += error.mse / TRIALS;
+        assert_true(noise.peak_error == 0.0);
+    }
+    double spread = sqrt(squares - sum * sum);
+    /* The mean of all trials within 4 standard errors of the truth; the plain MSE above it by half the
+     * noise's variance, 0.05/2. The spread of 4000 trials is known to 1/sqrt(2 * 4000) = 1.1 %, and the
+     * stated variance, a mean of 4000 * 24 squares whose own spread is less than 3 times their mean, to
+     * 1 %. */
+    assert_true(fabs(sum - truth) < 4.0 * spread / sqrt(TRIALS));
+    assert_true(fabs(plain - truth - 0.025) < 4.0 * spread / sqrt(TRIALS));
+    assert_true(fabs(sqrt(stated) / spread - 1.0) < 4.0 * 0.015);
+}
+
+static void without_noise_there_is_no_error_by_noise(void **state)
+{
+    (void)state;
+    const float image[6] = {1.0f, 2.0f, 0.0f, 4.0f, 1.0f, 1.0f},
+                reference[6] = {1.0f, 4.0f, 0.0f, 2.0f, 1.0f, 1.0f};
+    const float *images[2] = {image, image}, *references[2] = {reference, reference};
+    hnbrdf_image_error once, twice;
+    hnbrdf_image_noise noise;
+    hnbrdf_image_compare(image, reference, 6, &once);
+    hnbrdf_image_compare_twice(images, references, 2, &twice, &noise);
+    assert_true(once.mae == twice.mae && once.mse == twice.mse && once.psnr == twice.psnr);
+    assert_true(noise.mse == once.mse && noise.mse_error == 0.0 && noise.psnr_error == 0.0);
+    assert_true(noise.psnr_bias == 0.0 && noise.peak_error == 0.0);
+    hnbrdf_image_compare_twice(references, references, 2, &twice, &noise);
+    assert_true(isinf(twice.psnr) && noise.mse == 0.0 && noise.psnr_error == 0.0);
+}
+
+static void pictures_of_noise_alone_say_so(void **state)
+{
+    (void)state;
+    /* d1 = 1, d2 = -1 in every channel: nothing is left of the error but noise. */
+    const float up[3] = {3.0f, 3.0f, 3.0f}, down[3] = {1.0f, 1.0f, 1.0f},
+                reference[3] = {2.0f, 2.0f, 2.0f};
+    const float *images[2] = {up, down}, *references[2] = {reference, reference};
+    hnbrdf_image_error error;
+    hnbrdf_image_noise noise;
+    hnbrdf_image_compare_twice(images, references, 1, &error, &noise);
+    assert_true(error.mse == 0.0 && noise.mse == -1.0 && isinf(noise.psnr_error));
+    /* A second reference of noise 1/2 about a peak of 2: 20 log10 moves by 8.686 / 4. */
+    const float low[3] = {1.5f, 1.0f, 1.0f}, high[3] = {2.5f, 1.0f, 1.0f};
+    const float *noisy[2] = {low, high};
+    hnbrdf_image_compare_twice(images, noisy, 1, &error, &noise);
+    assert_close(noise.peak_error, 20.0 / log(10.0) / 4.0, 1e-12);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -298,6 +389,9 @@ int main(void)
         cmocka_unit_test(image_errors_have_their_known_values),
         cmocka_unit_test(equal_images_have_infinite_psnr),
         cmocka_unit_test(a_tenth_of_the_error_is_20_db_more),
+        cmocka_unit_test(the_error_by_noise_is_the_spread_of_many_renderings),
+        cmocka_unit_test(without_noise_there_is_no_error_by_noise),
+        cmocka_unit_test(pictures_of_noise_alone_say_so),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

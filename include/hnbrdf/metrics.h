@@ -34,9 +34,26 @@ typedef struct hnbrdf_image_error {
     double mae, mse, psnr; /* psnr in dB with peak = the largest reference value; infinite if equal */
 } hnbrdf_image_error;
 
+/* What the noise of rendering does to those figures. */
+typedef struct hnbrdf_image_noise {
+    double mse;        /* an estimate of the MSE without noise that is right on average; below 0 at times
+                          where there is hardly anything but noise */
+    double mse_error;  /* standard error of that estimate */
+    double psnr_error; /* the same in dB: 10/ln 10 mse_error/mse; infinite where mse <= 0 */
+    double psnr_bias;  /* dB by which PSNR is too low because noise counts as error; likewise */
+    double peak_error; /* dB: standard error of 20 log10(peak), one for all images of a reference; from
+                          one pixel, so good for a mean over many images only */
+} hnbrdf_image_noise;
+
 /* Over count values (pixels times channels) of two linear images of the same size. */
 HNBRDF_API void hnbrdf_image_compare(const float *image, const float *reference, size_t count,
                                      hnbrdf_image_error *error);
+
+/* Over `pixels` pixels of RGB: an image rendered twice with different seeds, against its reference rendered
+ * twice with the same two. error is that of the mean of both renderings. */
+HNBRDF_API void hnbrdf_image_compare_twice(const float *const image[2], const float *const reference[2],
+                                           size_t pixels, hnbrdf_image_error *error,
+                                           hnbrdf_image_noise *noise);
 
 /* What is physical about a material of a model, by evaluating it. All channels. */
 typedef struct hnbrdf_physics {

@@ -1,6 +1,7 @@
 /* cmd_compare.c: `hnbrdf compare`: how far a model is from measured materials, one row for each. */
-#include "cli/cli.h"
+#include "cli/compare_images.h"
 #include "cli/csv.h"
+#include "cli/picture.h"
 #include "hnbrdf/metrics.h"
 #include "model/text.h"
 
@@ -18,10 +19,25 @@ static const cli_command command = {
     "Samplers: uniform (wi and wo uniform in solid angle), cosine, grid (theta_h = u^2 pi/2, theta_d "
     "and\n"
     "phi_d uniform, as MERL's own grid). The same seed gives the same pairs, whatever the threads.\n"
-    "CSV columns: material,smape,smape_analytic,pairs; the last row is named mean.",
+    "CSV columns: material,smape,smape_analytic,pairs; the last row is named mean.\n"
+    "\n"
+    "With --images, pictures instead: IMAGE... REFERENCE, OpenEXR or Radiance files of one size. MAE "
+    "and "
+    "MSE\n"
+    "are means over R, G and B of the linear values as they are, without exposure; PSNR takes the "
+    "reference's\n"
+    "largest value as its peak, as a rendering has no white. Pixels with alpha 0 in both are left out; "
+    "values\n"
+    "with alpha are premultiplied and compared so. --difference draws where they differ. There is no "
+    "FLIP: "
+    "no\n"
+    "library of it is packaged; NVIDIA's own `flip` reads the same files.\n"
+    "CSV columns: image,reference,mae,mse,psnr,pixels.",
     "hnbrdf compare model.safetensors builtin\n"
     "hnbrdf compare rgl.safetensors measured/rgl --sampler uniform --pairs 1e6 --csv rgl.csv\n"
-    "hnbrdf compare hybrid.safetensors builtin --against ggx.safetensors",
+    "hnbrdf compare hybrid.safetensors builtin --against ggx.safetensors\n"
+    "hnbrdf compare --images hybrid.exr ggx.exr reference.exr --csv -\n"
+    "hnbrdf compare --images hybrid.exr reference.exr --difference where.png",
 };
 
 typedef struct row {
@@ -328,12 +344,28 @@ static int run(job *j, char **data_arguments, int data_count, int skip_missing, 
     return result;
 }
 
+/* Returns -1 to go on, as cli_parse() does. */
+static int check_images(int images, const compare_images_options *pictures, int count, int of_models)
+{
+    if (!images && (pictures->difference || pictures->top > 0.0))
+        return cli_usage(&command, "--difference and --scale belong to --images");
+    if (images && of_models)
+        return cli_usage(&command, "--against and --skip-missing are for models, not for --images");
+    if (images && count < 2)
+        return cli_usage(&command, "--images: found %d picture%s, expected IMAGE... REFERENCE", count,
+                         count == 1 ? "" : "s");
+    if (images && pictures->difference && count != 2)
+        return cli_usage(&command, "--difference: found %d pictures, expected IMAGE REFERENCE", count);
+    return pictures->difference ? picture_check_output(&command, pictures->difference) : -1;
+}
+
 int cmd_compare(int argc, char **argv)
 {
     job j = {.pairs = 200000, .seed = 1};
     const char *sampler = "grid", *csv = NULL, *json = NULL;
-    int skip_missing = 0, count;
+    int skip_missing = 0, images = 0, count;
     long threads = 0;
+    compare_images_options pictures = {0};
     const cli_option options[] = {
         {"sampler", 0, CLI_TEXT, &sampler, 0, 0, "NAME", "uniform, cosine or grid (default grid)"},
         {"pairs", 'n', CLI_INT, &j.pairs, 1, 1e10, "N",
@@ -344,6 +376,11 @@ int cmd_compare(int argc, char **argv)
          "a second model: its SMAPE beside, and which of the two is better for how many materials"},
         {"skip-missing", 0, CLI_FLAG, &skip_missing, 0, 0, NULL,
          "leave out data that the model has no material for (default: an error)"},
+        {"images", 0, CLI_FLAG, &images, 0, 0, NULL, "compare pictures, the reference last"},
+        {"difference", 0, CLI_TEXT, &pictures.difference, 0, 0, "FILE",
+         "with --images: false colours and their scale as FILE.png, or FILE.exr and a PNG beside it"},
+        {"scale", 0, CLI_REAL, &pictures.top, 1e-30, 1e30, "X",
+         "where its colours end (default: at most one pixel in a hundred is beyond)"},
         {"csv", 0, CLI_TEXT, &csv, 0, 0, "FILE", "write the table as CSV; - is standard output"},
         {"json", 0, CLI_TEXT, &json, 0, 0, "FILE", "write it as JSON, with MAE and MSE; - likewise"},
         CLI_READING_OPTIONS,
@@ -353,6 +390,8 @@ int cmd_compare(int argc, char **argv)
     int result = cli_parse(&command, options, argc, argv, &count);
     if (result < 0)
         result = parse_sampler(sampler, &j.sampler);
+    if (result < 0)
+        result = check_images(images, &pictures, count, j.path_against || skip_missing);
     if (result >= 0)
         return result;
     if (count < 2)
@@ -361,6 +400,13 @@ int cmd_compare(int argc, char **argv)
         return cli_usage(&command, "--csv and --json both to standard output");
     if ((csv && (result = cli_output_check(csv))) || (json && (result = cli_output_check(json))))
         return result;
+    if (images) {
+        pictures.paths = argv + 1;
+        pictures.count = count;
+        pictures.csv = csv;
+        pictures.json = json;
+        return compare_images(&pictures);
+    }
     j.path = argv[1];
     return run(&j, argv + 2, count - 1, skip_missing, threads ? (int)threads : cli_processors(), csv,
                json);

@@ -2,10 +2,8 @@
  * plots. */
 #include "cli/report.h"
 
-#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 static const cli_command command = {
     "report",
@@ -18,6 +16,7 @@ static const cli_command command = {
     "materials.csv (a row a material and model), ggx.csv and ggx.svg (how the fits of GGX went),\n"
     "errors-NET.svg, and the models in models/. Beside SMAPE stands the PSNR of spheres under the\n"
     "built-in sky.\n"
+    "`hnbrdf report images --help` tells about the other report, of image error.\n"
     "Everything is written anew after each model: what an interrupted run has done stays, and "
     "--resume\n"
     "goes on with it. A model made with other settings is not reused.",
@@ -26,153 +25,22 @@ static const cli_command command = {
     "hnbrdf report accuracy merl/ --seconds 600 --latents 4 --nets 16x2,32x2 --resume -o merl-report",
 };
 
-/* ---- Lists --------------------------------------------------------------------------------------- */
-
-static int read_nets(const char *list, report *r)
-{
-    for (const char *at = list;; at++) {
-        int *net = r->nets[r->net_count], length = 0;
-        if (r->net_count == REPORT_NETS)
-            return cli_usage(&command, "--nets: more than %d", (int)REPORT_NETS);
-        if (sscanf(at, "%2dx%1d%n", &net[0], &net[1], &length) != 2 || net[0] < 1 ||
-            net[0] > HNBRDF_MAX_HIDDEN || net[1] < 1 || net[1] > HNBRDF_MAX_LAYERS ||
-            (at[length] != ',' && at[length] != '\0'))
-            return cli_usage(&command,
-                             "--nets: '%s' is not HxN,HxN,... with H from 1 to %d and N from 1 to %d",
-                             list, HNBRDF_MAX_HIDDEN, HNBRDF_MAX_LAYERS);
-        for (int k = 0; k < r->net_count; k++)
-            if (r->nets[k][0] == net[0] && r->nets[k][1] == net[1])
-                return cli_usage(&command, "--nets: %dx%d is there twice", net[0], net[1]);
-        r->net_count++;
-        at += length;
-        if (*at == '\0')
-            return -1;
-    }
-}
-
-static int read_latents(const char *list, report *r)
-{
-    int most = HNBRDF_MAX_LATENT - REPORT_ANALYTIC_NUMBERS;
-    for (const char *at = list;; at++) {
-        int value = 0, length = 0;
-        if (r->latent_count == REPORT_LATENTS)
-            return cli_usage(&command, "--latents: more than %d", (int)REPORT_LATENTS);
-        if (sscanf(at, "%2d%n", &value, &length) != 1 || value < 1 || value > most ||
-            (at[length] != ',' && at[length] != '\0'))
-            return cli_usage(&command, "--latents: '%s' is not a list of whole numbers from 1 to %d",
-                             list, most);
-        for (int k = 0; k < r->latent_count; k++)
-            if (r->latents[k] == value)
-                return cli_usage(&command, "--latents: %d is there twice", value);
-        r->latents[r->latent_count++] = value;
-        at += length;
-        if (*at == '\0')
-            return -1;
-    }
-}
-
-static int read_models(const char *list, report *r)
-{
-    r->forms[REPORT_GGX] = 1;
-    while (*list) {
-        size_t length = strcspn(list, ",");
-        report_form form = REPORT_GGX;
-        while (report_form_name(form) && (strlen(report_form_name(form)) != length ||
-                                          strncmp(list, report_form_name(form), length) != 0))
-            form++;
-        if (!report_form_name(form))
-            return cli_usage(&command, "--models: '%.*s', expected hybrid, paper or neural",
-                             (int)length, list);
-        r->forms[form] = 1;
-        list += length + (list[length] == ',');
-    }
-    return -1;
-}
-
-/* The command as it was typed; cli_parse() moves its arguments about. NULL when memory is short. */
-static char *join(int argc, char **argv)
-{
-    size_t size = sizeof "hnbrdf";
-    for (int k = 0; k < argc; k++)
-        size += strlen(argv[k]) + 1;
-    char *text = malloc(size);
-    if (!text)
-        return NULL;
-    size_t at = (size_t)snprintf(text, size, "hnbrdf");
-    for (int k = 0; k < argc; k++)
-        at += (size_t)snprintf(text + at, size - at, " %s", argv[k]);
-    return text;
-}
-
-/* ---- Output -------------------------------------------------------------------------------------- */
-
-static int make_directory(const char *path)
-{
-    struct stat status;
-    if (mkdir(path, 0777) == 0 ||
-        (errno == EEXIST && stat(path, &status) == 0 && S_ISDIR(status.st_mode)))
-        return CLI_OK;
-    return cli_fail("%s: cannot make this folder: %s", path, strerror(errno));
-}
-
-static int make_directories(const report *r)
-{
-    char *path = report_path(r, "", "");
-    int result = path ? make_directory(r->directory) : CLI_FAILURE;
-    if (result == CLI_OK) {
-        path[strlen(path) - 2] = '\0'; /* the "/." behind models */
-        result = make_directory(path);
-    }
-    free(path);
-    return result;
-}
-
-/* Opens NAME in the report's folder. */
-static int open_result(const report *r, const char *name, cli_output *output)
-{
-    size_t size = strlen(r->directory) + strlen(name) + 2;
-    char *path = malloc(size);
-    if (!path)
-        return cli_fail("out of memory");
-    snprintf(path, size, "%s/%s", r->directory, name);
-    int result = cli_output_open(path, output);
-    free(path);
-    return result;
-}
-
-static int write_result(const report *r, const char *name, void (*write)(const report *r, FILE *file))
-{
-    cli_output output;
-    if (open_result(r, name, &output) != CLI_OK)
-        return CLI_FAILURE;
-    write(r, output.file);
-    return cli_output_close(&output);
-}
-
-static int write_plot(const report *r, const int net[2])
-{
-    char name[32];
-    cli_output output;
-    snprintf(name, sizeof name, "errors-%dx%d.svg", net[0], net[1]);
-    if (open_result(r, name, &output) != CLI_OK)
-        return CLI_FAILURE;
-    report_write_plot(r, net, output.file);
-    return cli_output_close(&output);
-}
+/* ---- Output ---------------------------------------------------------------------------------------
+ */
 
 static int write_results(const report *r)
 {
-    int result = write_result(r, "accuracy.csv", report_write_accuracy);
+    int result = report_write(r, "accuracy.csv", report_write_accuracy);
     if (result == CLI_OK)
-        result = write_result(r, "materials.csv", report_write_materials);
+        result = report_write(r, "materials.csv", report_write_materials);
     if (result == CLI_OK)
-        result = write_result(r, "ggx.csv", report_write_ggx);
+        result = report_write(r, "ggx.csv", report_write_ggx);
     if (result == CLI_OK)
-        result = write_result(r, "ggx.svg", report_write_ggx_plot);
+        result = report_write(r, "ggx.svg", report_write_ggx_plot);
     if (result == CLI_OK)
-        result = write_result(r, "report.md", report_write_markdown);
+        result = report_write(r, "report.md", report_write_markdown);
     for (int n = 0; n < r->net_count && result == CLI_OK; n++)
-        result = write_plot(r, r->nets[n]);
+        result = report_write_net(r, "errors", r->nets[n], report_write_plot);
     return result;
 }
 
@@ -198,7 +66,7 @@ static int run(report *r, char **data, int count)
     int result = cli_open_data(data, count, &r->data);
     if (result != CLI_OK)
         return result;
-    result = make_directories(r);
+    result = report_make_folders(r, "models");
     if (result == CLI_OK)
         result = report_make_entries(r);
     if (result == CLI_OK)
@@ -227,7 +95,12 @@ static void fill_defaults(report *r, int quick, const char **nets, const char **
 
 int cmd_report(int argc, char **argv)
 {
-    report r = {.sampler = HNBRDF_SAMPLER_GRID, .seed = 1, .image_size = 64};
+    if (argc > 1 && strcmp(argv[1], "images") == 0)
+        return cmd_report_images(argc, argv);
+    report r = {.sampler = HNBRDF_SAMPLER_GRID,
+                .seed = 1,
+                .image_size = 64,
+                .light = PICTURE_DEFAULTS(REPORT_IMAGE_SAMPLES)};
     const char *nets = NULL, *latents = NULL, *models = "hybrid,paper,neural";
     int quick = 0, count;
     const cli_option options[] = {
@@ -260,13 +133,13 @@ int cmd_report(int argc, char **argv)
         CLI_READING_OPTIONS,
         {0},
     };
-    char *line = join(argc, argv);
+    char *line = report_join(argc, argv);
     int result = line ? cli_parse(&command, options, argc, argv, &count) : cli_fail("out of memory");
     r.command_line = line;
     if (result < 0 && count < 1)
-        result = cli_usage(&command, "no report named, expected accuracy");
+        result = cli_usage(&command, "no report named, expected accuracy or images");
     if (result < 0 && strcmp(argv[1], "accuracy") != 0)
-        result = cli_usage(&command, "no report is called '%s', expected accuracy", argv[1]);
+        result = cli_usage(&command, "no report is called '%s', expected accuracy or images", argv[1]);
     if (result < 0 && count < 2)
         result = cli_usage(&command, "no DATA given");
     if (result < 0 && !r.directory)
@@ -275,11 +148,11 @@ int cmd_report(int argc, char **argv)
         result = cli_usage(&command, "--steps and --seconds exclude each other");
     fill_defaults(&r, quick, &nets, &latents);
     if (result < 0)
-        result = read_nets(nets, &r);
+        result = report_read_nets(&command, nets, &r);
     if (result < 0)
-        result = read_latents(latents, &r);
+        result = report_read_latents(&command, latents, &r);
     if (result < 0)
-        result = read_models(models, &r);
+        result = report_read_models(&command, models, &r);
     if (result < 0)
         result = run(&r, argv + 2, count - 1);
     free(line);

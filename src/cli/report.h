@@ -1,10 +1,9 @@
-/* report.h: what the parts of `hnbrdf report accuracy` share: the grid of entries and their results. */
+/* report.h: what the parts of `hnbrdf report` share: the grid of entries and their results. */
 #ifndef HNBRDF_CLI_REPORT_H
 #define HNBRDF_CLI_REPORT_H
 
-#include "cli/cli.h"
+#include "cli/picture.h"
 #include "hnbrdf/fit.h"
-#include "hnbrdf/metrics.h"
 
 enum { REPORT_SAMPLERS = HNBRDF_SAMPLER_GRID + 1, REPORT_NETS = 16, REPORT_LATENTS = 8 };
 
@@ -12,10 +11,16 @@ enum { REPORT_SAMPLERS = HNBRDF_SAMPLER_GRID + 1, REPORT_NETS = 16, REPORT_LATEN
  * latent floats, so that both store equally much. */
 enum { REPORT_ANALYTIC_NUMBERS = 8 };
 
-/* Samples a pixel of the spheres; PSNR beyond the limit, equal pictures for one, counts as the limit.
- */
+/* Samples a pixel of the spheres of `report accuracy`; PSNR beyond the limit, equal pictures for one,
+ * counts as the limit. */
 enum { REPORT_IMAGE_SAMPLES = 32 };
 #define REPORT_PSNR_LIMIT 120.0
+
+/* How far the sphere of a material is from the measurement's, and what noise does to that. */
+typedef struct report_picture {
+    int done;
+    double mae, mse, psnr, psnr_error, psnr_bias, peak_error; /* see hnbrdf_image_noise */
+} report_picture;
 
 typedef enum report_form {
     REPORT_GGX = 0,
@@ -39,7 +44,9 @@ typedef struct report_entry {
     size_t weights, mults;
     hnbrdf_comparison *errors; /* [REPORT_SAMPLERS][materials] */
     hnbrdf_comparison mean[REPORT_SAMPLERS];
-    double *psnr, mean_psnr; /* [materials], dB, if pictures are made */
+    report_picture *pictures;   /* [materials], if pictures are made */
+    double mean_psnr, mean_mae; /* over the materials */
+    double mean_psnr_error;     /* standard error by noise of mean_psnr, of the peaks too */
 } report_entry;
 
 typedef struct report_images report_images;
@@ -57,12 +64,36 @@ typedef struct report {
     int analytic;            /* an hnbrdf_fit_analytic: of the hybrids */
     long pairs, seed, steps, threads, pool;
     long image_size;           /* pixels a side of the spheres; 0: no pictures */
+    picture_options light;     /* of the spheres, and their samples a pixel */
     report_images *images;     /* references, from the first entry on */
     hnbrdf_material *ggx;      /* [materials]: the fits of GGX alone, once the first entry is done */
     hnbrdf_fit_search *search; /* [materials]: how they went; starts 0 where it is not known */
     double budget;             /* seconds of training an entry; 0: `steps` */
+    const char *from;          /* a folder of an earlier report whose models are taken; NULL: none */
+    const char *given;         /* the file of the only model beside GGX alone; NULL: a grid */
+    long rows;                 /* materials whose spheres are shown */
     int resume;
 } report;
+
+/* `hnbrdf report images`; argv[1] is "images". */
+int cmd_report_images(int argc, char **argv);
+
+/* ---- report_options.c: what the reports read and write alike. Those that return -1 to go on return an
+ * exit code after a message otherwise, as cli_parse() does.
+ * ----------------------------------------------------- */
+
+int report_read_nets(const cli_command *command, const char *list, report *r);
+int report_read_latents(const cli_command *command, const char *list, report *r);
+int report_read_models(const cli_command *command, const char *list, report *r);
+/* The command as it was typed, before cli_parse() moves its arguments about; malloc'ed, NULL when
+ * memory is short. */
+char *report_join(int argc, char **argv);
+/* The report's folder and NAME in it. 0, or CLI_FAILURE after a message. */
+int report_make_folders(const report *r, const char *name);
+/* Writes the file NAME in the report's folder. Likewise. */
+int report_write(const report *r, const char *name, void (*write)(const report *r, FILE *file));
+int report_write_net(const report *r, const char *name, const int net[2],
+                     void (*write)(const report *r, const int net[2], FILE *file));
 
 /* ---- report_grid.c ------------------------------------------------------------------------------- */
 
@@ -81,22 +112,41 @@ int report_wins(const report *r, const report_entry *a, const report_entry *b);
 int report_image_wins(const report *r, const report_entry *a, const report_entry *b);
 /* "models/NAME.SUFFIX" in the report's directory; malloc'ed, NULL after a message. */
 char *report_path(const report *r, const char *name, const char *suffix);
+/* Material m of the data in a model that has all of them, whatever their order. */
+const hnbrdf_material *report_material(const report *r, const hnbrdf_model *model, int m);
 
 /* ---- report_fit.c -------------------------------------------------------------------------------- */
 
 /* Fits or reuses, saves and measures all entries; calls `finished` after each one and stops when it
  * does not return 0. Ctrl-C ends it after the step. 0, or CLI_FAILURE after a message. */
 int report_run(report *r, int (*finished)(const report *r, const report_entry *e));
+/* Fits, reuses or takes all models and measures nothing; models is [entries]. Likewise. */
+int report_make_models(report *r, hnbrdf_model **models);
+/* Between both, Ctrl-C and SIGTERM only make report_interrupted() say 1. */
+void report_catch_interrupts(int on);
+int report_interrupted(void);
 
-/* ---- report_images.c -----------------------------------------------------------------------------
- */
+/* ---- report_images.c: spheres, each rendered twice with half of the samples and a seed of its own, so
+ * that what noise does is known. Each: 0, or CLI_FAILURE after a message.
+ * --------------------------------------- */
 
-/* Renders the references; ggx is the model of the first entry. Each: 0, or CLI_FAILURE after a message.
- */
-int report_images_begin(report *r, const hnbrdf_model *ggx);
-/* Fills psnr and mean_psnr. */
-int report_images_measure(report *r, report_entry *e, const hnbrdf_model *model);
+/* Opens the light. */
+int report_images_open(report *r);
+/* Renders the measurement of material m; ggx is the model of the first entry. */
+int report_images_reference(report *r, int m, const hnbrdf_model *ggx);
+/* Fills e->pictures[m]. The mean of both renderings goes to *mean, unless that is NULL. */
+int report_images_measure(report *r, int m, report_entry *e, const hnbrdf_model *model,
+                          render_image *mean);
+/* Puts the mean of both references into the first one and returns it; the second is no more. */
+const render_image *report_images_mean_reference(report *r, int m);
+void report_images_drop_reference(report *r, int m);
+/* All materials of an entry in turn; the first entry renders the references before. */
+int report_images_entry(report *r, report_entry *e, const hnbrdf_model *model);
+/* Fills the means over the materials that are done. */
+void report_images_average(const report *r, report_entry *e);
 void report_images_end(report *r);
+/* Shown while spheres are rendered, and asked whether to stop. */
+void report_images_watch(report *r, picture_progress *progress);
 
 /* ---- report_tables.c, report_plot.c, report_ggx.c: into FILE, whatever is done so far
  * ----------------------------
@@ -109,7 +159,39 @@ void report_write_materials(const report *r, FILE *file);
 void report_write_ggx(const report *r, FILE *file);
 void report_write_ggx_section(const report *r, FILE *file);
 void report_write_ggx_plot(const report *r, FILE *file);
-/* SVG: the error of every material, in the order of GGX's, for the models of one net. */
+/* SVG: the error of every material, in the order of GGX's, for the models of one net: SMAPE; PSNR. */
 void report_write_plot(const report *r, const int net[2], FILE *file);
+void report_write_psnr_plot(const report *r, const int net[2], FILE *file);
+/* "| net |" and a column for every form and latent size. */
+void report_write_form_header(const report *r, FILE *file);
+const char *report_form_title(report_form form);
+/* kind,net,encoding,latent */
+void report_write_model_columns(const report_entry *e, FILE *file);
+/* "Data: ...", a line. */
+void report_write_data(const report *r, FILE *file);
+
+/* ---- report_image_tables.c ------------------------------------------------------------------------
+ */
+
+/* What PSNR is measured of; the paper's second table; the paper's own figures of it. */
+void report_write_psnr_method(const report *r, FILE *file);
+void report_write_psnr_table(const report *r, FILE *file);
+void report_write_papers_psnr(FILE *file);
+/* images.csv, a row a material and model; images.md. */
+void report_write_images_csv(const report *r, FILE *file);
+void report_write_images_markdown(const report *r, FILE *file);
+
+/* ---- report_rows.c: picture rows ------------------------------------------------------------------
+ */
+
+enum { REPORT_ROWS_A_PAGE = 8 };
+/* 1 if the spheres of material m are kept in pictures/. */
+int report_rows_has(const report *r, int m);
+/* Keeps a picture as pictures/MATERIAL-NAME.exr. */
+int report_rows_keep(const report *r, int m, const char *name, const render_image *image);
+/* 1 if all of them that are to be kept are there; the reference is kept last. */
+int report_rows_is_kept(const report *r, int m);
+/* Composes images-1.png and so on, EXR beside, of what was kept. */
+int report_rows_write(const report *r);
 
 #endif

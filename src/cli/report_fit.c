@@ -17,6 +17,18 @@ static void on_interrupt(int number)
     interrupted = 1;
 }
 
+int report_interrupted(void)
+{
+    return interrupted != 0;
+}
+
+void report_catch_interrupts(int on)
+{
+    interrupted = 0;
+    signal(SIGINT, on ? on_interrupt : SIG_DFL);
+    signal(SIGTERM, on ? on_interrupt : SIG_DFL);
+}
+
 /* What is under way, for the progress line; all in seconds. */
 typedef struct watch {
     cli_progress line;
@@ -256,13 +268,11 @@ static void measure_one(void *context, int index, int worker)
 {
     measuring *job = context;
     const report *r = job->r;
-    const hnbrdf_measured *measured = r->data.items[index % r->data.count];
-    const char *name = hnbrdf_measured_name(measured);
     (void)worker;
-    job->results[index] = hnbrdf_compare(
-        job->model, hnbrdf_model_material(job->model, hnbrdf_model_find(job->model, name)), measured,
-        (hnbrdf_sampler)(index / r->data.count), (size_t)r->pairs, (uint64_t)r->seed,
-        &job->e->errors[index], NULL);
+    job->results[index] =
+        hnbrdf_compare(job->model, report_material(r, job->model, index % r->data.count),
+                       r->data.items[index % r->data.count], (hnbrdf_sampler)(index / r->data.count),
+                       (size_t)r->pairs, (uint64_t)r->seed, &job->e->errors[index], NULL);
 }
 
 static void average(report_entry *e, int materials)
@@ -298,7 +308,7 @@ static int measure(const report *r, report_entry *e, const hnbrdf_model *model)
 
 /* ---- The whole grid ------------------------------------------------------------------------------ */
 
-static int finish_entry(report *r, report_entry *e, const hnbrdf_model *model)
+static void describe(report_entry *e, const hnbrdf_model *model)
 {
     hnbrdf_model_desc desc;
     hnbrdf_model_describe(model, &desc);
@@ -307,12 +317,16 @@ static int finish_entry(report *r, report_entry *e, const hnbrdf_model *model)
     e->floor = desc.floor;
     e->weights = hnbrdf_model_weight_count(model);
     e->mults = hnbrdf_model_multiplications(model);
+}
+
+static int finish_entry(report *r, report_entry *e, const hnbrdf_model *model)
+{
+    describe(e, model);
     if (measure(r, e, model) != CLI_OK)
         return CLI_FAILURE;
     for (int m = 0; e->form == REPORT_GGX && m < r->data.count; m++)
         r->ggx[m] = *hnbrdf_model_material(model, m);
-    if (r->image_size && ((e->form == REPORT_GGX && report_images_begin(r, model) != CLI_OK) ||
-                          report_images_measure(r, e, model) != CLI_OK))
+    if (r->image_size && report_images_entry(r, e, model) != CLI_OK)
         return CLI_FAILURE;
     e->done = 1;
     return CLI_OK;
@@ -331,15 +345,19 @@ static int run_entry(report *r, report_entry *e, watch *w)
     return result;
 }
 
+/* First guesses, until the first entries tell. */
+static watch begin_watch(const report *r)
+{
+    watch w = {.r = r, .started = cli_seconds(), .before = 0.3 * r->data.count, .work_second = 2e6};
+    cli_progress_begin(&w.line, "report");
+    return w;
+}
+
 int report_run(report *r, int (*finished)(const report *r, const report_entry *e))
 {
-    /* First guesses, until the first entries tell. */
-    watch w = {.r = r, .started = cli_seconds(), .before = 0.3 * r->data.count, .work_second = 2e6};
+    watch w = begin_watch(r);
     int result = CLI_OK;
-    interrupted = 0;
-    signal(SIGINT, on_interrupt);
-    signal(SIGTERM, on_interrupt);
-    cli_progress_begin(&w.line, "report");
+    report_catch_interrupts(1);
     for (int k = 0; k < r->count && result == CLI_OK; k++) {
         result = run_entry(r, &r->entries[k], &w);
         cli_progress_end(&w.line);
@@ -349,8 +367,55 @@ int report_run(report *r, int (*finished)(const report *r, const report_entry *e
             result =
                 cli_fail("%s: interrupted; what is finished is there, --resume goes on", r->directory);
     }
-    signal(SIGINT, SIG_DFL);
-    signal(SIGTERM, SIG_DFL);
+    report_catch_interrupts(0);
     report_images_end(r);
+    return result;
+}
+
+/* ---- Models alone -------------------------------------------------------------------------------- */
+
+/* A model that some other command made; it must have every material of the data. */
+static int load_model(const report *r, const char *path, hnbrdf_model **model)
+{
+    hnbrdf_error error;
+    if (hnbrdf_model_load(path, NULL, model, &error) != HNBRDF_OK)
+        return cli_fail("%s", error.text);
+    for (int m = 0; m < r->data.count; m++)
+        if (hnbrdf_model_find(*model, hnbrdf_measured_name(r->data.items[m])) < 0)
+            return cli_fail("%s: has no material %s", path, hnbrdf_measured_name(r->data.items[m]));
+    return CLI_OK;
+}
+
+/* The model of this entry in the folder of an earlier report. */
+static int take_model(const report *r, const report_entry *e, hnbrdf_model **model)
+{
+    report earlier = {.directory = r->from};
+    char *path = report_path(&earlier, e->name, "safetensors");
+    int code = path ? load_model(r, path, model) : CLI_FAILURE;
+    free(path);
+    return code;
+}
+
+int report_make_models(report *r, hnbrdf_model **models)
+{
+    watch w = begin_watch(r);
+    int result = CLI_OK;
+    report_catch_interrupts(1);
+    for (int k = 0; k < r->count && result == CLI_OK; k++) {
+        report_entry *e = &r->entries[k];
+        watch_entry(&w, e);
+        if (r->given && e->form != REPORT_GGX)
+            result = load_model(r, r->given, &models[k]);
+        else if (r->from)
+            result = take_model(r, e, &models[k]);
+        else if (!(models[k] = reuse(r, e)))
+            result = fit_entry(r, e, &w, &models[k]);
+        if (result == CLI_OK) {
+            describe(e, models[k]);
+            learn_from(&w, e);
+        }
+    }
+    cli_progress_end(&w.line);
+    report_catch_interrupts(0);
     return result;
 }

@@ -44,8 +44,8 @@ int report_make_entries(report *r)
     for (int k = 0; k < r->count; k++) {
         report_entry *e = &r->entries[k];
         e->errors = calloc((size_t)r->data.count * REPORT_SAMPLERS, sizeof *e->errors);
-        e->psnr = calloc((size_t)r->data.count, sizeof *e->psnr);
-        if (!e->errors || !e->psnr)
+        e->pictures = calloc((size_t)r->data.count, sizeof *e->pictures);
+        if (!e->errors || !e->pictures)
             return cli_fail("out of memory");
     }
     r->ggx = calloc((size_t)r->data.count, sizeof *r->ggx);
@@ -57,7 +57,7 @@ void report_free_entries(report *r)
 {
     for (int k = 0; k < r->count; k++) {
         free(r->entries[k].errors);
-        free(r->entries[k].psnr);
+        free(r->entries[k].pictures);
     }
     free(r->entries);
     free(r->ggx);
@@ -94,7 +94,7 @@ int report_image_wins(const report *r, const report_entry *a, const report_entry
 {
     int wins = 0;
     for (int m = 0; m < r->data.count; m++)
-        wins += a->psnr[m] > b->psnr[m];
+        wins += a->pictures[m].psnr > b->pictures[m].psnr;
     return wins;
 }
 
@@ -107,4 +107,10 @@ char *report_path(const report *r, const char *name, const char *suffix)
     else
         cli_fail("out of memory");
     return path;
+}
+
+const hnbrdf_material *report_material(const report *r, const hnbrdf_model *model, int m)
+{
+    return hnbrdf_model_material(model,
+                                 hnbrdf_model_find(model, hnbrdf_measured_name(r->data.items[m])));
 }

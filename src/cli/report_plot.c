@@ -23,12 +23,13 @@ typedef struct plot {
     const report *r;
     const report_entry *curves[MAX_CURVES];
     int curve_count;
-    int named;        /* 1: one order for all curves, by GGX's error, with the names below */
-    ranked *order;    /* [materials], the order of the curve that is being drawn */
-    double left;      /* pixels */
-    double below;     /* pixels under the axis */
-    double tick, top; /* of the error axis */
-    double step;      /* pixels from one material to the next */
+    int named;                /* 1: one order for all curves, by GGX's error, with the names below */
+    ranked *order;            /* [materials], the order of the curve that is being drawn */
+    double left;              /* pixels */
+    double below;             /* pixels under the axis */
+    double tick, bottom, top; /* of the error axis */
+    int psnr;                 /* 1: what is drawn is PSNR, 0: SMAPE */
+    double step;              /* pixels from one material to the next */
     FILE *file;
 } plot;
 
@@ -41,11 +42,16 @@ static int compare_ranked(const void *a, const void *b)
     return x->error < y->error ? -1 : x->error > y->error ? 1 : x->material - y->material;
 }
 
+static double value_of(const plot *p, const report_entry *e, int m)
+{
+    return p->psnr ? e->pictures[m].psnr : report_error(p->r, e, m);
+}
+
 static void sort_materials(plot *p, const report_entry *by)
 {
     size_t count = (size_t)p->r->data.count;
     for (int m = 0; m < p->r->data.count; m++) {
-        p->order[m].error = report_error(p->r, by, m);
+        p->order[m].error = value_of(p, by, m);
         p->order[m].material = m;
     }
     qsort(p->order, count, sizeof *p->order, compare_ranked);
@@ -69,7 +75,7 @@ static double x_of(const plot *p, int rank)
 
 static double y_of(const plot *p, double error)
 {
-    return PLOT_TOP + PLOT_HEIGHT * (1.0 - error / p->top);
+    return PLOT_TOP + PLOT_HEIGHT * (p->top - error) / (p->top - p->bottom);
 }
 
 static void write_escaped(FILE *file, const char *text)
@@ -88,18 +94,18 @@ static void write_escaped(FILE *file, const char *text)
 
 static void write_error_axis(const plot *p)
 {
-    for (double error = 0.0; error < p->top + 1e-9; error += p->tick) {
+    for (double error = p->bottom; error < p->top + 1e-9; error += p->tick) {
         double y = y_of(p, error);
         fprintf(p->file, "<path d=\"M%.1f %.1fh%.1f\" stroke=\"#ddd\"/>\n", p->left, y,
                 p->step * p->r->data.count);
-        fprintf(p->file, "<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"end\">%.2f</text>\n", p->left - 8.0,
-                y + 4.0, error);
+        fprintf(p->file, "<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"end\">%.*f</text>\n", p->left - 8.0,
+                y + 4.0, p->psnr ? 0 : 2, error);
     }
     fprintf(p->file,
-            "<text transform=\"translate(%.1f %d) rotate(-90)\" text-anchor=\"middle\">SMAPE, %s "
-            "sampler</text>\n",
-            p->left - 48.0, PLOT_TOP + PLOT_HEIGHT / 2,
-            hnbrdf_sampler_name((hnbrdf_sampler)p->r->sampler));
+            "<text transform=\"translate(%.1f %d) rotate(-90)\" text-anchor=\"middle\">%s%s%s</text>\n",
+            p->left - 48.0, PLOT_TOP + PLOT_HEIGHT / 2, p->psnr ? "PSNR, dB" : "SMAPE, ",
+            p->psnr ? "" : hnbrdf_sampler_name((hnbrdf_sampler)p->r->sampler),
+            p->psnr ? "" : " sampler");
 }
 
 static void write_name(const plot *p, int rank)
@@ -143,11 +149,11 @@ static void write_curve(plot *p, const report_entry *e)
             dashes(p, e));
     for (int k = 0; k < p->r->data.count; k++)
         fprintf(p->file, "%c%.1f %.1f", k ? 'L' : 'M', x_of(p, k),
-                y_of(p, report_error(p->r, e, p->order[k].material)));
+                y_of(p, value_of(p, e, p->order[k].material)));
     fputs("\"/>\n", p->file);
     for (int k = 0; p->named && k < p->r->data.count; k++)
         fprintf(p->file, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"2.5\" fill=\"%s\"/>\n", x_of(p, k),
-                y_of(p, report_error(p->r, e, p->order[k].material)), color);
+                y_of(p, value_of(p, e, p->order[k].material)), color);
 }
 
 static void write_legend(const plot *p, double x)
@@ -161,7 +167,10 @@ static void write_legend(const plot *p, double x)
         fprintf(p->file, "<text x=\"%.1f\" y=\"%d\">%s", x + 36.0, y, titles[e->form]);
         if (e->form != REPORT_GGX)
             fprintf(p->file, " %dx%d l=%d", e->net[0], e->net[1], e->latent);
-        fprintf(p->file, ", mean %.3f</text>\n", e->mean[p->r->sampler].smape);
+        if (p->psnr)
+            fprintf(p->file, ", mean %.1f dB</text>\n", e->mean_psnr);
+        else
+            fprintf(p->file, ", mean %.3f</text>\n", e->mean[p->r->sampler].smape);
     }
 }
 
@@ -169,26 +178,31 @@ static void write_legend(const plot *p, double x)
 static void lay_out(plot *p)
 {
     size_t longest = 0;
-    double most = 0.05;
+    double least = 1e9, most = p->psnr ? 1.0 : 0.05;
     int count = p->r->data.count;
     for (int m = 0; m < count; m++) {
         size_t length = strlen(hnbrdf_measured_name(p->r->data.items[m]));
         longest = length > longest ? length : longest;
-        for (int k = 0; k < p->curve_count; k++)
-            most = fmax(most, report_error(p->r, p->curves[k], m));
+        for (int k = 0; k < p->curve_count; k++) {
+            most = fmax(most, value_of(p, p->curves[k], m));
+            least = fmin(least, value_of(p, p->curves[k], m));
+        }
     }
     p->named = count <= NAMED_MATERIALS;
     p->left = p->named ? fmax(64.0, 4.6 * (double)longest - 10.0) : 64.0;
     p->below = p->named ? 28.0 + 5.4 * (double)longest : 60.0;
     p->tick = most > 1.0 ? 0.25 : most > 0.5 ? 0.1 : 0.05;
-    p->top = p->tick * ceil(most / p->tick);
+    if (p->psnr)
+        p->tick = most - least > 40.0 ? 10.0 : 5.0;
+    p->bottom = p->psnr ? p->tick * floor(least / p->tick) : 0.0;
+    p->top = p->tick * ceil(most / p->tick + 1e-9);
     p->step =
         count > NAMED_MATERIALS ? fmax(2.0, 720.0 / count) : fmax(18.0, fmin(40.0, 720.0 / count));
 }
 
-void report_write_plot(const report *r, const int net[2], FILE *file)
+static void write_whole(const report *r, const int net[2], int psnr, FILE *file)
 {
-    plot p = {.r = r, .file = file};
+    plot p = {.r = r, .file = file, .psnr = psnr};
     p.order = malloc((size_t)r->data.count * sizeof *p.order);
     if (p.order && r->entries[0].done) {
         choose_curves(&p, net);
@@ -208,4 +222,14 @@ void report_write_plot(const report *r, const int net[2], FILE *file)
         fputs("</svg>\n", file);
     }
     free(p.order);
+}
+
+void report_write_plot(const report *r, const int net[2], FILE *file)
+{
+    write_whole(r, net, 0, file);
+}
+
+void report_write_psnr_plot(const report *r, const int net[2], FILE *file)
+{
+    write_whole(r, net, 1, file);
 }

@@ -7,8 +7,7 @@
 
 /* ---- CSV ----------------------------------------------------------------------------------------- */
 
-/* kind,net,encoding,latent */
-static void write_model_columns(const report_entry *e, FILE *file)
+void report_write_model_columns(const report_entry *e, FILE *file)
 {
     if (e->form == REPORT_GGX)
         fputs("ggx,none,none,0", file);
@@ -44,7 +43,7 @@ void report_write_accuracy(const report *r, FILE *file)
         const report_entry *e = &r->entries[k];
         if (!e->done)
             continue;
-        write_model_columns(e, file);
+        report_write_model_columns(e, file);
         fprintf(file, ",%ld,%.3f,%.0f,%zu,%zu,%.6g,%.6g", e->steps, e->seconds, e->pairs_per_s,
                 e->weights, e->mults, e->mean[HNBRDF_SAMPLER_GRID].smape,
                 e->mean[HNBRDF_SAMPLER_UNIFORM].smape);
@@ -66,19 +65,19 @@ void report_write_materials(const report *r, FILE *file)
             const report_entry *e = &r->entries[k];
             csv_write_text(file, hnbrdf_measured_name(r->data.items[m]));
             putc(',', file);
-            write_model_columns(e, file);
+            report_write_model_columns(e, file);
             fprintf(file, ",%.6g,%.6g", e->errors[HNBRDF_SAMPLER_GRID * n + m].smape,
                     e->errors[HNBRDF_SAMPLER_UNIFORM * n + m].smape);
             write_analytic_column(e, &e->errors[r->sampler * n + m], file);
             fprintf(file, ",%.6g", e->errors[HNBRDF_SAMPLER_COSINE * n + m].smape);
-            write_psnr_column(r, e->psnr[m], file);
+            write_psnr_column(r, e->pictures[m].psnr, file);
             fprintf(file, ",%s\n", e->name);
         }
 }
 
 /* ---- Markdown: the tables of errors -------------------------------------------------------------- */
 
-static const char *form_title(report_form form)
+const char *report_form_title(report_form form)
 {
     static const char *const titles[REPORT_FORMS] = {"GGX alone", "hybrid", "paper's form", "neural"};
     return titles[form];
@@ -92,8 +91,8 @@ static void write_error_cell(const report_entry *e, int sampler, FILE *file)
         fputs(" |", file);
 }
 
-/* "| net |" and a column for every form and latent size, the latent size first. */
-static void write_form_header(const report *r, FILE *file)
+/* The latent size first. */
+void report_write_form_header(const report *r, FILE *file)
 {
     int columns = 1;
     fputs("| net |", file);
@@ -101,7 +100,7 @@ static void write_form_header(const report *r, FILE *file)
         for (report_form form = REPORT_HYBRID; form < REPORT_FORMS; form++)
             if (r->forms[form]) {
                 int more = form == REPORT_NEURAL ? REPORT_ANALYTIC_NUMBERS : 0;
-                fprintf(file, " %s l=%d |", form_title(form), r->latents[l] + more);
+                fprintf(file, " %s l=%d |", report_form_title(form), r->latents[l] + more);
                 columns++;
             }
     fputs("\n|---|", file);
@@ -115,7 +114,7 @@ static void write_errors(const report *r, int sampler, FILE *file)
     fprintf(file,
             "\n## Mean SMAPE, %s sampler\n\nGGX alone: ", hnbrdf_sampler_name((hnbrdf_sampler)sampler));
     fprintf(file, "%.4f.\n\n", r->entries[0].mean[sampler].smape);
-    write_form_header(r, file);
+    report_write_form_header(r, file);
     for (int n = 0; n < r->net_count; n++) {
         fprintf(file, "| %dx%d |", r->nets[n][0], r->nets[n][1]);
         for (int l = 0; l < r->latent_count; l++)
@@ -126,31 +125,13 @@ static void write_errors(const report *r, int sampler, FILE *file)
     }
 }
 
-/* The paper's second table. */
 static void write_images(const report *r, FILE *file)
 {
     if (!r->image_size)
         return;
-    fprintf(file,
-            "\n## Mean PSNR, dB\n\nOf a sphere of each material under the built-in sky, %ld pixels a "
-            "side, %d "
-            "samples a pixel, the same random\ndirections for all models; peak: the reference's "
-            "largest value. "
-            "GGX alone: %.2f.\n\n",
-            r->image_size, (int)REPORT_IMAGE_SAMPLES, r->entries[0].mean_psnr);
-    write_form_header(r, file);
-    for (int n = 0; n < r->net_count; n++) {
-        fprintf(file, "| %dx%d |", r->nets[n][0], r->nets[n][1]);
-        for (int l = 0; l < r->latent_count; l++)
-            for (report_form form = REPORT_HYBRID; form < REPORT_FORMS; form++) {
-                const report_entry *e = report_find(r, form, r->nets[n], r->latents[l]);
-                if (r->forms[form] && e && e->done)
-                    fprintf(file, " %.2f |", e->mean_psnr);
-                else if (r->forms[form])
-                    fputs(" |", file);
-            }
-        putc('\n', file);
-    }
+    fputs("\n## Mean PSNR, dB\n\n", file);
+    report_write_psnr_method(r, file);
+    report_write_psnr_table(r, file);
 }
 
 /* ---- Markdown: hybrids against the others -------------------------------------------------------- */
@@ -300,21 +281,14 @@ static void write_papers_figures(FILE *file)
         "| 32x2 | 0.2470 | 0.3524 | 0.5899 | 0.6293 | 0.0778 | 0.1046 |\n"
         "| 32x3 | 0.2003 | 0.2537 | 0.5687 | 0.6549 | 0.0677 | 0.0833 |\n"
         "| 64x2 | 0.2174 | 0.2681 | 0.5925 | 0.5942 | 0.0634 | 0.0878 |\n"
-        "| 64x3 | 0.1800 | 0.2085 | 0.5100 | 0.5376 | 0.0483 | 0.0657 |\n"
-        "\nMean image PSNR as published (spheres under another light):\n\n"
-        "| net | MERL hybrid l=4 | neural l=12 | RGL hybrid l=4 | neural l=12 | UTIA hybrid l=4 | "
-        "neural l=12 |\n"
-        "|---|---|---|---|---|---|---|\n"
-        "| GGX alone | 32.89 | | 33.51 | | 32.58 | |\n"
-        "| 16x3 | 39.37 | 35.75 | 35.54 | 34.78 | 38.17 | 36.43 |\n"
-        "| 32x3 | 40.50 | 38.79 | 37.54 | 36.06 | 38.90 | 38.35 |\n"
-        "| 64x3 | 41.19 | 40.71 | 39.18 | 39.43 | 39.62 | 39.12 |\n",
+        "| 64x3 | 0.1800 | 0.2085 | 0.5100 | 0.5376 | 0.0483 | 0.0657 |\n",
         file);
+    report_write_papers_psnr(file);
 }
 
 /* ---- Markdown: the whole ------------------------------------------------------------------------- */
 
-static void write_data(const report *r, FILE *file)
+void report_write_data(const report *r, FILE *file)
 {
     fprintf(file, "Data: %d material%s (", r->data.count, r->data.count == 1 ? "" : "s");
     for (int m = 0; m < r->data.count; m++)
@@ -341,7 +315,7 @@ static void write_method(const report *r, FILE *file)
     }
     fprintf(file, "# Accuracy\n\nMade by `%s`, hnbrdf %s; %d of %d entries done.\n\n", r->command_line,
             hnbrdf_version(), done, r->count);
-    write_data(r, file);
+    report_write_data(r, file);
     if (r->budget > 0.0)
         fprintf(file, "Training: %g s of network training an entry", r->budget);
     else

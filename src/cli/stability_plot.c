@@ -3,6 +3,7 @@
 #include "cli/stability_plot.h"
 
 #include "cli/cli.h"
+#include "render/draw.h"
 #include "render/label.h"
 #include "stability/maps.h"
 
@@ -25,34 +26,9 @@ enum {
 static const float BLACK[3] = {0.0f, 0.0f, 0.0f}, GREY[3] = {0.2f, 0.2f, 0.2f};
 static const double LOW = 1e-8, HIGH = 1e-2;
 
-/* Dark to light, even to the eye: five colours of viridis (van der Walt and Smith 2015), sRGB. */
 static void colour_of(double error, float rgb[3])
 {
-    static const float stops[5][3] = {
-        {68, 1, 84}, {59, 82, 139}, {33, 145, 140}, {94, 201, 98}, {253, 231, 37}};
-    double t = error > 0.0 ? 4.0 * log(error / LOW) / log(HIGH / LOW) : 0.0;
-    t = t > 0.0 ? (t < 4.0 ? t : 4.0) : 0.0;
-    int k = t < 3.0 ? (int)t : 3;
-    for (int c = 0; c < 3; c++) {
-        double srgb = ((double)stops[k][c] + (t - k) * (double)(stops[k + 1][c] - stops[k][c])) / 255.0;
-        rgb[c] = (float)(srgb <= 0.04045 ? srgb / 12.92 : pow((srgb + 0.055) / 1.055, 2.4));
-    }
-}
-
-static void fill(render_image *image, int x, int y, int width, int height, const float rgb[3])
-{
-    for (int j = y; j < y + height; j++)
-        for (int i = x; i < x + width; i++)
-            if (i >= 0 && i < image->width && j >= 0 && j < image->height)
-                memcpy(image->rgb + 3 * ((size_t)j * (size_t)image->width + (size_t)i), rgb,
-                       3 * sizeof *rgb);
-}
-
-/* share: 0 the text starts at x, 1/2 it is centred there, 1 it ends there. */
-static void text_at(render_image *image, double x, int y, double share, const char *text,
-                    const float rgb[3])
-{
-    render_text(image, (int)lround(x - share * render_text_width(text, TEXT)), y, text, TEXT, rgb);
+    render_colour_map(error > 0.0 ? log(error / LOW) / log(HIGH / LOW) : 0.0, rgb);
 }
 
 typedef struct tick {
@@ -94,17 +70,18 @@ static void draw_axes(render_image *image, int x, int y, stability_map_kind kind
     int count = cosine_ticks(half ? STABILITY_NEAR_HALF : STABILITY_NEAR_COSINE, ticks);
     for (int k = 0; k < count; k++) {
         int at = x + (int)lround(ticks[k].at * PANEL);
-        fill(image, at, y + PANEL, 1, 4, GREY);
-        text_at(image, at, y + PANEL + 16, 0.5, ticks[k].label, GREY);
+        render_fill(image, at, y + PANEL, 1, 4, GREY);
+        render_text_at(image, at, y + PANEL + 16, 0.5, ticks[k].label, TEXT, GREY);
     }
-    text_at(image, x + 0.5 * PANEL, y + PANEL + 33, 0.5, half ? "cos theta_h" : "cos theta_i", BLACK);
+    render_text_at(image, x + 0.5 * PANEL, y + PANEL + 33, 0.5, half ? "cos theta_h" : "cos theta_i",
+                   TEXT, BLACK);
     count = half ? alpha_ticks(ticks) : cosine_ticks(STABILITY_NEAR_COSINE, ticks);
     for (int k = 0; k < count; k++) {
         int at = y + PANEL - (int)lround(ticks[k].at * PANEL);
-        fill(image, x - 4, at, 4, 1, GREY);
-        text_at(image, x - 8, at + TEXT / 2, 1.0, ticks[k].label, GREY);
+        render_fill(image, x - 4, at, 4, 1, GREY);
+        render_text_at(image, x - 8, at + TEXT / 2, 1.0, ticks[k].label, TEXT, GREY);
     }
-    text_at(image, x - 8, y - 10, 1.0, half ? "alpha" : "cos theta_o", BLACK);
+    render_text_at(image, x - 8, y - 10, 1.0, half ? "alpha" : "cos theta_o", TEXT, BLACK);
 }
 
 /* Without what a driver says of itself in parentheses. */
@@ -122,13 +99,13 @@ static void draw_panel(render_image *image, int x, int y, stability_map_kind kin
     for (int row = 0; row < STABILITY_MAP_SIDE; row++)
         for (int column = 0; column < STABILITY_MAP_SIDE; column++) {
             colour_of((double)errors[row][column], rgb);
-            fill(image, x + CELL * column, y + PANEL - CELL * (row + 1), CELL, CELL, rgb);
+            render_fill(image, x + CELL * column, y + PANEL - CELL * (row + 1), CELL, CELL, rgb);
             worst = fmaxf(worst, errors[row][column]);
         }
     draw_axes(image, x, y, kind);
     snprintf(line, sizeof line, "%.*s, %s: worst %.2g", (int)name_length(title), title,
              kind == STABILITY_MAP_HALF ? "f_a" : "f", (double)worst);
-    text_at(image, x + 4, y - 10, 0.0, line, BLACK);
+    render_text_at(image, x + 4, y - 10, 0.0, line, TEXT, BLACK);
 }
 
 static void draw_colour_bar(render_image *image, int x, int y, int height)
@@ -138,17 +115,13 @@ static void draw_colour_bar(render_image *image, int x, int y, int height)
         const char *label;
     } marks[] = {{1e-8, "1e-8"},           {1e-7, "1e-7"}, {1e-6, "1e-6"}, {4e-6, "4e-6: bar of f_a"},
                  {2e-5, "2e-5: bar of f"}, {1e-4, "1e-4"}, {1e-3, "1e-3"}, {1e-2, "1e-2"}};
-    float rgb[3];
-    for (int j = 0; j < height; j++) {
-        colour_of(LOW * pow(HIGH / LOW, 1.0 - (j + 0.5) / height), rgb);
-        fill(image, x, y + j, BAR_WIDTH, 1, rgb);
-    }
+    render_colour_bar(image, x, y, BAR_WIDTH, height);
     for (size_t k = 0; k < sizeof marks / sizeof marks[0]; k++) {
         int at = y + height - (int)lround(height * log(marks[k].error / LOW) / log(HIGH / LOW));
-        fill(image, x + BAR_WIDTH, at, 5, 1, GREY);
-        text_at(image, x + BAR_WIDTH + 9, at + TEXT / 2, 0.0, marks[k].label, GREY);
+        render_fill(image, x + BAR_WIDTH, at, 5, 1, GREY);
+        render_text_at(image, x + BAR_WIDTH + 9, at + TEXT / 2, 0.0, marks[k].label, TEXT, GREY);
     }
-    text_at(image, x, y - 10, 0.0, "relative error", BLACK);
+    render_text_at(image, x, y - 10, 0.0, "relative error", TEXT, BLACK);
 }
 
 /* The backends that are drawn, and what they are called. */
@@ -194,7 +167,7 @@ static hnbrdf_result draw(const char *path, const hnbrdf_model *model, const cha
     hnbrdf_result result = render_image_create(width, height, 0, &image, error);
     if (result)
         return result;
-    fill(&image, 0, 0, width, height, white);
+    render_fill(&image, 0, 0, width, height, white);
     snprintf(line, sizeof line,
              "Worst relative error of a cell against the formulas in many digits: %.80s, %.60s",
              model_path, hnbrdf_model_material_name(model, 0));

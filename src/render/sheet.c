@@ -1,6 +1,7 @@
 /* sheet.c: where everything stands on a contact sheet. */
 #include "render/sheet.h"
 
+#include "render/draw.h"
 #include "render/label.h"
 
 #include <math.h>
@@ -47,7 +48,9 @@ static layout lay_out(const render_sheet *sheet)
     for (int i = 0; i < RENDER_SHEET_LINES; i++)
         if (sheet->lines[i])
             l.header += i == 0 ? rounded(2.6 * l.title_text) : rounded(2.6 * l.text);
-    l.titles = rounded(4.2 * l.text);
+    for (int c = 0; c < sheet->columns; c++)
+        if (sheet->titles[c])
+            l.titles = rounded(4.2 * l.text);
     l.name_line = rounded(2.0 * l.name_text) + l.pad;
     l.caption_line = rounded(2.0 * l.text);
     l.card_width = sheet->columns * (sheet->cell + l.pad) + l.pad;
@@ -68,32 +71,13 @@ static layout lay_out(const render_sheet *sheet)
     return l;
 }
 
-static void fill(render_image *image, int x, int y, int width, int height, const float colour[3])
+/* Centred on a cell that begins at x, and never wider than cells are apart. */
+static void draw_label(render_image *image, const render_sheet *sheet, const layout *l, int x, int y,
+                       const char *label, const float colour[3])
 {
-    for (int row = y; row < y + height; row++)
-        for (int column = x; column < x + width; column++)
-            for (int k = 0; k < 3; k++)
-                image->rgb[3 * ((size_t)row * (size_t)image->width + (size_t)column) + (size_t)k] =
-                    colour[k];
-}
-
-static void paste(render_image *image, int x, int y, const render_image *cell)
-{
-    for (int row = 0; row < cell->height; row++)
-        for (int column = 0; column < cell->width; column++) {
-            size_t from = (size_t)row * (size_t)cell->width + (size_t)column;
-            size_t to = (size_t)(y + row) * (size_t)image->width + (size_t)(x + column);
-            float through = cell->alpha ? 1.0f - cell->alpha[from] : 0.0f;
-            for (size_t k = 0; k < 3; k++)
-                image->rgb[3 * to + k] = cell->rgb[3 * from + k] + through * image->rgb[3 * to + k];
-        }
-}
-
-static void centred(render_image *image, int middle, int y, const char *text, int x_height,
-                    const float colour[3])
-{
-    render_text(image, middle - rounded(0.5 * render_text_width(text, x_height)), y, text, x_height,
-                colour);
+    char text[64];
+    render_text_shorten(label, l->text, sheet->cell + l->pad - 2.0, text, sizeof text);
+    render_text_at(image, x + 0.5 * sheet->cell, y, 0.5, text, l->text, colour);
 }
 
 static void draw_header(const render_sheet *sheet, const layout *l, render_image *image)
@@ -112,7 +96,8 @@ static void draw_header(const render_sheet *sheet, const layout *l, render_image
     for (int block = 0; block < l->blocks; block++)
         for (int c = 0; c < sheet->columns; c++) {
             int x = l->margin + block * (l->card_width + l->gap) + l->pad + c * (sheet->cell + l->pad);
-            centred(image, x + sheet->cell / 2, baseline, sheet->titles[c], l->text, plain);
+            if (sheet->titles[c])
+                draw_label(image, sheet, l, x, baseline, sheet->titles[c], plain);
         }
 }
 
@@ -120,7 +105,7 @@ static void draw_card(const render_sheet *sheet, const layout *l, const render_s
                       int y, render_image *image)
 {
     char name[256];
-    fill(image, x, y, l->card_width, l->card_height, card_colour);
+    render_fill(image, x, y, l->card_width, l->card_height, card_colour);
     render_text_shorten(row->name, l->name_text, l->card_width - 2 * l->pad, name, sizeof name);
     render_text(image, x + l->pad, y + l->pad + rounded(1.4 * l->name_text), name, l->name_text,
                 bright);
@@ -129,10 +114,10 @@ static void draw_card(const render_sheet *sheet, const layout *l, const render_s
         const render_sheet_cell *cell = &row->cells[c];
         int left = x + l->pad + c * (sheet->cell + l->pad);
         if (cell->image.rgb)
-            paste(image, left, top, &cell->image);
+            render_paste(image, left, top, &cell->image);
         int fits = render_text_width(cell->caption, l->text) <= sheet->cell + l->pad;
-        centred(image, left + sheet->cell / 2, top + sheet->cell + rounded(1.7 * l->text),
-                fits ? cell->caption : cell->short_caption, l->text, cell->image.rgb ? plain : dim);
+        draw_label(image, sheet, l, left, top + sheet->cell + rounded(1.7 * l->text),
+                   fits ? cell->caption : cell->short_caption, cell->image.rgb ? plain : dim);
     }
 }
 
@@ -142,7 +127,7 @@ hnbrdf_result render_sheet_compose(const render_sheet *sheet, render_image *imag
     hnbrdf_result result = render_image_create(l.width, l.height, 0, image, error);
     if (result != HNBRDF_OK)
         return result;
-    fill(image, 0, 0, l.width, l.height, page_colour);
+    render_fill(image, 0, 0, l.width, l.height, page_colour);
     draw_header(sheet, &l, image);
     for (int i = 0; i < sheet->count; i++) {
         int block = i / l.lines, line = i % l.lines;

@@ -4,7 +4,7 @@
 
 #include "render/image.h"
 
-enum { RENDER_SHEET_COLUMNS = 5, RENDER_SHEET_LINES = 3 };
+enum { RENDER_SHEET_COLUMNS = 10, RENDER_SHEET_LINES = 3 };
 
 typedef struct render_sheet_cell {
     render_image image;     /* cell x cell pixels, premultiplied, as it shall look; rgb NULL: empty */
@@ -19,7 +19,7 @@ typedef struct render_sheet_row {
 
 typedef struct render_sheet {
     const char *lines[RENDER_SHEET_LINES]; /* above everything, the first one larger; NULL: none */
-    const char *titles[RENDER_SHEET_COLUMNS];
+    const char *titles[RENDER_SHEET_COLUMNS]; /* above the cards, by column; NULL: none */
     int columns; /* cells in a row */
     int cell;    /* pixels of a cell's side */
     int blocks;  /* cards beside each other; 0: chosen for a picture of about 3:2 */

@@ -1,0 +1,146 @@
+/* report_options.c: lists of networks and models, and the files of a report's folder. */
+#include "cli/report.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+/* ---- Lists --------------------------------------------------------------------------------------- */
+
+int report_read_nets(const cli_command *command, const char *list, report *r)
+{
+    for (const char *at = list;; at++) {
+        int *net = r->nets[r->net_count], length = 0;
+        if (r->net_count == REPORT_NETS)
+            return cli_usage(command, "--nets: more than %d", (int)REPORT_NETS);
+        if (sscanf(at, "%2dx%1d%n", &net[0], &net[1], &length) != 2 || net[0] < 1 ||
+            net[0] > HNBRDF_MAX_HIDDEN || net[1] < 1 || net[1] > HNBRDF_MAX_LAYERS ||
+            (at[length] != ',' && at[length] != '\0'))
+            return cli_usage(command,
+                             "--nets: '%s' is not HxN,HxN,... with H from 1 to %d and N from 1 to %d",
+                             list, HNBRDF_MAX_HIDDEN, HNBRDF_MAX_LAYERS);
+        for (int k = 0; k < r->net_count; k++)
+            if (r->nets[k][0] == net[0] && r->nets[k][1] == net[1])
+                return cli_usage(command, "--nets: %dx%d is there twice", net[0], net[1]);
+        r->net_count++;
+        at += length;
+        if (*at == '\0')
+            return -1;
+    }
+}
+
+int report_read_latents(const cli_command *command, const char *list, report *r)
+{
+    int most = HNBRDF_MAX_LATENT - REPORT_ANALYTIC_NUMBERS;
+    for (const char *at = list;; at++) {
+        int value = 0, length = 0;
+        if (r->latent_count == REPORT_LATENTS)
+            return cli_usage(command, "--latents: more than %d", (int)REPORT_LATENTS);
+        if (sscanf(at, "%2d%n", &value, &length) != 1 || value < 1 || value > most ||
+            (at[length] != ',' && at[length] != '\0'))
+            return cli_usage(command, "--latents: '%s' is not a list of whole numbers from 1 to %d",
+                             list, most);
+        for (int k = 0; k < r->latent_count; k++)
+            if (r->latents[k] == value)
+                return cli_usage(command, "--latents: %d is there twice", value);
+        r->latents[r->latent_count++] = value;
+        at += length;
+        if (*at == '\0')
+            return -1;
+    }
+}
+
+int report_read_models(const cli_command *command, const char *list, report *r)
+{
+    r->forms[REPORT_GGX] = 1;
+    while (*list) {
+        size_t length = strcspn(list, ",");
+        report_form form = REPORT_GGX;
+        while (report_form_name(form) && (strlen(report_form_name(form)) != length ||
+                                          strncmp(list, report_form_name(form), length) != 0))
+            form++;
+        if (!report_form_name(form))
+            return cli_usage(command, "--models: '%.*s', expected hybrid, paper or neural", (int)length,
+                             list);
+        r->forms[form] = 1;
+        list += length + (list[length] == ',');
+    }
+    return -1;
+}
+
+char *report_join(int argc, char **argv)
+{
+    size_t size = sizeof "hnbrdf";
+    for (int k = 0; k < argc; k++)
+        size += strlen(argv[k]) + 1;
+    char *text = malloc(size);
+    if (!text)
+        return NULL;
+    size_t at = (size_t)snprintf(text, size, "hnbrdf");
+    for (int k = 0; k < argc; k++)
+        at += (size_t)snprintf(text + at, size - at, " %s", argv[k]);
+    return text;
+}
+
+/* ---- Output -------------------------------------------------------------------------------------- */
+
+static int make_directory(const char *path)
+{
+    struct stat status;
+    if (mkdir(path, 0777) == 0 ||
+        (errno == EEXIST && stat(path, &status) == 0 && S_ISDIR(status.st_mode)))
+        return CLI_OK;
+    return cli_fail("%s: cannot make this folder: %s", path, strerror(errno));
+}
+
+/* DIR/NAME; malloc'ed, NULL after a message. */
+static char *path_in(const report *r, const char *name)
+{
+    size_t size = strlen(r->directory) + strlen(name) + 2;
+    char *path = malloc(size);
+    if (path)
+        snprintf(path, size, "%s/%s", r->directory, name);
+    else
+        cli_fail("out of memory");
+    return path;
+}
+
+int report_make_folders(const report *r, const char *name)
+{
+    char *path = path_in(r, name);
+    int result = path ? make_directory(r->directory) : CLI_FAILURE;
+    if (result == CLI_OK)
+        result = make_directory(path);
+    free(path);
+    return result;
+}
+
+static int open_result(const report *r, const char *name, cli_output *output)
+{
+    char *path = path_in(r, name);
+    int result = path ? cli_output_open(path, output) : CLI_FAILURE;
+    free(path);
+    return result;
+}
+
+int report_write(const report *r, const char *name, void (*write)(const report *r, FILE *file))
+{
+    cli_output output;
+    if (open_result(r, name, &output) != CLI_OK)
+        return CLI_FAILURE;
+    write(r, output.file);
+    return cli_output_close(&output);
+}
+
+int report_write_net(const report *r, const char *name, const int net[2],
+                     void (*write)(const report *r, const int net[2], FILE *file))
+{
+    char full[64];
+    cli_output output;
+    snprintf(full, sizeof full, "%s-%dx%d.svg", name, net[0], net[1]);
+    if (open_result(r, full, &output) != CLI_OK)
+        return CLI_FAILURE;
+    write(r, net, output.file);
+    return cli_output_close(&output);
+}
