@@ -109,11 +109,13 @@ run "$HNBRDF" mix mixed.safetensors "$first" nothing --t 0.5
 expect_failure "mix with nothing" "nothing"
 
 # ---- lobes ------------------------------------------------------------------------------------------
-"$HNBRDF" lobes hybrid.safetensors --show --csv - >fitted.csv 2>err || fail "lobes --show: $(cat err)"
+run "$HNBRDF" lobes hybrid.safetensors -o lobes.safetensors
+expect_ok "lobes -o"
+"$HNBRDF" lobes lobes.safetensors --show --csv - >fitted.csv 2>err || fail "lobes --show: $(cat err)"
 head -n 1 fitted.csv | grep -qx 'material,alpha_x,alpha_y,roughness1,share1_0,.*,share2_3' || fail "the columns of lobes --csv"
-! grep -q ',0,0,0,0,0,0,0,0,0,0$' fitted.csv || fail "fit left a material without lobes"
+! grep -q ',0,0,0,0,0,0,0,0,0,0$' fitted.csv || fail "lobes left a material without any"
 values hybrid.safetensors "$first" >a
-run "$HNBRDF" lobes hybrid.safetensors --scheme guess -o guess.safetensors
+run "$HNBRDF" lobes lobes.safetensors --scheme guess -o guess.safetensors
 expect_ok "lobes --scheme guess"
 grep -q 'none: guessed' out || fail "lobes does not say that there are none"
 run "$HNBRDF" lobes guess.safetensors --scheme paper
@@ -124,7 +126,7 @@ values guess.safetensors "$first" >a_paper
 cmp -s a a_paper || fail "lobes change values"
 run "$HNBRDF" lobes guess.safetensors
 expect_ok "lobes"
-cmp -s guess.safetensors hybrid.safetensors || fail "lobes fitted again are not those of fit"
+cmp -s guess.safetensors lobes.safetensors || fail "lobes fitted again are others"
 run "$HNBRDF" lobes hybrid.safetensors --show -o x.safetensors
 expect_usage "lobes --show -o" "writes no model"
 run "$HNBRDF" lobes lambert.binary
