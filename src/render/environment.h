@@ -12,13 +12,19 @@
 
 #include "render/image.h"
 
+#include <stdint.h>
+
 /* Immutable once made; may be shared between threads. */
 typedef struct render_environment {
     int width, height;
     float *rgb;      /* [height][width][3], finite, >= 0 */
+    double *sums;    /* [height] of luminance along each row, = columns[row][width - 1] */
     double *rows;    /* [height] inclusive sums of luminance times solid angle, row by row */
     double *columns; /* [height][width] inclusive sums of luminance along each row */
     double total;    /* luminance integrated over the sphere, = rows[height - 1] */
+    double *borders; /* [height + 1] cosines of the polar angles between rows, 1 to -1 */
+    uint16_t *row_start;    /* [height] where the search for a row begins, see find() */
+    uint16_t *column_start; /* [height][width] likewise in each row */
     double rotation; /* radians about +y: the direction that the centre column shows is -z turned
                         counter-clockwise, seen from above */
 } render_environment;
@@ -38,6 +44,14 @@ double render_environment_lookup(const render_environment *environment, const fl
 /* Draws a direction; u in [0, 1)^2. Returns its density in 1/sr, > 0. */
 double render_environment_sample(const render_environment *environment, const double u[2],
                                  float direction[3], float radiance[3]);
+/* `count` of either, at most RENDER_ENVIRONMENT_BLOCK, with the bits of the calls above and faster:
+ * maps do not fit into caches, and many waits for memory then go on at once. */
+enum { RENDER_ENVIRONMENT_BLOCK = 64 };
+void render_environment_lookup_many(const render_environment *environment, int count,
+                                    const float direction[][3], float radiance[][3], double density[]);
+void render_environment_sample_many(const render_environment *environment, int count,
+                                    const double u[][2], float direction[][3], float radiance[][3],
+                                    double density[]);
 /* Mean luminance over the sphere. */
 double render_environment_level(const render_environment *environment);
 

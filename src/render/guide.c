@@ -9,18 +9,17 @@
  * -------------------------------------------------------------------------- */
 
 /* Turned by half a turn about the normal, the mirror direction becomes the view direction. */
-static float lobe_pdf(const hnbrdf_model *model, const hnbrdf_material *material, int retro,
-                      const float wi[3], const float wo[3])
+static float lobe_pdf(const hnbrdf_prepared *prepared, int retro, const float wi[3], const float wo[3])
 {
     float w[3] = {retro ? -wi[0] : wi[0], retro ? -wi[1] : wi[1], wi[2]};
-    return hnbrdf_pdf(model, material, w, wo);
+    return hnbrdf_prepared_pdf(prepared, w, wo);
 }
 
-static int lobe_sample(const hnbrdf_model *model, const hnbrdf_material *material, int retro,
-                       const float wo[3], const float u[3], float wi[3])
+static int lobe_sample(const hnbrdf_prepared *prepared, int retro, const float wo[3], const float u[3],
+                       float wi[3])
 {
     hnbrdf_sample_result drawn;
-    hnbrdf_sample(model, material, wo, u, &drawn);
+    hnbrdf_prepared_sample(prepared, wo, u, &drawn);
     wi[0] = retro ? -drawn.wi[0] : drawn.wi[0];
     wi[1] = retro ? -drawn.wi[1] : drawn.wi[1];
     wi[2] = drawn.wi[2];
@@ -33,7 +32,7 @@ static float guide_pdf(const render_surface *surface, const float wi[3], const f
     float pdf = 0.0f;
     for (int k = 0; k < guide->count; k++)
         pdf += guide->lobes[k].share *
-               lobe_pdf(guide->model, &guide->lobes[k].material, guide->lobes[k].retro, wi, wo);
+               lobe_pdf(&guide->lobes[k].prepared, guide->lobes[k].retro, wi, wo);
     return pdf;
 }
 
@@ -48,7 +47,7 @@ static float guide_sample(const render_surface *surface, const float wo[3], cons
         left -= guide->lobes[k++].share;
     float rest = left / guide->lobes[k].share, last = 1.0f - 0x1p-24f;
     float numbers[3] = {rest < last ? rest : last, u[1], u[2]};
-    if (!lobe_sample(guide->model, &guide->lobes[k].material, guide->lobes[k].retro, wo, numbers, wi))
+    if (!lobe_sample(&guide->lobes[k].prepared, guide->lobes[k].retro, wo, numbers, wi))
         return 0.0f;
     return guide_pdf(surface, wi, wo);
 }
@@ -56,6 +55,8 @@ static float guide_sample(const render_surface *surface, const float wo[3], cons
 void render_surface_guide(render_surface *surface, const render_guide *guide)
 {
     surface->guide = *guide;
+    for (int k = 0; k < guide->count; k++)
+        hnbrdf_prepare(guide->model, &guide->lobes[k].material, &surface->guide.lobes[k].prepared);
     surface->sample = guide_sample;
     surface->pdf = guide_pdf;
 }
@@ -113,8 +114,8 @@ typedef struct observation {
 
 /* Observes one view with directions from the even mixture of all candidates, which misses no lobe that
  * any of them has. The weights of a view sum to 1, or are 0 if it reflects nothing. */
-static int observe(const render_surface *surface, const hnbrdf_model *model, const float wo[3],
-                   hnbrdf_rng *rng, observation *observations)
+static int observe(const render_surface *surface, const hnbrdf_prepared prepared[CANDIDATES],
+                   const float wo[3], hnbrdf_rng *rng, observation *observations)
 {
     int count = 0;
     double total = 0.0;
@@ -122,12 +123,11 @@ static int observe(const render_surface *surface, const hnbrdf_model *model, con
         float u[3] = {hnbrdf_rng_float(rng), hnbrdf_rng_float(rng), hnbrdf_rng_float(rng)}, wi[3], f[3];
         observation *o = &observations[count];
         double mixture = 0.0;
-        hnbrdf_material material = candidate_material(draw % CANDIDATES);
-        if (!lobe_sample(model, &material, candidates[draw % CANDIDATES].retro, wo, u, wi))
+        int from = draw % CANDIDATES;
+        if (!lobe_sample(&prepared[from], candidates[from].retro, wo, u, wi))
             continue;
         for (int k = 0; k < CANDIDATES; k++) {
-            material = candidate_material(k);
-            o->pdf[k] = lobe_pdf(model, &material, candidates[k].retro, wi, wo);
+            o->pdf[k] = lobe_pdf(&prepared[k], candidates[k].retro, wi, wo);
             mixture += (double)o->pdf[k] / CANDIDATES;
         }
         surface->eval(surface, 1, wi, wo, f);
@@ -190,6 +190,11 @@ render_guide render_guide_fit(const render_surface *const *surfaces, int count,
 {
     static const double golden_angle = 2.39996322972865332;
     double shares[CANDIDATES] = {1.0};
+    hnbrdf_prepared prepared[CANDIDATES];
+    for (int k = 0; k < CANDIDATES; k++) {
+        hnbrdf_material material = candidate_material(k);
+        hnbrdf_prepare(model, &material, &prepared[k]);
+    }
     hnbrdf_rng rng;
     hnbrdf_rng_seed(&rng, 1, 0);
     observation *observations = malloc(sizeof *observations * VIEWS * DRAWS * (size_t)count);
@@ -199,7 +204,7 @@ render_guide render_guide_fit(const render_surface *const *surfaces, int count,
                r = sqrt(1.0 - z * z); /* even in the area a sphere shows */
         float wo[3] = {(float)(r * cos(view * golden_angle)), (float)(r * sin(view * golden_angle)),
                        (float)z};
-        observed += observe(surfaces[view % count], model, wo, &rng, observations + observed);
+        observed += observe(surfaces[view % count], prepared, wo, &rng, observations + observed);
     }
     if (observations)
         maximise(observations, observed, shares);

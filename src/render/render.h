@@ -19,6 +19,7 @@ typedef struct render_guide {
         hnbrdf_material material;
         int retro;
         float share; /* of the samples; all of them sum to 1 */
+        hnbrdf_prepared prepared; /* the material's; made by render_surface_guide() */
     } lobes[RENDER_LOBES];
 } render_guide;
 
@@ -36,6 +37,7 @@ typedef struct render_surface {
     /* What those below use; models and measurements are borrowed. Other surfaces leave them zero. */
     const hnbrdf_model *model;
     hnbrdf_material material;
+    hnbrdf_prepared prepared;
     const hnbrdf_measured *measured;
     render_guide guide;
 } render_surface;

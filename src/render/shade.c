@@ -42,14 +42,16 @@ static uint32_t shuffled(uint32_t index, uint32_t seed)
     return reversed(x);
 }
 
-/* Second dimension of Sobol's sequence, direction numbers v_{k+1} = v_k ^ (v_k >> 1); the first one
- * reverses the bits of the index. */
+/* Second dimension of Sobol's sequence: the bits of the index times Pascal's triangle modulo 2, which is
+ * the Kronecker product of five matrices {1 1; 0 1}, then reversed. */
 static uint32_t sobol(uint32_t index)
 {
-    uint32_t value = 0;
-    for (uint32_t v = UINT32_C(1) << 31; index; index >>= 1, v ^= v >> 1)
-        value ^= index & 1 ? v : 0;
-    return value;
+    index ^= index >> 16;
+    index ^= (index & 0xff00ff00u) >> 8;
+    index ^= (index & 0xf0f0f0f0u) >> 4;
+    index ^= (index & 0xccccccccu) >> 2;
+    index ^= (index & 0xaaaaaaaau) >> 1;
+    return reversed(index);
 }
 
 void render_stream_pair(const render_stream *stream, int pair, uint32_t index, uint32_t u[2])
@@ -102,7 +104,7 @@ typedef struct sample_batch {
 static void add_sample(sample_batch *batch, const float wi[3], const float wo[3],
                        const float radiance[3], double density)
 {
-    if (!(wi[2] > 0.0f))
+    if (!(wi[2] > 0.0f && wo[2] > 0.0f))
         return;
     memcpy(batch->wi[batch->count], wi, sizeof batch->wi[0]);
     memcpy(batch->wo[batch->count], wo, sizeof batch->wo[0]);
@@ -112,31 +114,47 @@ static void add_sample(sample_batch *batch, const float wi[3], const float wo[3]
 }
 
 static void sample_light(const render_surface *surface, const render_environment *environment,
-                         render_strategy strategy, const uint32_t u[2], const render_point *point,
-                         sample_batch *batch)
+                         render_strategy strategy, const render_stream *stream, uint32_t first,
+                         const render_point *points, int count, sample_batch *batch)
 {
-    float world[3], wi[3], radiance[3];
-    double place[2] = {u[0] * 0x1p-32, u[1] * 0x1p-32};
-    double density = render_environment_sample(environment, place, world, radiance);
-    to_local(point, world, wi);
-    if (strategy == RENDER_MIS)
-        density += (double)surface->pdf(surface, wi, point->wo);
-    add_sample(batch, wi, point->wo, radiance, density);
+    double places[RENDER_BLOCK][2], density[RENDER_BLOCK];
+    float world[RENDER_BLOCK][3], radiance[RENDER_BLOCK][3], wi[3];
+    for (int i = 0; i < count; i++) {
+        uint32_t u[2];
+        render_stream_pair(stream, RENDER_PAIR_LIGHT, first + (uint32_t)i, u);
+        places[i][0] = u[0] * 0x1p-32;
+        places[i][1] = u[1] * 0x1p-32;
+    }
+    render_environment_sample_many(environment, count, (const double(*)[2])places, world, radiance,
+                                   density);
+    for (int i = 0; i < count; i++) {
+        to_local(&points[i], world[i], wi);
+        if (strategy == RENDER_MIS && wi[2] > 0.0f)
+            density[i] += (double)surface->pdf(surface, wi, points[i].wo);
+        add_sample(batch, wi, points[i].wo, radiance[i], density[i]);
+    }
 }
 
 static void sample_brdf(const render_surface *surface, const render_environment *environment,
-                        render_strategy strategy, const uint32_t u[2], uint32_t lobe,
-                        const render_point *point, sample_batch *batch)
+                        render_strategy strategy, const render_stream *stream, uint32_t first,
+                        const render_point *points, int count, sample_batch *batch)
 {
-    float numbers[3] = {unit_float(lobe), unit_float(u[0]), unit_float(u[1])};
-    float world[3], wi[3], radiance[3];
-    float drawn = surface->sample(surface, point->wo, numbers, wi);
-    if (!(drawn > 0.0f))
-        return;
-    to_world(point, wi, world);
-    double density = render_environment_lookup(environment, world, radiance);
-    add_sample(batch, wi, point->wo, radiance,
-               strategy == RENDER_MIS ? density + (double)drawn : (double)drawn);
+    double density[RENDER_BLOCK];
+    float world[RENDER_BLOCK][3], radiance[RENDER_BLOCK][3], wi[RENDER_BLOCK][3], drawn[RENDER_BLOCK];
+    for (int i = 0; i < count; i++) {
+        uint32_t u[2], lobe[2], index = first + (uint32_t)i;
+        render_stream_pair(stream, RENDER_PAIR_DIRECTION, index, u);
+        render_stream_pair(stream, RENDER_PAIR_LOBE, index, lobe);
+        float numbers[3] = {unit_float(lobe[0]), unit_float(u[0]), unit_float(u[1])};
+        drawn[i] = surface->sample(surface, points[i].wo, numbers, wi[i]);
+        if (!(drawn[i] > 0.0f))
+            memcpy(wi[i], (const float[3]){0.0f, 0.0f, 0.0f}, sizeof wi[i]);
+        to_world(&points[i], wi[i], world[i]);
+    }
+    render_environment_lookup_many(environment, count, (const float(*)[3])world, radiance, density);
+    for (int i = 0; i < count; i++)
+        add_sample(batch, wi[i], points[i].wo, radiance[i],
+                   strategy == RENDER_MIS ? density[i] + (double)drawn[i] : (double)drawn[i]);
 }
 
 void render_shade(const render_surface *surface, const render_environment *environment,
@@ -145,20 +163,10 @@ void render_shade(const render_surface *surface, const render_environment *envir
 {
     sample_batch batch;
     batch.count = 0;
-    for (int i = 0; i < count; i++) {
-        if (!(points[i].wo[2] > 0.0f))
-            continue;
-        uint32_t u[2], lobe[2], index = first + (uint32_t)i;
-        if (strategy != RENDER_BRDF) {
-            render_stream_pair(stream, RENDER_PAIR_LIGHT, index, u);
-            sample_light(surface, environment, strategy, u, &points[i], &batch);
-        }
-        if (strategy != RENDER_LIGHT) {
-            render_stream_pair(stream, RENDER_PAIR_DIRECTION, index, u);
-            render_stream_pair(stream, RENDER_PAIR_LOBE, index, lobe);
-            sample_brdf(surface, environment, strategy, u, lobe[0], &points[i], &batch);
-        }
-    }
+    if (strategy != RENDER_BRDF)
+        sample_light(surface, environment, strategy, stream, first, points, count, &batch);
+    if (strategy != RENDER_LIGHT)
+        sample_brdf(surface, environment, strategy, stream, first, points, count, &batch);
     if (batch.count > 0)
         surface->eval(surface, batch.count, batch.wi[0], batch.wo[0], batch.f[0]);
     for (size_t i = 0; i < batch.count; i++)

@@ -28,23 +28,25 @@ static float sample_model(const render_surface *surface, const float wo[3], cons
                           float wi[3])
 {
     hnbrdf_sample_result drawn;
-    hnbrdf_sample(surface->model, &surface->material, wo, u, &drawn);
+    hnbrdf_prepared_sample(&surface->prepared, wo, u, &drawn);
     memcpy(wi, drawn.wi, sizeof drawn.wi);
     return drawn.pdf;
 }
 
 static float pdf_model(const render_surface *surface, const float wi[3], const float wo[3])
 {
-    return hnbrdf_pdf(surface->model, &surface->material, wi, wo);
+    return hnbrdf_prepared_pdf(&surface->prepared, wi, wo);
 }
 
 render_surface render_surface_model(const hnbrdf_model *model, const hnbrdf_material *material)
 {
-    return (render_surface){.eval = eval_model,
-                            .sample = sample_model,
-                            .pdf = pdf_model,
-                            .model = model,
-                            .material = *material};
+    render_surface surface = {.eval = eval_model,
+                              .sample = sample_model,
+                              .pdf = pdf_model,
+                              .model = model,
+                              .material = *material};
+    hnbrdf_prepare(model, material, &surface.prepared);
+    return surface;
 }
 
 render_surface render_surface_analytic(const hnbrdf_model *model, const hnbrdf_material *material)
