@@ -18,7 +18,7 @@ set(HNBRDF_TOOL_SOURCES
 # The renderer is a library only so that its tests need not compile it again; it is not installed.
 add_library(hnbrdf_render STATIC EXCLUDE_FROM_ALL
   src/render/image.c src/render/exr.c src/render/radiance.c src/render/png.c
-  src/render/environment.c src/render/sky.c src/render/surface.c src/render/guide.c src/render/shade.c
+  src/render/environment.c src/render/sky.c src/render/surface.c src/render/guide.c src/render/tabulated.c src/render/shade.c
   src/render/sphere.c src/render/backdrop.c src/render/label.c src/render/glyphs.c
   src/render/sheet.c src/render/draw.c src/render/difference.c)
 target_link_libraries(hnbrdf_render PRIVATE hnbrdf_flags PUBLIC hnbrdf_measured_static Threads::Threads)

@@ -372,6 +372,10 @@ HNBRDF_API void hnbrdf_prepared_eval(const hnbrdf_prepared *prepared, const floa
                                      const float wo[3], float f[3]);
 HNBRDF_API void hnbrdf_prepared_sample(const hnbrdf_prepared *prepared, const float wo[3],
                                        const float u[3], hnbrdf_sample_result *result);
+/* hnbrdf_prepared_sample() without the weight, for renderers that evaluate in batches: wi and the pdf, which is
+ * returned; 0 with wi = (0, 0, 1) where there is no direction. */
+HNBRDF_API float hnbrdf_prepared_draw(const hnbrdf_prepared *prepared, const float wo[3], const float u[3],
+                                      float wi[3]);
 HNBRDF_API float hnbrdf_prepared_pdf(const hnbrdf_prepared *prepared, const float wi[3],
                                      const float wo[3]);
 

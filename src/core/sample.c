@@ -162,33 +162,40 @@ static int draw_lobe(const hnbrdf_prepared *m, int k, const float wo[3], float u
     return 1;
 }
 
-void hnbrdf_prepared_sample(const hnbrdf_prepared *prepared, const float wo[3], const float u[3],
-                            hnbrdf_sample_result *result)
+float hnbrdf_prepared_draw(const hnbrdf_prepared *prepared, const float wo[3], const float u[3], float wi[3])
 {
-    static const hnbrdf_sample_result nothing = {{0.0f, 0.0f, 1.0f}, 0.0f, {0.0f, 0.0f, 0.0f}};
-    *result = nothing;
-    if (!(wo[2] > 0.0f))
-        return;
     const hnbrdf_frame frame = {prepared->cosine, prepared->sine};
-    float o[3], i[3], wi[3], f[3], share[HNBRDF_LOBES];
+    float o[3], i[3], drawn[3], share[HNBRDF_LOBES];
+    wi[0] = wi[1] = 0.0f;
+    wi[2] = 1.0f;
+    if (!(wo[2] > 0.0f))
+        return 0.0f;
     hnbrdf_to_tangent(frame, wo, o);
     shares_at(&prepared->lobes, wo[2], share);
     if (u[0] < share[0] + share[1]) {
         if (!draw_lobe(prepared, u[0] < share[0] ? 0 : 1, o, u[1], u[2], i))
-            return;
+            return 0.0f;
     } else {
         draw_cosine(u[1], u[2], i);
     }
-    hnbrdf_from_tangent(frame, i, wi);
-    float pdf = hnbrdf_prepared_pdf(prepared, wi, wo);
-    if (!(pdf > 0.0f))
+    hnbrdf_from_tangent(frame, i, drawn);
+    float pdf = hnbrdf_prepared_pdf(prepared, drawn, wo);
+    for (int c = 0; c < 3 && pdf > 0.0f; c++)
+        wi[c] = drawn[c];
+    return pdf;
+}
+
+void hnbrdf_prepared_sample(const hnbrdf_prepared *prepared, const float wo[3], const float u[3],
+                            hnbrdf_sample_result *result)
+{
+    float f[3];
+    result->pdf = hnbrdf_prepared_draw(prepared, wo, u, result->wi);
+    result->weight[0] = result->weight[1] = result->weight[2] = 0.0f;
+    if (!(result->pdf > 0.0f))
         return;
-    hnbrdf_prepared_eval(prepared, wi, wo, f);
-    for (int c = 0; c < 3; c++) {
-        result->wi[c] = wi[c];
-        result->weight[c] = hnbrdf_finish(f[c] * wi[2] / pdf);
-    }
-    result->pdf = pdf;
+    hnbrdf_prepared_eval(prepared, result->wi, wo, f);
+    for (int c = 0; c < 3; c++)
+        result->weight[c] = hnbrdf_finish(f[c] * result->wi[2] / result->pdf);
 }
 
 void hnbrdf_sample(const hnbrdf_model *model, const hnbrdf_material *material, const float wo[3],

@@ -18,12 +18,10 @@ static float lobe_pdf(const hnbrdf_prepared *prepared, int retro, const float wi
 static int lobe_sample(const hnbrdf_prepared *prepared, int retro, const float wo[3], const float u[3],
                        float wi[3])
 {
-    hnbrdf_sample_result drawn;
-    hnbrdf_prepared_sample(prepared, wo, u, &drawn);
-    wi[0] = retro ? -drawn.wi[0] : drawn.wi[0];
-    wi[1] = retro ? -drawn.wi[1] : drawn.wi[1];
-    wi[2] = drawn.wi[2];
-    return drawn.pdf > 0.0f;
+    float pdf = hnbrdf_prepared_draw(prepared, wo, u, wi);
+    wi[0] = retro ? -wi[0] : wi[0];
+    wi[1] = retro ? -wi[1] : wi[1];
+    return pdf > 0.0f;
 }
 
 static float guide_pdf(const render_surface *surface, const float wi[3], const float wo[3])

@@ -40,6 +40,7 @@ typedef struct render_surface {
     hnbrdf_prepared prepared;
     const hnbrdf_measured *measured;
     render_guide guide;
+    const struct render_table *table; /* of tabulated.h; borrowed */
 } render_surface;
 
 /* hnbrdf_eval(), and hnbrdf_sample() and hnbrdf_pdf() until it is given a guide. */

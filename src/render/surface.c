@@ -27,10 +27,7 @@ static void eval_measured(const render_surface *surface, size_t count, const flo
 static float sample_model(const render_surface *surface, const float wo[3], const float u[3],
                           float wi[3])
 {
-    hnbrdf_sample_result drawn;
-    hnbrdf_prepared_sample(&surface->prepared, wo, u, &drawn);
-    memcpy(wi, drawn.wi, sizeof drawn.wi);
-    return drawn.pdf;
+    return hnbrdf_prepared_draw(&surface->prepared, wo, u, wi);
 }
 
 static float pdf_model(const render_surface *surface, const float wi[3], const float wo[3])
