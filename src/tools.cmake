@@ -5,7 +5,8 @@ set(HNBRDF_TOOL_SOURCES
   src/cli/cmd_fit.c src/cli/fit_log.c src/cli/fit_speed.c src/cli/loss_plot.c
   src/cli/cmd_eval.c src/cli/cmd_compare.c src/cli/compare_images.c src/cli/cmd_export.c
   src/cli/cmd_verify.c src/cli/cmd_render.c src/cli/cmd_sheet.c src/cli/cmd_import.c
-  src/cli/cmd_info.c src/cli/picture.c src/cli/palette.c src/cli/cmd_edit.c src/cli/cmd_mix.c src/cli/lobes.c src/cli/cmd_lobes.c
+  src/cli/cmd_info.c src/cli/picture.c src/cli/palette.c src/cli/cmd_edit.c src/cli/cmd_mix.c src/cli/cmd_report_sampling.c src/cli/sampling_measure.c src/cli/sampling_write.c
+  src/cli/sampling_strips.c src/cli/lobes.c src/cli/cmd_lobes.c
   src/cli/peak.c src/cli/cmd_report.c src/cli/cmd_bake.c src/cli/bake_search.c src/cli/bake_sizes.c
   src/cli/bake_fit.c src/cli/bake_teacher.c src/cli/bake_tables.c src/cli/bake_plot.c src/cli/bake_half.c
   src/cli/report_grid.c src/cli/report_fit.c src/cli/report_tables.c

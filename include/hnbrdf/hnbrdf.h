@@ -327,7 +327,9 @@ typedef struct hnbrdf_sample_result {
     float weight[3]; /* f wi.z / pdf per channel, finite, >= 0 */
 } hnbrdf_sample_result;
 
-/* Draw wi given wo. u is three numbers in [0, 1): make them as (u32 >> 8) * 2^-24. */
+/* Draw wi given wo. u is three numbers in [0, 1): make them as (u32 >> 8) * 2^-24. u[0] chooses a lobe, and what is
+ * left of it turns the azimuth further than u[1]: where two numbers are stratified together (Sobol and the like), pass
+ * them as u[0] and u[2], with u[1] = 0, and the samples of every lobe are stratified. */
 HNBRDF_API void hnbrdf_sample(const hnbrdf_model *model, const hnbrdf_material *material,
                               const float wo[3], const float u[3], hnbrdf_sample_result *result);
 

@@ -16,7 +16,7 @@ static const cli_command command = {
     "materials.csv (a row a material and model), ggx.csv and ggx.svg (how the fits of GGX went),\n"
     "errors-NET.svg, and the models in models/. Beside SMAPE stands the PSNR of spheres under the\n"
     "built-in sky.\n"
-    "`hnbrdf report images --help` tells about the other report, of image error.\n"
+    "`hnbrdf report images --help` and `report sampling --help` tell about the other reports.\n"
     "Everything is written anew after each model: what an interrupted run has done stays, and "
     "--resume\n"
     "goes on with it. A model made with other settings is not reused.",
@@ -97,6 +97,8 @@ int cmd_report(int argc, char **argv)
 {
     if (argc > 1 && strcmp(argv[1], "images") == 0)
         return cmd_report_images(argc, argv);
+    if (argc > 1 && strcmp(argv[1], "sampling") == 0)
+        return cmd_report_sampling(argc, argv);
     report r = {.sampler = HNBRDF_SAMPLER_GRID,
                 .seed = 1,
                 .image_size = 64,
@@ -137,9 +139,9 @@ int cmd_report(int argc, char **argv)
     int result = line ? cli_parse(&command, options, argc, argv, &count) : cli_fail("out of memory");
     r.command_line = line;
     if (result < 0 && count < 1)
-        result = cli_usage(&command, "no report named, expected accuracy or images");
+        result = cli_usage(&command, "no report named, expected accuracy, images or sampling");
     if (result < 0 && strcmp(argv[1], "accuracy") != 0)
-        result = cli_usage(&command, "no report is called '%s', expected accuracy or images", argv[1]);
+        result = cli_usage(&command, "no report is called '%s', expected accuracy, images or sampling", argv[1]);
     if (result < 0 && count < 2)
         result = cli_usage(&command, "no DATA given");
     if (result < 0 && !r.directory)

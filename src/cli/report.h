@@ -77,6 +77,8 @@ typedef struct report {
 
 /* `hnbrdf report images`; argv[1] is "images". */
 int cmd_report_images(int argc, char **argv);
+/* `hnbrdf report sampling`; argv[1] is "sampling". */
+int cmd_report_sampling(int argc, char **argv);
 
 /* ---- report_options.c: what the reports read and write alike. Those that return -1 to go on return an
  * exit code after a message otherwise, as cli_parse() does.
@@ -88,6 +90,8 @@ int report_read_models(const cli_command *command, const char *list, report *r);
 /* The command as it was typed, before cli_parse() moves its arguments about; malloc'ed, NULL when
  * memory is short. */
 char *report_join(int argc, char **argv);
+/* A folder, unless it is there. 0, or CLI_FAILURE after a message. */
+int report_make_folder(const char *path);
 /* The report's folder and NAME in it. 0, or CLI_FAILURE after a message. */
 int report_make_folders(const report *r, const char *name);
 /* Writes the file NAME in the report's folder. Likewise. */

@@ -85,7 +85,7 @@ char *report_join(int argc, char **argv)
 
 /* ---- Output -------------------------------------------------------------------------------------- */
 
-static int make_directory(const char *path)
+int report_make_folder(const char *path)
 {
     struct stat status;
     if (mkdir(path, 0777) == 0 ||
@@ -109,9 +109,9 @@ static char *path_in(const report *r, const char *name)
 int report_make_folders(const report *r, const char *name)
 {
     char *path = path_in(r, name);
-    int result = path ? make_directory(r->directory) : CLI_FAILURE;
+    int result = path ? report_make_folder(r->directory) : CLI_FAILURE;
     if (result == CLI_OK)
-        result = make_directory(path);
+        result = report_make_folder(path);
     free(path);
     return result;
 }

@@ -162,6 +162,15 @@ static int draw_lobe(const hnbrdf_prepared *m, int k, const float wo[3], float u
     return 1;
 }
 
+/* What is left of u0 once it has chosen its part [low, low + size) of [0, 1) turns the azimuth on: a pair (u0, u2)
+ * that is stratified stays so in each lobe. */
+static float azimuth(float u0, float low, float size, float u1)
+{
+    float turn = u1 + hnbrdf_clamp((u0 - low) / size, 0.0f, 0.99999994f);
+    turn = turn >= 1.0f ? turn - 1.0f : turn;
+    return hnbrdf_clamp(turn, 0.0f, 1.0f);
+}
+
 float hnbrdf_prepared_draw(const hnbrdf_prepared *prepared, const float wo[3], const float u[3], float wi[3])
 {
     const hnbrdf_frame frame = {prepared->cosine, prepared->sine};
@@ -172,11 +181,14 @@ float hnbrdf_prepared_draw(const hnbrdf_prepared *prepared, const float wo[3], c
         return 0.0f;
     hnbrdf_to_tangent(frame, wo, o);
     shares_at(&prepared->lobes, wo[2], share);
-    if (u[0] < share[0] + share[1]) {
-        if (!draw_lobe(prepared, u[0] < share[0] ? 0 : 1, o, u[1], u[2], i))
+    float both = share[0] + share[1];
+    if (u[0] < both) {
+        int k = u[0] < share[0] ? 0 : 1;
+        float turn = azimuth(u[0], k ? share[0] : 0.0f, share[k], u[1]);
+        if (!draw_lobe(prepared, k, o, turn, u[2], i))
             return 0.0f;
     } else {
-        draw_cosine(u[1], u[2], i);
+        draw_cosine(azimuth(u[0], both, 1.0f - both, u[1]), u[2], i);
     }
     hnbrdf_from_tangent(frame, i, drawn);
     float pdf = hnbrdf_prepared_pdf(prepared, drawn, wo);

@@ -27,7 +27,8 @@ static void eval_measured(const render_surface *surface, size_t count, const flo
 static float sample_model(const render_surface *surface, const float wo[3], const float u[3],
                           float wi[3])
 {
-    return hnbrdf_prepared_draw(&surface->prepared, wo, u, wi);
+    const float stratified[3] = {u[1], 0.0f, u[2]};
+    return hnbrdf_prepared_draw(&surface->prepared, wo, stratified, wi);
 }
 
 static float pdf_model(const render_surface *surface, const float wi[3], const float wo[3])
