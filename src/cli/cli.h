@@ -18,6 +18,7 @@ int cmd_export(int argc, char **argv);
 int cmd_verify(int argc, char **argv);
 int cmd_render(int argc, char **argv);
 int cmd_sheet(int argc, char **argv);
+int cmd_gallery(int argc, char **argv);
 int cmd_edit(int argc, char **argv);
 int cmd_mix(int argc, char **argv);
 int cmd_report(int argc, char **argv);
