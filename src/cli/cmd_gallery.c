@@ -2,7 +2,6 @@
 #include "cli/gallery.h"
 #include "hnbrdf/fit.h"
 
-#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -126,8 +125,8 @@ static int open_all(gallery *g, char **arguments, int count, double seconds, cha
     int data = is_data(g, arguments[0]), skip = data ? 0 : 1;
     if (data < 0 || (count > skip && cli_open_data(arguments + skip, count - skip, &g->data) != CLI_OK))
         return CLI_FAILURE;
-    if (mkdir(g->directory, 0777) != 0 && errno != EEXIST)
-        return cli_fail("%s: cannot make this folder: %s", g->directory, strerror(errno));
+    if (cli_make_folder(g->directory) != CLI_OK)
+        return CLI_FAILURE;
     g->model_path = data ? fitted_path : arguments[0];
     if (data && fit(g, seconds) != CLI_OK)
         return CLI_FAILURE;

@@ -149,9 +149,10 @@ static int render_material(gallery *g, const hnbrdf_material *material, int anal
 {
     render_surface shown = analytic ? render_surface_analytic(g->model, material)
                                     : render_surface_model(g->model, material);
-    render_guide guide = make_guide(g, &shown, material);
-    if (!analytic) /* GGX alone draws from itself */
+    if (!analytic) { /* GGX alone draws from itself */
+        render_guide guide = make_guide(g, &shown, material);
         render_surface_guide(&shown, &guide);
+    }
     int code = render_cell(g, &shown, cell);
     g->progress.first++;
     return code;
