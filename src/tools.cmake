@@ -12,6 +12,7 @@ set(HNBRDF_TOOL_SOURCES
   src/cli/report_grid.c src/cli/report_fit.c src/cli/report_tables.c
   src/cli/report_images.c src/cli/report_ggx.c src/cli/report_options.c
   src/cli/cmd_report_images.c src/cli/report_image_tables.c src/cli/report_rows.c
+  src/cli/cmd_gallery.c src/cli/gallery_strips.c src/cli/gallery_choose.c src/cli/gallery_pages.c
   src/cli/report_plot.c src/cli/cmd_bench.c src/cli/bench_probe.c src/cli/bench_cpu.c
   src/cli/bench_gpu.c src/cli/bench_peer.c src/cli/bench_quality.c src/cli/bench_write.c
   src/cli/bench_plot.c src/cli/text_buffer.c)

@@ -18,6 +18,7 @@ int cmd_export(int argc, char **argv);
 int cmd_verify(int argc, char **argv);
 int cmd_render(int argc, char **argv);
 int cmd_sheet(int argc, char **argv);
+int cmd_gallery(int argc, char **argv);
 int cmd_edit(int argc, char **argv);
 int cmd_mix(int argc, char **argv);
 int cmd_report(int argc, char **argv);
@@ -163,6 +164,7 @@ int cli_output_open(const char *path, cli_output *output);  /* 0, or CLI_FAILURE
 int cli_output_close(cli_output *output);                   /* flush, check, rename; likewise */
 int cli_output_check(const char *path);                     /* can it be written? before long work; likewise */
 void cli_output_discard(cli_output *output);                /* drop what was written */
+int cli_make_folder(const char *path);                      /* unless it is there; likewise */
 
 /* Text as a JSON string with its quotes. */
 void cli_write_json_text(FILE *file, const char *text);

@@ -184,10 +184,12 @@ static int measure_material(report *r, int m, hnbrdf_model *const *models)
 
 static int write_results(report *r)
 {
-    for (int k = 0; k < r->count; k++)
+    for (int k = 0; k < r->count; k++) {
         report_images_average(r, &r->entries[k]);
+        r->entries[k].done = is_done(r, r->data.count - 1);
+    }
     int code = report_write(r, "images.csv", report_write_images_csv);
-    for (int n = 0; n < r->net_count && code == CLI_OK && is_done(r, r->data.count - 1); n++)
+    for (int n = 0; n < r->net_count && code == CLI_OK && r->entries[0].done; n++)
         code = report_write_net(r, "psnr", r->nets[n], report_write_psnr_plot);
     return code == CLI_OK ? report_write(r, "images.md", report_write_images_markdown) : code;
 }

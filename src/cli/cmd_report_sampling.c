@@ -112,7 +112,7 @@ static int open_models(sampling_report *r, char *const *paths, int count, long m
     if (code == CLI_OK)
         code = picture_open_light(&r->light, &r->environment);
     if (code == CLI_OK) {
-        code = report_make_folder(r->directory);
+        code = cli_make_folder(r->directory);
         if (code == CLI_OK)
             code = run(r);
         render_environment_free(&r->environment);

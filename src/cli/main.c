@@ -23,8 +23,9 @@ static const subcommand subcommands[] = {
     {"edit", cmd_edit, "change a material: colour, refraction, roughness, angle"},
     {"mix", cmd_mix, "materials between two of a model"},
     {"lobes", cmd_lobes, "where samples of a material go: fit, or take the paper's scheme"},
+    {"gallery", cmd_gallery, "pages of edited and mixed materials"},
     {"bake", cmd_bake, "the smallest network that is good enough for the materials of a scene"},
-    {"report", cmd_report, "error of a grid of networks and baselines, as tables and plots"},
+    {"report", cmd_report, "errors of a grid of networks and baselines, over directions or of images"},
     {"bench", cmd_bench, "run time beside error, on the CPU and on GPUs"},
     {"import", cmd_import, "published .brdf shaders to a model file"},
 };

@@ -96,3 +96,12 @@ void cli_write_json_text(FILE *file, const char *text)
     }
     putc('"', file);
 }
+
+int cli_make_folder(const char *path)
+{
+    struct stat status;
+    if (mkdir(path, 0777) == 0 ||
+        (errno == EEXIST && stat(path, &status) == 0 && S_ISDIR(status.st_mode)))
+        return CLI_OK;
+    return cli_fail("%s: cannot make this folder: %s", path, strerror(errno));
+}

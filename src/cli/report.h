@@ -90,8 +90,6 @@ int report_read_models(const cli_command *command, const char *list, report *r);
 /* The command as it was typed, before cli_parse() moves its arguments about; malloc'ed, NULL when
  * memory is short. */
 char *report_join(int argc, char **argv);
-/* A folder, unless it is there. 0, or CLI_FAILURE after a message. */
-int report_make_folder(const char *path);
 /* The report's folder and NAME in it. 0, or CLI_FAILURE after a message. */
 int report_make_folders(const report *r, const char *name);
 /* Writes the file NAME in the report's folder. Likewise. */

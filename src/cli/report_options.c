@@ -1,10 +1,8 @@
 /* report_options.c: lists of networks and models, and the files of a report's folder. */
 #include "cli/report.h"
 
-#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 /* ---- Lists --------------------------------------------------------------------------------------- */
 
@@ -85,15 +83,6 @@ char *report_join(int argc, char **argv)
 
 /* ---- Output -------------------------------------------------------------------------------------- */
 
-int report_make_folder(const char *path)
-{
-    struct stat status;
-    if (mkdir(path, 0777) == 0 ||
-        (errno == EEXIST && stat(path, &status) == 0 && S_ISDIR(status.st_mode)))
-        return CLI_OK;
-    return cli_fail("%s: cannot make this folder: %s", path, strerror(errno));
-}
-
 /* DIR/NAME; malloc'ed, NULL after a message. */
 static char *path_in(const report *r, const char *name)
 {
@@ -109,9 +98,9 @@ static char *path_in(const report *r, const char *name)
 int report_make_folders(const report *r, const char *name)
 {
     char *path = path_in(r, name);
-    int result = path ? report_make_folder(r->directory) : CLI_FAILURE;
+    int result = path ? cli_make_folder(r->directory) : CLI_FAILURE;
     if (result == CLI_OK)
-        result = report_make_folder(path);
+        result = cli_make_folder(path);
     free(path);
     return result;
 }
