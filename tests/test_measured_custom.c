@@ -31,14 +31,14 @@ static void release_lobe(void *user)
     ((lobe *)user)->released++;
 }
 
-/* What a caller may return: negative, NaN, infinite; and "no value" for grazing light. */
+/* What a caller may return: negative, the largest float; NaN or infinite in one channel towards low
+ * viewers; and "no value" for grazing light. */
 static int eval_odd(const void *user, const float wi[3], const float wo[3], float f[3])
 {
-    (void)user;
-    (void)wo;
+    const float *odd = user;
     f[0] = -1.0f;
-    f[1] = NAN;
-    f[2] = INFINITY;
+    f[1] = wo[2] > 0.5f ? 0.0f : *odd;
+    f[2] = 3.4e38f;
     return wi[2] > 0.5f;
 }
 
@@ -87,15 +87,21 @@ static void values_are_clamped_and_missing_ones_are_told(void **state)
 {
     (void)state;
     hnbrdf_measured *measured;
-    hnbrdf_measured_custom custom = {.name = "odd", .summary = "an odd one", .eval = eval_odd};
+    float odd = NAN;
+    hnbrdf_measured_custom custom = {
+        .name = "odd", .summary = "an odd one", .eval = eval_odd, .user = &odd};
     assert_int_equal(hnbrdf_measured_create_custom(&custom, &measured, NULL), HNBRDF_OK);
     assert_string_equal(hnbrdf_measured_summary(measured), "an odd one");
     assert_int_equal(hnbrdf_measured_is_isotropic(measured), 0);
     float high[3] = {0, 0, 1}, low[3] = {0.9539392f, 0, 0.3f}, f[3];
-    assert_int_equal(hnbrdf_measured_eval(measured, high, low, f), 1);
+    assert_int_equal(hnbrdf_measured_eval(measured, high, high, f), 1);
     assert_true(f[0] == 0.0f && f[1] == 0.0f && f[2] == HNBRDF_MAX_VALUE);
     assert_int_equal(hnbrdf_measured_eval(measured, low, high, f), 0);
     assert_true(f[0] == 0.0f && f[1] == 0.0f && f[2] == 0.0f);
+    for (int k = 0; k < 2; k++, odd = INFINITY) {
+        assert_int_equal(hnbrdf_measured_eval(measured, high, low, f), 0);
+        assert_true(f[0] == 0.0f && f[1] == 0.0f && f[2] == 0.0f);
+    }
     hnbrdf_measured_close(measured);
 }
 

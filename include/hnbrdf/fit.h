@@ -4,6 +4,23 @@
  * analytic part is then kept as it is (faithful), or trained on with the network, and the shared
  * network and the latent codes learn what is missing. The result depends on the data, the options and
  * the seed only, never on the number of threads.
+ *
+ * Data. Directions without a valid measurement are left out; a material where fewer than 1 % of the
+ * directions drawn have one is refused. Negative values count as 0, values above 1e15 as 1e15. Both
+ * losses saturate or grow as a logarithm, so that single wild values hardly pull. SMAPE has 1e-4 added
+ * to its denominator, the logarithm 1e-3 to its argument: values far below are matched to about 1e-4
+ * 1/sr, not relative to themselves. What of the data these rules concern is told in hnbrdf_fit_drawn.
+ *
+ * Divergence. Training is judged at its steps 25, 50, 100 and every 200, by its loss over a fixed
+ * sample of the training pairs. It counts as diverged if a number is no longer finite, if the loss
+ * exceeds both that of the untrained start and twice the best plus 0.1, or if more than an eighth of a
+ * layer's units (at least 4, or all) died since the best state. It is then set back to the best state,
+ * with Adam and warm-up starting anew at 0.3 times the rate. So a rate that is 100 times too large
+ * costs a few hundred steps; the report tells how often it happened and the rate at the end. What is
+ * returned is the last state unless an earlier one was better by more than 5 %, which is what such a
+ * sample can tell; and for a hybrid it is never worse than GGX alone by more than that (plus 0.001): if
+ * all training was in vain, the network returned leaves GGX as it is. Every number in a model is
+ * finite.
  */
 #ifndef HNBRDF_FIT_H
 #define HNBRDF_FIT_H
@@ -58,6 +75,14 @@ typedef struct hnbrdf_fit_search {
     float second_alpha[2]; /* where the second best ended */
 } hnbrdf_fit_search;
 
+/* What was drawn of one material. */
+typedef struct hnbrdf_fit_drawn {
+    double valid;   /* share of the directions drawn that have a valid measurement */
+    double dark;    /* share of the values, all channels, below 1e-4 1/sr: hardly told from 0 */
+    double cut;     /* share of the values above 1e15 1/sr, more than a BRDF has: taken as 1e15 */
+    double largest; /* value */
+} hnbrdf_fit_drawn;
+
 /* Zero-initialise for defaults; then set hybrid 32x2 etc. as wanted. */
 typedef struct hnbrdf_fit_options {
     hnbrdf_kind kind;   /* default hybrid */
@@ -74,11 +99,12 @@ typedef struct hnbrdf_fit_options {
      * taken instead of a GGX fit: kept as they are (faithful) or where training starts (joint). */
     const hnbrdf_material *materials;
     hnbrdf_fit_search *search; /* [count] written: how the GGX fit of each material went, or NULL */
-    long steps;                /* network steps; 0 stands for 32000 */
-    double seconds;            /* time budget for the network stage instead of steps */
-    int batch;                 /* pairs a step; 0 stands for 2048; rounded up to a multiple of 1024 */
-    int pool;                  /* pairs drawn per material before training; 0: 131072 */
-    float learning_rate;       /* Adam's peak rate; 0 stands for 6e-2 min(1, 64/(HN)), HxN the network */
+    hnbrdf_fit_drawn *drawn; /* [count] written: what was found in the data of each material, or NULL */
+    long steps;              /* network steps; 0 stands for 32000 */
+    double seconds;          /* time budget for the network stage instead of steps */
+    int batch;               /* pairs a step; 0 stands for 2048; rounded up to a multiple of 1024 */
+    int pool;                /* pairs drawn per material before training; 0: 131072 */
+    float learning_rate;     /* Adam's peak rate; 0 stands for 6e-2 min(1, 64/(HN)), HxN the network */
     hnbrdf_fit_loss loss;
     hnbrdf_fit_schedule schedule;
     float uniform_share; /* of the pairs, drawn by the uniform sampler, the others by grid; 0 stands
@@ -111,7 +137,8 @@ typedef struct hnbrdf_fit_times {
 } hnbrdf_fit_times;
 
 typedef struct hnbrdf_fit_report {
-    double final_loss;
+    double final_loss;  /* running mean of the training loss; best_loss where an earlier state was
+                           returned */
     double seconds;     /* whole fit */
     double pairs_per_s; /* network stage */
     long steps;         /* network steps done, those before a resume included */
@@ -122,6 +149,16 @@ typedef struct hnbrdf_fit_report {
     hnbrdf_fit_times times;
     int threads;
     const char *instructions; /* of the kernels: "plain", "avx2" or "avx512" */
+    /* Of a network: how the training went, see "Divergence" above. Losses are means over a sample of
+     * the training pairs, SMAPE unless HNBRDF_FIT_LOG is minimised. */
+    int set_backs;    /* times that training had diverged and was set back to the best state before */
+    double rate;      /* Adam's peak rate at the end: learning_rate times 0.3 for each of them */
+    long best_step;   /* the step whose state was returned: `steps`, or an earlier one that was clearly
+                         better */
+    int ggx_alone;    /* 1: none was as good as GGX alone; the network returned leaves GGX as it is.
+                         best_step is 0 */
+    double best_loss; /* of the state returned */
+    double ggx_loss;  /* of GGX alone; NaN but for a hybrid whose network was trained */
 } hnbrdf_fit_report;
 
 /* Fit one model to count materials. report may be NULL. */

@@ -99,7 +99,8 @@ typedef struct hnbrdf_measured_custom {
     const char *summary; /* one line for hnbrdf_measured_summary(), cut to 255 bytes; NULL: "custom"; copied */
     int isotropic;       /* 1: turning wi and wo together about n never changes the value */
     /* f of unit vectors above the horizon, convention as above. Returns 1, or 0 where there is no value. f is
-     * clamped to [0, HNBRDF_MAX_VALUE], NaN to 0. Called from several threads at once. Never NULL. */
+     * clamped to [0, HNBRDF_MAX_VALUE]; where a channel is not finite there is no value. Called from several
+     * threads at once. Never NULL. */
     int (*eval)(const void *user, const float wi[3], const float wo[3], float f[3]);
     void (*release)(void *user); /* called once by hnbrdf_measured_close(); may be NULL */
     void *user;

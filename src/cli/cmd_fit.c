@@ -25,6 +25,9 @@ static const cli_command command = {
     "  hnbrdf fit new.bsdf --freeze rgl.safetensors -o more.safetensors\n"
     "  hnbrdf fit merl/ --encoding directions --floor 0 -o paper.safetensors\n"};
 
+#define FEW_VALID 0.1 /* share; measurements are above half */
+#define POOR_LOSS 1.0
+
 typedef struct display {
     cli_progress line;
     const char *stage;
@@ -114,6 +117,49 @@ static void summarise(const job *j, const hnbrdf_model *model, const hnbrdf_fit_
         printf("interrupted; the model so far is saved. Repeat the command with --resume to go on.\n");
 }
 
+/* What is odd about the data: a person should know before trusting the model. */
+static void tell_about_data(const job *j)
+{
+    for (int m = 0; m < j->data.count; m++) {
+        const hnbrdf_fit_drawn *d = &j->fit.drawn[m];
+        const char *name = hnbrdf_measured_name(j->data.items[m]);
+        if (d->valid < FEW_VALID)
+            printf("note: %s: %.3g %% of the directions drawn are valid measurements; what the model "
+                   "says of the others is a guess\n",
+                   name, 100.0 * d->valid);
+        if (d->cut > 0.0)
+            printf("note: %s: %.3g %% of its values are above 1e15 1/sr, the largest %.3g; no BRDF is, "
+                   "they were taken as 1e15\n",
+                   name, 100.0 * d->cut, d->largest);
+        if (d->largest <= 0.0)
+            printf("note: %s: every value is 0, negative ones counted as 0\n", name);
+        else if (d->dark >= 1.0)
+            printf("note: %s: no value above %.3g 1/sr, which the loss hardly tells from black; is the "
+                   "unit 1/sr?\n",
+                   name, d->largest);
+    }
+}
+
+/* What the training could not do. */
+static void tell_about_training(const hnbrdf_fit_report *r)
+{
+    if (r->set_backs > 0)
+        printf("note: training diverged %d time%s and went on from its best state at 0.3 times the "
+               "rate, in the end %.3g; give a lower --rate\n",
+               r->set_backs, r->set_backs == 1 ? "" : "s", r->rate);
+    if (r->ggx_alone)
+        printf("note: no state of the training was better than GGX alone, loss %.4f: the network saved "
+               "leaves GGX as it is; give more --steps or a lower --rate\n",
+               r->ggx_loss);
+    else if (r->best_step < r->steps)
+        printf("note: the state of step %ld is saved, loss %.4f; what came later was worse\n",
+               r->best_step, r->best_loss);
+    if (r->best_loss > POOR_LOSS)
+        printf("note: the model does not follow these data: loss %.2f, where 0 is perfect and 2 the "
+               "worst\n",
+               r->best_loss);
+}
+
 static int write_speed(const job *j, const hnbrdf_fit_report *report)
 {
     fit_speed speed = fit_speed_of(report);
@@ -155,6 +201,8 @@ static int run(job *j)
         code = cli_fail("%s", error.text);
     } else {
         summarise(j, model, &report);
+        tell_about_data(j);
+        tell_about_training(&report);
         if (!report.stopped)
             remove(j->fit.checkpoint);
         code = write_speed(j, &report);
@@ -188,7 +236,9 @@ static int open_and_run(job *j, const char *freeze, char *const *data, int count
         code = cli_fail("%s: a measured file, expected a model to freeze", freeze);
     j->fit.freeze = source.model;
     if (!code && !(code = cli_open_data(data, count, &j->data))) {
-        code = run(j);
+        j->fit.drawn = calloc((size_t)j->data.count, sizeof *j->fit.drawn);
+        code = j->fit.drawn ? run(j) : cli_fail("out of memory");
+        free(j->fit.drawn);
         cli_close_data(&j->data);
     }
     cli_close_source(&source);

@@ -65,6 +65,15 @@ void fit_speed_print(const fit_speed *speed)
     printf("\n");
 }
 
+/* JSON knows no NaN. */
+static void write_number(double value, FILE *file)
+{
+    if (isfinite(value))
+        fprintf(file, "%.9g", value);
+    else
+        fputs("null", file);
+}
+
 void fit_speed_write_json(const fit_speed *speed, FILE *file)
 {
     const hnbrdf_fit_report *r = speed->report;
@@ -72,12 +81,16 @@ void fit_speed_write_json(const fit_speed *speed, FILE *file)
     list_parts(&r->times, parts);
     fprintf(file, "{\"steps\": %ld, \"stopped\": %s, \"loss\": ", r->steps,
             r->stopped ? "true" : "false");
-    if (isfinite(r->final_loss))
-        fprintf(file, "%.9g", r->final_loss);
-    else
-        fputs("null", file);
+    write_number(r->final_loss, file);
+    fprintf(
+        file,
+        ",\n \"set_backs\": %d, \"rate\": %.9g, \"best_step\": %ld, \"ggx_alone\": %s, \"best_loss\": ",
+        r->set_backs, r->rate, r->best_step, r->ggx_alone ? "true" : "false");
+    write_number(r->best_loss, file);
+    fputs(", \"ggx_loss\": ", file);
+    write_number(r->ggx_loss, file);
     fprintf(file,
-            ", \"seconds\": %.6f, \"threads\": %d, \"instructions\": \"%s\",\n"
+            ",\n \"seconds\": %.6f, \"threads\": %d, \"instructions\": \"%s\",\n"
             " \"pairs\": %.0f, \"pairs_per_s\": %.0f, \"network_pairs_per_s\": %.0f,\n"
             " \"network_flops_per_s\": %.4g, \"fma_peak_flops_per_s\": %.4g, "
             "\"muladd_peak_flops_per_s\": %.4g,\n \"processor_seconds\": {",

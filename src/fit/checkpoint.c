@@ -19,9 +19,11 @@ typedef struct header {
     hnbrdf_rng rng;
     double share, peak, running;
     int64_t step, order_at;
+    int64_t since, best_step, best_dead, set_backs;
+    double best_loss;
 } header;
 
-static const char magic[16] = "hnbrdf-fit/1";
+static const char magic[16] = "hnbrdf-fit/2";
 
 /* FNV-1a. */
 static uint64_t hash(uint64_t h, const void *data, size_t size)
@@ -77,6 +79,7 @@ static int transfer(trainer *t, FILE *file, int writing)
         void *data;
         size_t size;
     } blocks[] = {{t->parameters, 3 * t->layout.count * sizeof(float)},
+                  {t->best, t->layout.count * sizeof(float)},
                   {t->order, (size_t)t->count * sizeof(int)},
                   {t->cursor, (size_t)t->count * sizeof(int)}};
     for (size_t i = 0; i < sizeof blocks / sizeof blocks[0]; i++) {
@@ -116,9 +119,12 @@ hnbrdf_result hnbrdf_fit_checkpoint_save(const trainer *t, hnbrdf_error *error)
     h.running = t->running;
     h.step = t->step;
     h.order_at = t->order_at;
+    h.since = t->since;
+    h.best_step = t->best_step;
+    h.best_dead = t->best_dead;
+    h.set_backs = t->set_backs;
+    h.best_loss = t->best_loss;
     trainer view = *t; /* transfer() takes what it may write to; it only reads here */
-    if (!numbers_are_sound(t->parameters, t->layout.count))
-        view.parameters = t->snapshot; /* stopped before a step that diverged was taken back */
     FILE *file = fopen(aside, "wb");
     int good = file && fwrite(&h, sizeof h, 1, file) == 1 && transfer(&view, file, 1);
     if (file && fclose(file))
@@ -137,10 +143,15 @@ static int is_sound(const trainer *t, const header *h)
 {
     int good = h->step >= 0 && h->step < LONG_MAX && h->share >= 0.0 && h->share < 1.0 &&
                h->peak > 0.0 && h->peak <= DBL_MAX && !isinf(h->running) && h->order_at >= 0 &&
-               h->order_at < t->count;
+               h->order_at < t->count && h->since >= 0 && h->since <= h->step && h->best_step >= 0 &&
+               h->best_step <= h->step && h->best_dead >= 0 && h->best_dead <= HNBRDF_MAX_HIDDEN &&
+               h->set_backs >= 0 && h->set_backs <= h->step && h->set_backs <= INT_MAX &&
+               h->best_loss >= 0.0 && h->best_loss <= DBL_MAX;
     for (int m = 0; m < t->count; m++)
         good &= t->order[m] >= 0 && t->order[m] < t->count && t->cursor[m] >= 0 &&
                 t->cursor[m] < t->pool.tiles;
+    for (size_t i = 0; i < t->layout.count; i++)
+        good &= isfinite(t->best[i]) != 0;
     return good && numbers_are_sound(t->parameters, t->layout.count);
 }
 
@@ -178,5 +189,10 @@ hnbrdf_result hnbrdf_fit_checkpoint_load(trainer *t, hnbrdf_error *error)
     t->running = h.running;
     t->step = (long)h.step;
     t->order_at = (int)h.order_at;
+    t->since = (long)h.since;
+    t->best_step = (long)h.best_step;
+    t->best_dead = (int)h.best_dead;
+    t->set_backs = (int)h.set_backs;
+    t->best_loss = h.best_loss;
     return HNBRDF_OK;
 }

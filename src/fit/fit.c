@@ -5,7 +5,9 @@
 #include "core/error.h"
 #include "fit/ggx.h"
 
+#include <float.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
@@ -24,6 +26,7 @@ enum { ASYMMETRY_PAIRS = 4096 };
 #define RATE_UNITS 64
 #define DEFAULT_FLOOR 0.003f
 #define DEFAULT_UNIFORM_SHARE 0.5f
+#define LEAST_VALID 0.01  /* share of the directions drawn: hnbrdf_fit_pool_draw() gives up below it */
 #define POOL_LIMIT 1.25e9 /* bytes of training data; beyond, fewer pairs a material */
 
 double hnbrdf_fit_seconds(void)
@@ -67,8 +70,9 @@ static void piece_done(trainer *t, const char *stage, int worker)
 static void draw_one(void *context, int material, int worker)
 {
     trainer *t = context;
-    t->drawn[material] = hnbrdf_fit_pool_draw(&t->pool, material, t->data[material],
-                                              t->options.uniform_share, t->options.seed);
+    if (!hnbrdf_fit_pool_draw(&t->pool, material, t->data[material], t->options.uniform_share,
+                              t->options.seed, &t->drawn[material]))
+        atomic_store(&t->undrawn, 1);
     piece_done(t, "sampling", worker);
 }
 
@@ -299,14 +303,15 @@ static hnbrdf_result fill_options(hnbrdf_fit_options *o, int count, hnbrdf_error
         return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT, "latent code of %d floats, expected 0 to %d",
                            o->latent, HNBRDF_MAX_LATENT);
     if (o->steps < 1 || o->batch < 1 || o->batch > 1 << 24 || o->pool > 1 << 26 || o->threads < 0 ||
-        !(o->seconds >= 0.0) || !(o->learning_rate > 0.0f) || !(o->floor < 1.0f) ||
-        !(o->uniform_share <= 1.0f) || (unsigned)o->loss > HNBRDF_FIT_SMAPE ||
+        !(o->seconds >= 0.0) || !(o->learning_rate > 0.0f && o->learning_rate <= FLT_MAX) ||
+        !(o->floor < 1.0f) || !(o->uniform_share <= 1.0f) || (unsigned)o->loss > HNBRDF_FIT_SMAPE ||
         (unsigned)o->schedule > HNBRDF_FIT_CONSTANT || !hnbrdf_kind_name(o->kind) ||
         !hnbrdf_encoding_name(o->encoding))
         return hnbrdf_fail(
             error, HNBRDF_ERROR_ARGUMENT,
             "a fit option is out of its range: steps, batch and pool at least 1, learning "
-            "rate above 0, floor below 1, uniform share at most 1, seconds and threads not negative");
+            "rate above 0 and finite, floor below 1, uniform share at most 1, seconds and threads not "
+            "negative");
     if (o->resume && !o->checkpoint)
         return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT,
                            "nothing to resume from: no checkpoint is named");
@@ -323,12 +328,12 @@ static int allocate(trainer *t)
     t->pool.data = malloc(sizeof(float) * materials * (size_t)t->pool.tiles * FIT_POOL_TILE);
     t->materials = calloc(materials, sizeof *t->materials);
     t->isotropic = calloc(materials, sizeof(int));
-    t->drawn = calloc(materials, sizeof(int));
+    t->drawn = calloc(materials, sizeof *t->drawn);
     t->encoded = calloc(materials, sizeof(double));
     t->order = calloc(materials, sizeof(int));
     t->cursor = calloc(materials, sizeof(int));
     t->parameters = calloc(3 * l->count, sizeof(float));
-    t->snapshot = calloc(3 * l->count, sizeof(float));
+    t->best = calloc(l->count, sizeof(float));
     t->gradient = calloc(l->count, sizeof(float));
     t->chunk_gradients = calloc(FIT_CHUNKS * l->count, sizeof(float));
     t->derived = calloc(l->derived_count + 1, sizeof(float));
@@ -338,18 +343,62 @@ static int allocate(trainer *t)
     t->tile_index = calloc(tiles, sizeof(int));
     t->moments = t->parameters ? t->parameters + l->count : NULL;
     return t->pool.data && t->materials && t->isotropic && t->drawn && t->encoded && t->order &&
-           t->cursor && t->parameters && t->snapshot && t->gradient && t->chunk_gradients &&
-           t->derived && t->scratch && t->tile_material && t->tile_index;
+           t->cursor && t->parameters && t->best && t->gradient && t->chunk_gradients && t->derived &&
+           t->scratch && t->tile_material && t->tile_index;
 }
 
 static void release(trainer *t)
 {
     hnbrdf_fit_workers_stop(t->workers);
     void *all[] = {t->pool.data,       t->materials, t->isotropic,  t->drawn,         t->order,
-                   t->encoded,         t->cursor,    t->parameters, t->snapshot,      t->gradient,
+                   t->encoded,         t->cursor,    t->parameters, t->best,          t->gradient,
                    t->chunk_gradients, t->derived,   t->scratch,    t->tile_material, t->tile_index};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
         free(all[i]);
+}
+
+/* Which material has too few measurements to draw from, and how many others. */
+static hnbrdf_result refuse_data(const trainer *t, hnbrdf_error *error)
+{
+    int first = -1, others = -1;
+    char more[64] = "";
+    for (int m = 0; m < t->count; m++)
+        if (t->drawn[m].valid < LEAST_VALID) {
+            first = first < 0 ? m : first;
+            others++;
+        }
+    if (others > 0)
+        snprintf(more, sizeof more, "; so it is with %d other material%s", others,
+                 others == 1 ? "" : "s");
+    return hnbrdf_fail(
+        error, HNBRDF_ERROR_FORMAT,
+        "%s: %.3g %% of the directions drawn are valid measurements, expected at least %g %%%s",
+        hnbrdf_measured_name(t->data[first]), 100.0 * t->drawn[first].valid, 100.0 * LEAST_VALID, more);
+}
+
+/* A model's names differ; better told now than after training. */
+static hnbrdf_result check_names(const trainer *t, hnbrdf_error *error)
+{
+    const size_t count = (size_t)t->count;
+    hnbrdf_model *model = NULL;
+    hnbrdf_material *materials = calloc(count, sizeof *materials);
+    const char **names = calloc(count, sizeof *names);
+    hnbrdf_model_desc desc = {.kind = HNBRDF_KIND_GGX, .material_count = t->count};
+    desc.materials = materials;
+    desc.names = names;
+    hnbrdf_result result = HNBRDF_ERROR_MEMORY;
+    for (int m = 0; materials && names && m < t->count; m++) {
+        hnbrdf_material_init(&materials[m]);
+        names[m] = hnbrdf_measured_name(t->data[m]);
+    }
+    if (materials && names)
+        result = hnbrdf_model_create(&desc, NULL, &model, error);
+    else
+        hnbrdf_fail(error, result, "out of memory for %d names", t->count);
+    hnbrdf_model_free(model);
+    free(materials);
+    free(names);
+    return result;
 }
 
 static hnbrdf_result run(trainer *t, hnbrdf_model **model, hnbrdf_fit_report *result,
@@ -362,11 +411,10 @@ static hnbrdf_result run(trainer *t, hnbrdf_model **model, hnbrdf_fit_report *re
     hnbrdf_fit_stage_begin(t);
     hnbrdf_fit_workers_run(t->workers, t->count, draw_one, t);
     result->times.drawing = hnbrdf_fit_workers_busy(t->workers);
-    for (int m = 0; m < t->count; m++)
-        if (!t->drawn[m])
-            return hnbrdf_fail(error, HNBRDF_ERROR_FORMAT,
-                               "%s: fewer than 1 %% of the directions drawn are valid measurements",
-                               hnbrdf_measured_name(t->data[m]));
+    if (atomic_load(&t->undrawn))
+        return refuse_data(t, error);
+    if (t->options.drawn)
+        memcpy(t->options.drawn, t->drawn, (size_t)t->count * sizeof *t->drawn);
     hnbrdf_fit_stage_begin(t);
     hnbrdf_fit_workers_run(t->workers, t->count, fit_one, t);
     for (int m = 0; m < t->count; m++)
@@ -387,10 +435,14 @@ hnbrdf_result hnbrdf_fit(const hnbrdf_measured *const *data, int count,
 {
     trainer t = {0};
     double started = hnbrdf_fit_seconds();
-    hnbrdf_fit_report result_report = {.final_loss = NAN};
+    hnbrdf_fit_report result_report = {.final_loss = NAN, .best_loss = NAN, .ggx_loss = NAN};
     if (count < 1 || count > HNBRDF_MAX_MATERIALS)
         return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT, "%d materials to fit, expected 1 to %d", count,
                            HNBRDF_MAX_MATERIALS);
+    for (int m = 0; m < count; m++)
+        if (!data || !data[m])
+            return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT, "material %d of %d to fit is NULL", m,
+                               count);
     t.data = data;
     t.count = count;
     if (options)
@@ -398,6 +450,8 @@ hnbrdf_result hnbrdf_fit(const hnbrdf_measured *const *data, int count,
     hnbrdf_result result = fill_options(&t.options, count, error);
     for (int m = 0; t.options.materials && m < count && !result; m++)
         result = hnbrdf_material_check(&t.options.materials[m], error);
+    if (!result)
+        result = check_names(&t, error);
     if (result)
         return result;
     if (!t.options.encoding_set)

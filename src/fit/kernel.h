@@ -57,6 +57,9 @@ typedef struct fit_tile {
  * The gradient is passed to u unchanged, so a clipped value below a positive target is pulled up. */
 #define FIT_LOG_OFFSET 1e-3
 #define FIT_SMAPE_OFFSET 1e-4
+/* Values and targets end here: their squares must be floats. At the roughness floor of 1e-4 GGX itself
+ * stays below 1/(pi alpha^2) / (4 cos cos) = 8e10 where the samplers draw. */
+#define FIT_MOST 1e15f
 
 /* The kernels of one instruction set. loss returned is the sum over the tile's pairs and channels; the
  * gradient of that sum is added to gradient. */

@@ -121,7 +121,7 @@ static double channel_loss(const REAL *restrict u, const float *restrict target,
     for (int b = 0; b < FIT_TILE; b++) {
         REAL t = (REAL)target[b];
         REAL f = u[b] > 0 ? u[b] : 0;
-        f = f < (REAL)1e15 ? f : (REAL)1e15;
+        f = f < (REAL)FIT_MOST ? f : (REAL)FIT_MOST;
         REAL difference = f - t;
         REAL sign = difference > 0 ? (REAL)1 : (difference < 0 ? (REAL)-1 : (REAL)0);
         REAL sum = f + t + e2;

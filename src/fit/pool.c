@@ -18,11 +18,12 @@ fit_tile hnbrdf_fit_pool_view(const fit_pool *pool, int material, int tile)
 }
 
 int hnbrdf_fit_pool_draw(const fit_pool *pool, int material, const hnbrdf_measured *measured,
-                         float uniform_share, uint64_t seed)
+                         float uniform_share, uint64_t seed, hnbrdf_fit_drawn *drawn)
 {
     hnbrdf_rng rng;
     hnbrdf_rng_seed(&rng, seed, (uint64_t)material);
-    long pairs = (long)pool->tiles * FIT_TILE, budget = 100 * pairs;
+    long pairs = (long)pool->tiles * FIT_TILE, draws = 0;
+    *drawn = (hnbrdf_fit_drawn){0.0, 0.0, 0.0, 0.0};
     for (long k = 0; k < pairs; k++) {
         float *tile = hnbrdf_fit_pool_tile(pool, material, (int)(k / FIT_TILE));
         size_t b = (size_t)(k % FIT_TILE);
@@ -30,17 +31,27 @@ int hnbrdf_fit_pool_draw(const fit_pool *pool, int material, const hnbrdf_measur
         int is_uniform =
             floor((double)uniform_share * (double)(k + 1)) > floor((double)uniform_share * (double)k);
         do {
-            if (budget-- == 0)
+            if (draws == 100 * pairs) {
+                drawn->valid = (double)k / (double)draws;
                 return 0;
+            }
+            draws++;
             hnbrdf_sampler_draw(is_uniform ? HNBRDF_SAMPLER_UNIFORM : HNBRDF_SAMPLER_GRID, &rng, wi,
                                 wo);
         } while (!hnbrdf_measured_eval(measured, wi, wo, f));
         for (size_t c = 0; c < 3; c++) {
             tile[c * FIT_TILE + b] = wi[c];
             tile[(3 + c) * FIT_TILE + b] = wo[c];
-            tile[(6 + c) * FIT_TILE + b] = f[c] > 0.0f ? f[c] : 0.0f; /* a model is never negative */
+            tile[(6 + c) * FIT_TILE + b] =
+                hnbrdf_clamp(f[c], 0.0f, FIT_MOST); /* a model is never negative */
+            drawn->largest = fmax(drawn->largest, (double)f[c]);
+            drawn->dark += f[c] < (float)FIT_SMAPE_OFFSET;
+            drawn->cut += f[c] > FIT_MOST;
         }
     }
+    drawn->valid = (double)pairs / (double)draws;
+    drawn->dark /= 3.0 * (double)pairs;
+    drawn->cut /= 3.0 * (double)pairs;
     return 1;
 }
 

@@ -4,7 +4,7 @@
 #define HNBRDF_FIT_POOL_H
 
 #include "fit/kernel.h"
-#include "hnbrdf/measured.h"
+#include "hnbrdf/fit.h"
 
 /* Floats of one tile: wi, wo, target, analytic [3][FIT_TILE] each, then x [FIT_TILE][6]. */
 enum { FIT_POOL_TILE = (12 + FIT_INPUTS) * FIT_TILE };
@@ -20,10 +20,10 @@ float *hnbrdf_fit_pool_tile(const fit_pool *pool, int material, int tile);
 fit_tile hnbrdf_fit_pool_view(const fit_pool *pool, int material, int tile);
 
 /* Draw all tiles of one material, uniform_share of the pairs by the uniform sampler; depends on (seed,
- * material) only. 0 if too few of the drawn pairs
- * were valid measurements, 1 otherwise. */
+ * material) only. 0 if less than 1 % of the drawn pairs were valid measurements, 1 otherwise. drawn
+ * says what was found. */
 int hnbrdf_fit_pool_draw(const fit_pool *pool, int material, const hnbrdf_measured *measured,
-                         float uniform_share, uint64_t seed);
+                         float uniform_share, uint64_t seed, hnbrdf_fit_drawn *drawn);
 
 /* Fill x, and f_a of `fitted`, for one material: what a frozen analytic part needs. */
 void hnbrdf_fit_pool_encode(const fit_pool *pool, int material, hnbrdf_encoding encoding,

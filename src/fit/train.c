@@ -9,9 +9,8 @@
 #include <string.h>
 
 enum {
-    WARM_UP = 100, /* steps */
-    SNAPSHOT_EVERY =
-        100 /* steps between copies of a state to fall back to, and between entries of a log */
+    WARM_UP = 100,  /* steps */
+    LOG_EVERY = 100 /* steps between entries of a log */
 };
 #define LAST_RATE 0.01 /* schedules that fall end at this share of the peak rate */
 #define CHECKPOINT_SECONDS 30.0
@@ -143,8 +142,7 @@ static void chunk(void *context, int index, int worker)
     t->chunk_losses[index] = loss;
 }
 
-/* Loss and gradient of the mean over one step's pairs. */
-static double step_gradient(trainer *t)
+double hnbrdf_fit_step_gradient(trainer *t)
 {
     t->kernel->derive(&t->layout, t->parameters, t->derived);
     hnbrdf_fit_workers_run(t->workers, FIT_CHUNKS, chunk, t);
@@ -189,7 +187,8 @@ static double rate_now(const trainer *t)
         shape = 0.5 + 0.5 * cos(3.14159265358979 * t->share);
     else if (t->options.schedule == HNBRDF_FIT_LINEAR)
         shape = 1.0 - t->share;
-    return t->peak * (LAST_RATE + (1.0 - LAST_RATE) * shape) * fmin(1.0, (double)t->step / WARM_UP);
+    return t->peak * (LAST_RATE + (1.0 - LAST_RATE) * shape) *
+           fmin(1.0, (double)(t->step - t->since) / WARM_UP);
 }
 
 /* How much of the loss is SMAPE now. */
@@ -200,23 +199,19 @@ static float mix_now(const trainer *t)
     return t->options.loss == HNBRDF_FIT_SMAPE ? 1.0f : 0.0f;
 }
 
-/* One step of Adam; a state that is not finite goes back to the last good one and on at a lower rate.
- */
+/* One step of Adam. It leaves finite numbers: Adam passes over gradients beyond 1e18, so its moments
+ * are floats. */
 static void advance(trainer *t, double loss)
 {
-    size_t bytes = 3 * t->layout.count * sizeof(float); /* parameters and moments */
-    int due = t->step % SNAPSHOT_EVERY == 0;
-    if (!isfinite(loss) || (due && !all_finite(t->parameters, 3 * t->layout.count))) {
-        memcpy(t->parameters, t->snapshot, bytes);
-        t->peak *= 0.3;
-        return;
-    }
-    if (due)
-        memcpy(t->snapshot, t->parameters, bytes);
-    hnbrdf_fit_adam(t->parameters, t->gradient, t->moments, t->layout.count, t->step, rate_now(t));
+    hnbrdf_fit_adam(t->parameters, t->gradient, t->moments, t->layout.count, t->step - t->since,
+                    rate_now(t));
     if (t->layout.train_analytic)
         settle_analytic(t);
     t->running = isfinite(t->running) ? 0.98 * t->running + 0.02 * loss : loss;
+    if (!isfinite(loss) || !all_finite(t->parameters, t->layout.count))
+        hnbrdf_fit_set_back(t);
+    else
+        hnbrdf_fit_judge(t);
 }
 
 static hnbrdf_result start(trainer *t, hnbrdf_error *error)
@@ -230,13 +225,8 @@ static hnbrdf_result start(trainer *t, hnbrdf_error *error)
     } else {
         initialise(t);
     }
-    if (t->options.resume) {
-        hnbrdf_result result = hnbrdf_fit_checkpoint_load(t, error);
-        if (result)
-            return result;
-    }
-    memcpy(t->snapshot, t->parameters, 3 * t->layout.count * sizeof(float));
-    return HNBRDF_OK;
+    hnbrdf_fit_judge_start(t);
+    return t->options.resume ? hnbrdf_fit_checkpoint_load(t, error) : HNBRDF_OK;
 }
 
 /* Floating-point operations of both passes over one pair; see hnbrdf_fit_report. */
@@ -261,7 +251,7 @@ hnbrdf_result hnbrdf_fit_train(trainer *t, hnbrdf_fit_report *report, hnbrdf_err
     while (t->share < 1.0 && !t->stopped) {
         t->mix = mix_now(t);
         schedule(t);
-        double loss = step_gradient(t);
+        double loss = hnbrdf_fit_step_gradient(t);
         t->step++;
         pairs += each;
         advance(t, loss);
@@ -269,8 +259,7 @@ hnbrdf_result hnbrdf_fit_train(trainer *t, hnbrdf_fit_report *report, hnbrdf_err
         t->share = t->options.seconds > 0.0
                        ? share_before + (now - t->stage_started) / t->options.seconds
                        : (double)t->step / (double)t->options.steps;
-        hnbrdf_fit_tell(t, "network", fmin(t->share, 1.0), t->running, pairs,
-                        t->step % SNAPSHOT_EVERY == 0);
+        hnbrdf_fit_tell(t, "network", fmin(t->share, 1.0), t->running, pairs, t->step % LOG_EVERY == 0);
         if (t->options.checkpoint && t->share < 1.0 &&
             (t->stopped || now - saved > CHECKPOINT_SECONDS)) {
             if ((result = hnbrdf_fit_checkpoint_save(t, error)))
@@ -278,10 +267,8 @@ hnbrdf_result hnbrdf_fit_train(trainer *t, hnbrdf_fit_report *report, hnbrdf_err
             saved = now;
         }
     }
-    if (!all_finite(t->parameters, t->layout.count))
-        memcpy(t->parameters, t->snapshot, sizeof(float) * t->layout.count);
     double elapsed = hnbrdf_fit_seconds() - t->stage_started;
-    report->final_loss = t->running;
+    hnbrdf_fit_judge_end(t, report);
     report->pairs_per_s = elapsed > 0.0 ? pairs / elapsed : 0.0;
     report->steps = t->step;
     report->pairs = pairs;

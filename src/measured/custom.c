@@ -2,6 +2,7 @@
 #include "core/error.h"
 #include "measured/format.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -15,8 +16,11 @@ static int eval(const void *data, const double wi[3], const double wo[3], double
     }
     if (!custom->eval(custom->user, i, o, value))
         return 0;
-    for (int c = 0; c < 3; c++)
+    for (int c = 0; c < 3; c++) {
+        if (!isfinite(value[c]))
+            return 0; /* neither black nor a measurement: who fits or compares must not learn it */
         f[c] = (double)value[c];
+    }
     return 1;
 }
 

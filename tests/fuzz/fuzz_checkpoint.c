@@ -15,7 +15,7 @@ static char path[64];
 static int file;
 
 /* The smallest part of a trainer that checkpoints look at. */
-static trainer make_trainer(float *parameters, int *order, int *cursor)
+static trainer make_trainer(float *parameters, float *best, int *order, int *cursor)
 {
     trainer t;
     memset(&t, 0, sizeof t);
@@ -25,6 +25,7 @@ static trainer make_trainer(float *parameters, int *order, int *cursor)
     t.layout.count = NUMBERS;
     t.pool.tiles = TILES;
     t.parameters = parameters;
+    t.best = best;
     t.order = order;
     t.cursor = cursor;
     return t;
@@ -33,14 +34,14 @@ static trainer make_trainer(float *parameters, int *order, int *cursor)
 /* A checkpoint is written once, in a folder that is gone afterwards, for its first bytes. */
 static void learn_start(void)
 {
-    float parameters[3 * NUMBERS] = {0};
+    float parameters[3 * NUMBERS] = {0}, best[NUMBERS] = {0};
     int order[MATERIALS] = {0, 1}, cursor[MATERIALS] = {0};
     char folder[] = "/tmp/hnbrdf_fuzz_XXXXXX";
     FUZZ_CHECK(mkdtemp(folder) != NULL);
     snprintf(path, sizeof path, "%s/c", folder);
     for (int m = 0; m < MATERIALS; m++)
         FUZZ_CHECK(hnbrdf_measured_open_builtin(m, &data_of[m], NULL) == HNBRDF_OK);
-    trainer t = make_trainer(parameters, order, cursor);
+    trainer t = make_trainer(parameters, best, order, cursor);
     FUZZ_CHECK(hnbrdf_fit_checkpoint_save(&t, NULL) == HNBRDF_OK);
     FILE *written = fopen(path, "rb");
     FUZZ_CHECK(written && fread(start, 1, sizeof start, written) == sizeof start);
@@ -58,6 +59,10 @@ static void check_state(const trainer *t)
     FUZZ_CHECK(t->order_at >= 0 && t->order_at < MATERIALS);
     for (int i = 0; i < 3 * NUMBERS; i++)
         FUZZ_CHECK(isfinite(t->parameters[i]));
+    FUZZ_CHECK(t->since >= 0 && t->since <= t->step && t->best_step >= 0 && t->best_step <= t->step);
+    FUZZ_CHECK(t->set_backs >= 0 && t->best_dead >= 0 && t->best_loss >= 0.0 && isfinite(t->best_loss));
+    for (int i = 0; i < NUMBERS; i++)
+        FUZZ_CHECK(isfinite(t->best[i]));
     for (int m = 0; m < MATERIALS; m++)
         FUZZ_CHECK(t->order[m] >= 0 && t->order[m] < MATERIALS && t->cursor[m] >= 0 &&
                    t->cursor[m] < TILES);
@@ -66,10 +71,10 @@ static void check_state(const trainer *t)
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     unsigned char bytes[sizeof start + ROOM];
-    float *parameters = calloc(3 * NUMBERS, sizeof *parameters);
+    float *parameters = calloc(3 * NUMBERS, sizeof *parameters), *best = calloc(NUMBERS, sizeof *best);
     int *order = calloc(MATERIALS, sizeof *order), *cursor = calloc(MATERIALS, sizeof *cursor);
     hnbrdf_error error = {""};
-    FUZZ_CHECK(parameters && order && cursor);
+    FUZZ_CHECK(parameters && best && order && cursor);
     if (!data_of[0])
         learn_start();
     size = size < ROOM ? size : ROOM;
@@ -78,13 +83,14 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         memcpy(bytes + sizeof start, data, size);
     FUZZ_CHECK(ftruncate(file, 0) == 0);
     FUZZ_CHECK(pwrite(file, bytes, sizeof start + size, 0) == (ssize_t)(sizeof start + size));
-    trainer t = make_trainer(parameters, order, cursor);
+    trainer t = make_trainer(parameters, best, order, cursor);
     const hnbrdf_result result = hnbrdf_fit_checkpoint_load(&t, &error);
     if (result)
         fuzz_check_refusal(result, &error);
     else
         check_state(&t);
     free(parameters);
+    free(best);
     free(order);
     free(cursor);
     return 0;

@@ -223,15 +223,18 @@ static void write_texels(void)
 /* As fuzz_checkpoint.c has it: 5 numbers, 2 materials, 4 tiles each; after magic and fingerprint. */
 static void write_checkpoint(void)
 {
-    unsigned char bytes[16 + 3 * 8 + 2 * 8 + 3 * 5 * 4 + 4 * 4] = {0};
+    enum { NUMBERS_AT = 16 + 3 * 8 + 2 * 8 + 4 * 8 + 8, ORDER_AT = NUMBERS_AT + 4 * 5 * 4 };
+    unsigned char bytes[ORDER_AT + 4 * 4] = {0};
     target = "checkpoint";
     put_double(bytes + 16, 0.5);
     put_double(bytes + 24, 0.06);
     put_double(bytes + 32, 0.3);
     put_le(bytes + 40, 100, 8);
-    put_le(bytes + 60 + 60, 1, 4);
-    for (int i = 0; i < 15; i++)
-        put_float(bytes + 56 + 4 * i, 0.25f);
+    put_le(bytes + 64, 75, 8);   /* the best step */
+    put_double(bytes + 88, 0.2); /* its loss */
+    put_le(bytes + ORDER_AT + 4, 1, 4);
+    for (int i = 0; i < 20; i++)
+        put_float(bytes + NUMBERS_AT + 4 * i, 0.25f);
     put("half_way", bytes, sizeof bytes);
 }
 
