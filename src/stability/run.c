@@ -173,11 +173,11 @@ static void judge_sample(stability_row *row, const hnbrdf_model_desc *desc,
           pdf, &point);
 }
 
-/* What has the bits of the first backend has its errors too: see close_row(). */
+/* What must have the bits of `like`, and has, has its errors too: see close_row(). */
 static void judge_block(stability_row *row, const hnbrdf_model_desc *desc,
-                        const stability_backend *backend, int is_first, const stability_block *block,
+                        const stability_backend *backend, const stability_block *block,
                         float values[STABILITY_BLOCK][STABILITY_NUMBERS],
-                        float first[STABILITY_BLOCK][STABILITY_NUMBERS], const oracle_point *points)
+                        float like[STABILITY_BLOCK][STABILITY_NUMBERS], const oracle_point *points)
 {
     int numbers = stability_stage_numbers(row->stage);
     for (int k = 0; k < STABILITY_BLOCK; k++) {
@@ -185,11 +185,11 @@ static void judge_block(stability_row *row, const hnbrdf_model_desc *desc,
         size_t differs = 0;
         int valid = 1;
         for (int n = 0; n < numbers; n++) {
-            differs += memcmp(&values[k][n], &first[k][n], sizeof(float)) != 0;
+            differs += memcmp(&values[k][n], &like[k][n], sizeof(float)) != 0;
             valid &= is_valid(row, block, k, n, values[k][n]);
         }
         row->differs += differs;
-        if (!valid || (row->exact && !is_first && differs == 0))
+        if (!valid || (row->exact && differs == 0))
             continue;
         if (row->stage == STABILITY_SAMPLE)
             judge_sample(row, desc, block, k, backend, values[k]);
@@ -238,14 +238,22 @@ typedef struct runner {
     hnbrdf_error *error;
 } runner;
 
+/* The first backend in the state of this one. */
+static int first_in_state(const runner *r, int backend)
+{
+    int first = 0;
+    while (r->backends[first].state != r->backends[backend].state)
+        first++;
+    return first;
+}
+
 static hnbrdf_result run_block(const runner *r, const hnbrdf_model_desc *desc,
                                const stability_block *block, const oracle_point *points,
                                stability_row *rows)
 {
     for (int stage = 0; stage < STABILITY_STAGES; stage++) {
-        static const float zeros[STABILITY_BLOCK][STABILITY_NUMBERS];
-        float first[STABILITY_BLOCK][STABILITY_NUMBERS], values[STABILITY_BLOCK][STABILITY_NUMBERS];
-        memcpy(first, zeros, sizeof first);
+        float values[STABILITY_BLOCK][STABILITY_NUMBERS], firsts[STABILITY_STATES][STABILITY_BLOCK]
+                                                                [STABILITY_NUMBERS] = {{{0.0f}}};
         for (int b = 0; b < r->backend_count; b++) {
             stability_backend *backend = &r->backends[b];
             stability_row *row = &rows[b * STABILITY_STAGES + stage];
@@ -255,10 +263,11 @@ static hnbrdf_result run_block(const runner *r, const hnbrdf_model_desc *desc,
                 backend->run(backend, (stability_stage)stage, block, values, r->error);
             if (result)
                 return result;
-            if (b == 0)
-                memcpy(first, values, sizeof first);
+            if (first_in_state(r, b) == b)
+                memcpy(firsts[backend->state], values, sizeof values);
             row->applies = 1;
-            judge_block(row, desc, backend, b == 0, block, values, first, points);
+            judge_block(row, desc, backend, block, values,
+                        firsts[row->exact ? backend->state : r->backends[0].state], points);
         }
     }
     return HNBRDF_OK;
@@ -273,15 +282,16 @@ static void open_rows(const runner *r, const stability_case *what, stability_row
             row->what = what;
             memcpy(row->backend, r->backends[b].name, sizeof row->backend);
             row->stage = (stability_stage)stage;
-            row->exact = r->backends[b].exact;
+            row->state = r->backends[b].state;
+            row->exact = r->backends[b].exact && first_in_state(r, b) != b;
             row->bar = (double)INFINITY;
         }
 }
 
-/* first: the row of the first backend for the same case and stage. */
+/* first: the row of the first backend in this state for the same case and stage. */
 static void close_row(const hnbrdf_model_desc *desc, const stability_row *first, stability_row *row)
 {
-    if (row != first && row->exact && row->differs == 0) {
+    if (row->exact && row->differs == 0) {
         row->inconsistent = first->inconsistent;
         row->worst_own = first->worst_own;
         row->worst_scale = first->worst_scale;
@@ -315,8 +325,10 @@ static hnbrdf_result run_case(const runner *r, const stability_case *what, const
         if (result)
             return result;
     }
-    for (int k = 0; k < r->backend_count * STABILITY_STAGES; k++)
-        close_row(&desc, &rows[k % STABILITY_STAGES], &rows[k]);
+    for (int b = 0; b < r->backend_count; b++)
+        for (int stage = 0; stage < STABILITY_STAGES; stage++)
+            close_row(&desc, &rows[first_in_state(r, b) * STABILITY_STAGES + stage],
+                      &rows[b * STABILITY_STAGES + stage]);
     return HNBRDF_OK;
 }
 
