@@ -37,7 +37,8 @@ static void print_arithmetic(const gpu_arithmetic *a, FILE *file)
         ", subnormals %s; built-in exp within %.3g ulp, log within %.2g near 1 (seen on %d values)\n",
         a->keeps_denormals     ? "kept"
         : a->flushes_denormals ? "flushed, operands and results alike"
-                               : "flushed in part", a->exp_ulp, a->log_error, a->values);
+                               : "flushed in part",
+        a->exp_ulp, a->log_error, a->values);
     if (a->exp_share > 1.0 || a->log_share > 1.0)
         fprintf(file, "  NOT WITHIN what the bounds assume of exp (%.3g times) or log (%.3g times)\n",
                 a->exp_share, a->log_share);

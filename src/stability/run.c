@@ -3,6 +3,7 @@
 
 #include "core/error.h"
 #include "oracle/oracle.h"
+#include "stability/rounding.h"
 
 #include <float.h>
 #include <math.h>
@@ -139,8 +140,21 @@ static int is_valid(stability_row *row, const stability_block *block, int k, int
     return 0;
 }
 
-static void judge(stability_row *row, const stability_block *block, int k, int channel, double bar,
-                  float value, const oracle_point *point)
+/* Of a value beyond its bar: six standard deviations of what rounding in the network's sums must be
+ * expected to cost there. Such a place is told, not held against the code. */
+static int is_ill_conditioned(const hnbrdf_model_desc *desc, const stability_row *row,
+                              const stability_block *block, const oracle_point *point, int channel,
+                              double relative_error)
+{
+    if (row->stage != STABILITY_VALUE)
+        return 0;
+    stability_rounding rounding =
+        stability_rounding_of(desc, &block->material, point, channel, row->state);
+    return relative_error <= rounding.mean + 6.0 * rounding.deviation;
+}
+
+static void judge(stability_row *row, const hnbrdf_model_desc *desc, const stability_block *block,
+                  int k, int channel, double bar, float value, const oracle_point *point)
 {
     double scale, expected = truth(point, row->stage, channel, &scale);
     double error = fabs((double)value - expected), own = fmax(fabs(expected), (double)FLT_MIN);
@@ -153,7 +167,10 @@ static void judge(stability_row *row, const stability_block *block, int k, int c
     row->worst_own = fmax(row->worst_own, error / own);
     row->worst_ulp = fmax(row->worst_ulp, error / spacing(own));
     row->bar = fmin(row->bar, bar);
-    row->worst_share = fmax(row->worst_share, error / scale / bar);
+    if (error / scale > bar && is_ill_conditioned(desc, row, block, point, channel, error / scale))
+        row->ill_conditioned++;
+    else
+        row->worst_share = fmax(row->worst_share, error / scale / bar);
 }
 
 /* A sample's own rules; its density is judged where it says it was drawn. */
@@ -169,8 +186,8 @@ static void judge_sample(stability_row *row, const hnbrdf_model_desc *desc,
     memcpy(drawn.pairs[k], values, 3 * sizeof(float));
     oracle_point point = {
         .pdf = oracle_pdf(desc->kind, &block->material, drawn.pairs[k], drawn.pairs[k] + 3)};
-    judge(row, &drawn, k, 0, bar_of(row->what, backend, row->stage, &block->material, drawn.pairs[k]),
-          pdf, &point);
+    judge(row, desc, &drawn, k, 0,
+          bar_of(row->what, backend, row->stage, &block->material, drawn.pairs[k]), pdf, &point);
 }
 
 /* What must have the bits of `like`, and has, has its errors too: see close_row(). */
@@ -195,12 +212,30 @@ static void judge_block(stability_row *row, const hnbrdf_model_desc *desc,
             judge_sample(row, desc, block, k, backend, values[k]);
         else
             for (int n = 0; n < numbers && !row->what->not_a_number; n++)
-                judge(row, block, k, n, bar, values[k][n], &points[k]);
+                judge(row, desc, block, k, n, bar, values[k][n], &points[k]);
     }
 }
 
 /* ---- Running
  * ----------------------------------------------------------------------------------------- */
+
+/* What the case multiplies weights and biases by; 0: nothing. */
+static float factor_of(const stability_case *what, const hnbrdf_model *model)
+{
+    hnbrdf_model_desc desc;
+    float largest = 0.0f;
+    hnbrdf_model_describe(model, &desc);
+    if (what->largest_weight == 0.0f || desc.kind == HNBRDF_KIND_GGX)
+        return what->weight_factor;
+    int columns = 6 + desc.latent;
+    for (int k = 0; k <= desc.layers; k++) {
+        int rows = k < desc.layers ? desc.hidden : desc.kind == HNBRDF_KIND_HYBRID ? 6 : 3;
+        for (int i = 0; i < rows * columns; i++)
+            largest = fmaxf(largest, fabsf(desc.weights[k][i]));
+        columns = rows;
+    }
+    return largest > 0.0f ? what->largest_weight / largest : 0.0f;
+}
 
 /* A model whose weights and biases are `factor` times those of another one; free with
  * hnbrdf_model_free(). */
@@ -252,8 +287,8 @@ static hnbrdf_result run_block(const runner *r, const hnbrdf_model_desc *desc,
                                stability_row *rows)
 {
     for (int stage = 0; stage < STABILITY_STAGES; stage++) {
-        float values[STABILITY_BLOCK][STABILITY_NUMBERS], firsts[STABILITY_STATES][STABILITY_BLOCK]
-                                                                [STABILITY_NUMBERS] = {{{0.0f}}};
+        float values[STABILITY_BLOCK][STABILITY_NUMBERS],
+            firsts[STABILITY_STATES][STABILITY_BLOCK][STABILITY_NUMBERS] = {{{0.0f}}};
         for (int b = 0; b < r->backend_count; b++) {
             stability_backend *backend = &r->backends[b];
             stability_row *row = &rows[b * STABILITY_STAGES + stage];
@@ -293,6 +328,7 @@ static void close_row(const hnbrdf_model_desc *desc, const stability_row *first,
 {
     if (row->exact && row->differs == 0) {
         row->inconsistent = first->inconsistent;
+        row->ill_conditioned = first->ill_conditioned;
         row->worst_own = first->worst_own;
         row->worst_scale = first->worst_scale;
         row->worst_ulp = first->worst_ulp;
@@ -356,7 +392,7 @@ static hnbrdf_result begin_backends(const runner *r, const hnbrdf_model *model)
  * others. */
 static hnbrdf_result run_cases(const runner *r, const hnbrdf_model *model, int first, int *next)
 {
-    float factor = stability_cases[first].weight_factor;
+    float factor = factor_of(&stability_cases[first], model);
     hnbrdf_model *scaled = NULL;
     hnbrdf_result result = HNBRDF_OK;
     if (factor != 0.0f)
@@ -368,7 +404,8 @@ static hnbrdf_result run_cases(const runner *r, const hnbrdf_model *model, int f
         return result;
     }
     int k = first;
-    for (; !result && k < stability_case_count && stability_cases[k].weight_factor == factor; k++) {
+    for (; !result && k < stability_case_count && factor_of(&stability_cases[k], model) == factor;
+         k++) {
         result = run_case(r, &stability_cases[k], scaled ? scaled : model,
                           r->rows + k * r->backend_count * STABILITY_STAGES);
         if (r->options->progress)

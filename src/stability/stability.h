@@ -78,15 +78,18 @@ typedef struct stability_row {
     size_t not_finite, negative;
     size_t
         inconsistent; /* samples below the horizon, or whose density is not hnbrdf_pdf()'s to the bit */
+    /* Beyond the bar of the value, but within what rounding in the network's sums must cost there. */
+    size_t ill_conditioned;
     stability_state state; /* of the backend */
+    /* Numbers whose bits are not those of the first backend in this state if exact, when there must be none;
+     * otherwise of the first of all. */
+    size_t differs;
     int exact;
-    size_t differs; /* numbers whose bits are not those of the first backend in this state if exact, when there
-                       must be none; otherwise of the first of all */
-    double worst_own; /* to f itself */
-    double worst_scale;    /* to the scale: what is judged */
-    double worst_ulp;      /* of f itself, in spacings of floats */
-    double bar;            /* least one among its evaluations; infinite: none */
-    double worst_share;    /* of the bar of its own evaluation */
+    double worst_own;   /* to f itself */
+    double worst_scale; /* to the scale: what is judged */
+    double worst_ulp;   /* of f itself, in spacings of floats */
+    double bar;         /* least one among its evaluations; infinite: none */
+    double worst_share; /* of the bar of its own evaluation */
     stability_place place; /* of worst_scale, or of the first number that is not finite or negative */
     int within;
 } stability_row;
