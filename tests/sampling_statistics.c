@@ -71,13 +71,14 @@ int sampling_chart_cell(const sampling_chart *c, const float wi[3])
 
 /* ---- Statistics ------------------------------------------------------------------------------ */
 
-/* Pearson's statistic as a standard normal deviate (Wilson and Hilferty 1931). Cells that expect fewer than 10
- * draws are pooled; the rejected draws are one more cell. */
+/* Pearson's statistic as a standard normal deviate (Wilson and Hilferty 1931). Cells that expect fewer
+ * than 10 draws are pooled with the rejected ones; what is expected of those, 1 less an integral, is
+ * known to its error. */
 static double chi_squared(const double *share, const double *counts, int count, double total,
                           double rejected)
 {
     double statistic = 0, pooled_expected = SAMPLING_DRAWS * fmax(0.0, 1.0 - total);
-    double pooled = rejected;
+    double pooled = rejected, error = SAMPLING_DRAWS * SAMPLING_QUADRATURE;
     int cells = 0;
     for (int k = 0; k < count; k++) {
         double mean = SAMPLING_DRAWS * share[k];
@@ -90,7 +91,8 @@ static double chi_squared(const double *share, const double *counts, int count, 
         cells++;
     }
     if (pooled_expected >= 10.0) {
-        statistic += (pooled - pooled_expected) * (pooled - pooled_expected) / pooled_expected;
+        statistic +=
+            (pooled - pooled_expected) * (pooled - pooled_expected) / (pooled_expected + error * error);
         cells++;
     }
     if (cells < 4)
@@ -99,17 +101,28 @@ static double chi_squared(const double *share, const double *counts, int count, 
     return (cbrt(statistic / n) - (1.0 - v)) / sqrt(v);
 }
 
-/* Neighbours joined, 5 x 5 of them: fewer cells, each with more draws, see what few per cent do to many. */
-static double chi_squared_of_joined(const sampling_expected *expected, const sampling_counted *counted)
+int sampling_cell_in_order(int place, int by_y)
 {
-    enum { JOINED = 5, WIDE = SAMPLING_SIDE / JOINED };
-    double share[WIDE * WIDE] = {0}, counts[WIDE * WIDE] = {0};
-    for (int k = 0; k < SAMPLING_CELLS; k++) {
-        int to = k / SAMPLING_SIDE / JOINED * WIDE + k % SAMPLING_SIDE / JOINED;
-        share[to] += expected->share[k];
-        counts[to] += counted->counts[k];
+    return by_y ? place % SAMPLING_SIDE * SAMPLING_SIDE + place / SAMPLING_SIDE : place;
+}
+
+/* Cells joined along x, or along y, into 16 groups that expect as many draws each: they see a few per
+ * cent that many cells have in common. */
+static double chi_squared_of_groups(const sampling_expected *expected, const sampling_counted *counted,
+                                    int by_y)
+{
+    enum { GROUPS = 16 };
+    double share[GROUPS] = {0}, counts[GROUPS] = {0}, so_far = 0.0;
+    for (int place = 0; place < SAMPLING_CELLS; place++) {
+        int cell = sampling_cell_in_order(place, by_y);
+        int group =
+            (int)(GROUPS * (so_far + 0.5 * expected->share[cell]) / fmax(expected->total, 1e-30));
+        group = group < GROUPS ? group : GROUPS - 1;
+        share[group] += expected->share[cell];
+        counts[group] += counted->counts[cell];
+        so_far += expected->share[cell];
     }
-    return chi_squared(share, counts, WIDE * WIDE, expected->total, counted->rejected);
+    return chi_squared(share, counts, GROUPS, expected->total, counted->rejected);
 }
 
 double sampling_deviate(const sampling_expected *expected, const sampling_counted *counted)
@@ -122,7 +135,9 @@ double sampling_deviate(const sampling_expected *expected, const sampling_counte
         return (double)INFINITY;
     deviate = fmax(deviate, chi_squared(expected->share, counted->counts, SAMPLING_CELLS,
                                         expected->total, counted->rejected));
-    return fmax(deviate, chi_squared_of_joined(expected, counted));
+    for (int by_y = 0; by_y < 2; by_y++)
+        deviate = fmax(deviate, chi_squared_of_groups(expected, counted, by_y));
+    return deviate;
 }
 
 /* ---- The shipped model ----------------------------------------------------------------------- */
@@ -147,6 +162,8 @@ hnbrdf_model *sampling_shipped_model(const char *path)
         turned->alpha[0] = fminf(2.0f * turned->alpha[0], HNBRDF_MAX_ALPHA);
         turned->alpha[1] = fmaxf(0.25f * turned->alpha[1], HNBRDF_MIN_ALPHA);
         turned->rotation = 0.4f + 0.5f * (float)k;
+        if (hnbrdf_lobes_fit(model, turned, &turned->lobes, &error))
+            fail_msg("%s", error.text);
         snprintf(made[k], sizeof made[k], "%.100s, anisotropic", desc.names[k]);
         names[k] = desc.names[k];
         names[count + k] = made[k];

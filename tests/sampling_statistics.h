@@ -11,7 +11,7 @@
 
 /* Draws per experiment, cells along each side of the chart, points of integration along the chart. */
 enum {
-    SAMPLING_DRAWS = 200000,
+    SAMPLING_DRAWS = 400000,
     SAMPLING_SIDE = 30,
     SAMPLING_CELLS = SAMPLING_SIDE * SAMPLING_SIDE,
     SAMPLING_LINE = 16 * SAMPLING_SIDE,
@@ -31,6 +31,9 @@ double sampling_chart_point(const sampling_chart *chart, int point, float wi[3])
 int sampling_chart_cell_of_point(int point);
 int sampling_chart_cell(const sampling_chart *chart, const float wi[3]);
 
+/* Cell number `place` line by line, of constant x or, by_y, of constant y. */
+int sampling_cell_in_order(int place, int by_y);
+
 /* Share of draws that the density says each cell gets; the rest of 1 is rejected. */
 typedef struct sampling_expected {
     double share[SAMPLING_CELLS], total;
@@ -49,11 +52,13 @@ typedef struct sampling_counted {
  * only has to be one that a correct sampler meets: of 400 of them all stay below it with probability 0.9986. */
 #define SAMPLING_THRESHOLD 4.5
 
-/* The largest of four: Pearson's statistic over all cells and over 6 x 6 larger ones, which notice smooth errors
- * of 2 %, the rejected share against 1 minus the integral; and that integral against 1, infinite beyond it. */
+/* The largest of four: the rejected share against 1 minus the integral, Pearson's statistic over all cells, and over
+ * 16 groups of cells along x and along y, which notice 2 % that many cells have in common. Infinite if the
+ * integral is above 1. */
 double sampling_deviate(const sampling_expected *expected, const sampling_counted *counted);
 
-/* The shipped model with each of its materials twice: as fitted, then (number + count/2) anisotropic and turned. */
+/* The shipped model with each of its materials twice: as fitted, then (number + count/2) anisotropic and turned,
+ * with lobes fitted to that. */
 hnbrdf_model *sampling_shipped_model(const char *path);
 
 #endif
