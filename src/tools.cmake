@@ -45,7 +45,7 @@ if(HNBRDF_HAS_QUADMATH)
 endif()
 # A library only so that its tests need not compile it again; it is not installed.
 add_library(hnbrdf_stability STATIC EXCLUDE_FROM_ALL
-  src/stability/cases.c src/stability/backends.c src/stability/run.c src/stability/maps.c)
+  src/stability/cases.c src/stability/backends.c src/stability/run.c src/stability/rounding.c src/stability/maps.c)
 target_link_libraries(hnbrdf_stability PRIVATE hnbrdf_flags PUBLIC hnbrdf_measured_static hnbrdf_oracle)
 
 add_executable(hnbrdf_cli ${HNBRDF_TOOL_SOURCES})

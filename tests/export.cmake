@@ -7,4 +7,8 @@ if(HNBRDF_WITH_VULKAN)
     hnbrdf_test(test_glsl_${name} test_glsl_${name}.c gpu_run.c gpu_support.c)
     target_link_libraries(test_glsl_${name} PRIVATE hnbrdf_gpu ${CMAKE_DL_LIBS})
   endforeach()
+  hnbrdf_test(test_glsl_sampling_density test_glsl_sampling_density.c sampling_statistics.c gpu_run.c)
+  target_link_libraries(test_glsl_sampling_density PRIVATE hnbrdf_gpu ${CMAKE_DL_LIBS})
+  target_compile_definitions(test_glsl_sampling_density PRIVATE
+    HNBRDF_EXAMPLE_MODEL="${PROJECT_SOURCE_DIR}/examples/models/rgl_32x2.safetensors")
 endif()

@@ -11,6 +11,13 @@
 #include <stdlib.h>
 #include <string.h>
 
+#if defined(__SSE__) || defined(__x86_64__)
+#include <xmmintrin.h>
+#define CAN_FLUSH 1
+#else
+#define CAN_FLUSH 0
+#endif
+
 /* The text of shaders/hybrid_brdf.glsl. */
 extern const char hnbrdf_hybrid_brdf_glsl[];
 
@@ -41,8 +48,33 @@ static void check(hnbrdf_result result, const hnbrdf_error *error)
 int gpu_run_exact(void)
 {
     return arithmetic.exact_basic && arithmetic.exact_divide && arithmetic.exact_sqrt &&
-           arithmetic.keeps_denormals;
+           (arithmetic.keeps_denormals || (CAN_FLUSH && arithmetic.flushes_denormals));
 }
+
+#if CAN_FLUSH
+static unsigned state_before;
+
+void gpu_run_c_begin(void)
+{
+    const unsigned flush_to_zero = 0x8000, denormals_are_zero = 0x40;
+    state_before = _mm_getcsr();
+    if (arithmetic.flushes_denormals)
+        _mm_setcsr(state_before | flush_to_zero | denormals_are_zero);
+}
+
+void gpu_run_c_end(void)
+{
+    _mm_setcsr(state_before);
+}
+#else
+void gpu_run_c_begin(void)
+{
+}
+
+void gpu_run_c_end(void)
+{
+}
+#endif
 
 uint32_t *gpu_run_compile(const char *scene, const char *body, int exact, size_t *bytes)
 {
@@ -55,15 +87,13 @@ uint32_t *gpu_run_compile(const char *scene, const char *body, int exact, size_t
     return spirv;
 }
 
-void gpu_run(const char *scene, const char *body, int exact, int material, uint32_t count,
-             const void *in, size_t in_words, float *results, size_t result_words)
+void gpu_run_compiled(const uint32_t *spirv, size_t bytes, int material, uint32_t count, const void *in,
+                      size_t in_words, float *results, size_t result_words)
 {
     const struct {
         uint32_t count;
         int32_t material;
     } push = {count, material};
-    size_t bytes;
-    uint32_t *spirv = gpu_run_compile(scene, body, exact, &bytes);
     gpu_buffer input, output;
     const gpu_buffer *const buffers[] = {&input, &output};
     gpu_program program;
@@ -80,6 +110,14 @@ void gpu_run(const char *scene, const char *body, int exact, int material, uint3
     gpu_program_close(&device, &program);
     gpu_buffer_close(&device, &input);
     gpu_buffer_close(&device, &output);
+}
+
+void gpu_run(const char *scene, const char *body, int exact, int material, uint32_t count,
+             const void *in, size_t in_words, float *results, size_t result_words)
+{
+    size_t bytes;
+    uint32_t *spirv = gpu_run_compile(scene, body, exact, &bytes);
+    gpu_run_compiled(spirv, bytes, material, count, in, in_words, results, result_words);
     free(spirv);
 }
 

@@ -16,8 +16,11 @@
  * validation layer is a failure. */
 int gpu_run_tests(const struct CMUnitTest *tests, size_t count);
 
-/* 1 if the device's + - * / sqrt give the bits of IEEE 754: HNBRDF_EXACT then gives those of C. */
+/* 1 if the device's + - * / sqrt give the bits of IEEE 754, subnormal numbers aside: HNBRDF_EXACT then gives those
+ * of C that treats subnormals alike, as C does between gpu_run_c_begin() and gpu_run_c_end(). */
 int gpu_run_exact(void);
+void gpu_run_c_begin(void);
+void gpu_run_c_end(void);
 
 /* SPIR-V of body with HNBRDF_EXACT 1 or 0, malloc'ed. The body follows hybrid_brdf.glsl, the scene and
  *   uint in_words[], float results[] (set 0, bindings 0 and 1), uint count, int material (push
@@ -27,6 +30,10 @@ uint32_t *gpu_run_compile(const char *scene, const char *body, int exact, size_t
 /* What main() wrote for invocations 0 to count - 1: result_words floats. */
 void gpu_run(const char *scene, const char *body, int exact, int material, uint32_t count,
              const void *in, size_t in_words, float *results, size_t result_words);
+
+/* The same of what gpu_run_compile() gave. */
+void gpu_run_compiled(const uint32_t *spirv, size_t bytes, int material, uint32_t count, const void *in,
+                      size_t in_words, float *results, size_t result_words);
 
 /* Appends to a malloc'ed text; user is a gpu_run_text. Zero-initialise. */
 typedef struct gpu_run_text {

@@ -72,7 +72,9 @@ static void check_draws(const hnbrdf_model *model, int material, int exact, cons
                     (out[3] > 0.0f || (out[4] == 0.0f && out[5] == 0.0f && out[6] == 0.0f)));
         if (!exact)
             continue;
+        gpu_run_c_begin();
         reference(model, material, in, expected);
+        gpu_run_c_end();
         gpu_run_assert_same("wi, pdf, weight, pdf", out, expected, OUT);
     }
 }

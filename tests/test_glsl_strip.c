@@ -62,8 +62,10 @@ static void same_values(const scene_shape *shape, const hnbrdf_glsl_options *opt
     for (int m = 0; m < (options->materials ? options->material_count : 2); m++) {
         int index = options->materials ? options->materials[m] : m;
         gpu_run(scene, body, 1, m, PAIRS, pairs, PAIRS * 6, device, PAIRS * 3);
+        gpu_run_c_begin();
         hnbrdf_eval_batch(model, hnbrdf_model_material(model, index), PAIRS, pairs, 24, pairs + 3, 24,
                           c, 0);
+        gpu_run_c_end();
         if (gpu_run_exact())
             gpu_run_assert_same("f", device, c, PAIRS * 3);
     }

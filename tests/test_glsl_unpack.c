@@ -126,7 +126,9 @@ static void unpacks_as_in_c(const scene_shape *shape, hnbrdf_texel_format format
          *body = body_for(&packing);
     gpu_run(scene, body, 1, 0, MATERIALS, channels, MATERIALS * width, results, MATERIALS * RESULTS);
     for (int k = 0; k < MATERIALS && gpu_run_exact(); k++) {
+        gpu_run_c_begin();
         expect(&packing, model, channels + (size_t)k * width, expected);
+        gpu_run_c_end();
         compare(&packing, results + k * RESULTS, expected);
     }
     free(scene);

@@ -1,8 +1,8 @@
 #!/bin/sh
-# test_stability_cli.sh HNBRDF MODEL SCENES: the short form of `hnbrdf stability`: the shipped model in C, a small
-# one on the first Vulkan device too.
+# test_stability_cli.sh HNBRDF MODEL SCENES [DEVICE]: the short form of `hnbrdf stability`: the shipped model in C, a
+# small one on a Vulkan device too, the first or DEVICE, or on all.
 set -eu
-hnbrdf=$1 model=$2 scenes=$3
+hnbrdf=$1 model=$2 scenes=$3 device=${4:-0}
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 ASAN_OPTIONS=detect_leaks=0 # the Vulkan driver is unloaded before leaks are looked for
@@ -33,7 +33,7 @@ status 2 "$hnbrdf" stability "$model" --device first
 "$hnbrdf" verify --list >"$work/devices" 2>"$work/err" || { echo "ok, without Vulkan"; exit 0; }
 command -v glslangValidator >/dev/null && [ -s "$work/devices" ] || { echo "ok, no device"; exit 0; }
 "$scenes" "$work" >/dev/null
-status 0 "$hnbrdf" stability "$work/hybrid_8x4_rotated.safetensors" --device 0 --blocks 1
+status 0 "$hnbrdf" stability "$work/hybrid_8x4_rotated.safetensors" --device "$device" --blocks 1
 sed -n '/^the worst/,$p' "$work/out"
 for build in exact fast half; do grep -q "glsl $build" "$work/out" || echo "no build $build here"; done
 status 1 "$hnbrdf" stability "$model" --device 99

@@ -63,9 +63,9 @@ static void add(stability_gpus *gpus, const gpu_device *device, const gpu_arithm
         return;
     shader *s = &gpus->shaders[gpus->shader_count];
     int half = style.precision == HNBRDF_GLSL_HALF;
-    int rounds = arithmetic->exact_basic && arithmetic->exact_divide && arithmetic->exact_sqrt &&
-                 arithmetic->keeps_denormals;
-    int exact = style.build == GPU_BUILD_EXACT && rounds;
+    int rounds = arithmetic->exact_basic && arithmetic->exact_divide && arithmetic->exact_sqrt;
+    int flushes = arithmetic->flushes_denormals, keeps = arithmetic->keeps_denormals;
+    int exact = style.build == GPU_BUILD_EXACT && rounds && (keeps || flushes);
     s->device = device;
     s->style = style;
     stability_backend *b = &backends[gpus->shader_count++];
@@ -74,6 +74,7 @@ static void add(stability_gpus *gpus, const gpu_device *device, const gpu_arithm
                              .loosen_value = half    ? (double)INFINITY
                                              : exact ? 1.0
                                                      : FAST_VALUE,
+                             .state = flushes ? STABILITY_FLUSH : STABILITY_NEAREST,
                              .exact = exact,
                              .begin = begin,
                              .run = run,

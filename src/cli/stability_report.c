@@ -58,9 +58,13 @@ static void print_row(const stability_row *row, int brief, FILE *file)
     if (row->what->not_a_number)
         fprintf(file, "%9s %9s %9s  %s\n", "", "", "", verdict(row));
     else
-        fprintf(file, "%9.2g %9.2g %9.3g  %s\n", row->worst_scale, row->worst_own, row->worst_ulp,
+        fprintf(file, "%9.2g %9.2g %9.3g  %s", row->worst_scale, row->worst_own, row->worst_ulp,
                 verdict(row));
-    if (!row->within || (!brief && row->worst_scale > 0.0))
+    if (row->ill_conditioned > 0)
+        fprintf(file, ", %zu of them ill-conditioned", row->ill_conditioned);
+    if (!row->what->not_a_number)
+        putc('\n', file);
+    if (!row->within || row->ill_conditioned > 0 || (!brief && row->worst_scale > 0.0))
         print_place(row, file);
 }
 
@@ -117,17 +121,19 @@ static stage_sum sum_stage(const stability_result *result, int backend, int stag
     return sum;
 }
 
-/* Those that must have C's bits and do get one line together. */
+/* Those that must have another's bits and do get one line together. */
 static void print_summary(const stability_result *result, FILE *file)
 {
     fputs("the worst of all cases that have a bar\n", file);
     for (int stage = 0; stage < STABILITY_STAGES; stage++) {
-        int same = 0;
+        int same = 0, same_in_state = 0;
         for (int b = 0; b < result->backend_count; b++) {
             const stability_row *row = row_at(result, 0, b, stage);
             stage_sum sum = sum_stage(result, b, stage);
-            same += b > 0 && row->applies && row->exact && sum.differs == 0;
-            if (!row->applies || (b > 0 && row->exact && sum.differs == 0))
+            int as_promised = row->applies && row->exact && sum.differs == 0;
+            same += as_promised && row->state == STABILITY_NEAREST;
+            same_in_state += as_promised && row->state != STABILITY_NEAREST;
+            if (!row->applies || as_promised)
                 continue;
             fprintf(file, "  %-9s %-36.36s %9zu numbers %6zu wrong  worst %-9.2g",
                     stability_stage_name(row->stage), row->backend, sum.values, sum.invalid, sum.worst);
@@ -136,6 +142,11 @@ static void print_summary(const stability_result *result, FILE *file)
         if (same > 0)
             fprintf(file, "  %-9s %d other ways of computing it: C's bits in every case\n",
                     stability_stage_name((stability_stage)stage), same);
+        if (same_in_state > 0)
+            fprintf(file,
+                    "  %-9s %d that round otherwise or flush subnormals: the bits of C plain that does "
+                    "so too\n",
+                    stability_stage_name((stability_stage)stage), same_in_state);
     }
 }
 
@@ -145,7 +156,9 @@ void stability_print(const stability_result *results, int count, int brief, FILE
         file,
         "Errors against the formulas in %s: relative to f before the floor is subtracted (judged), to "
         "f, in "
-        "ulp of f.\nBars: analytic and pdf %.2g, value %.2g; four times that in directed rounding.\n\n",
+        "ulp of f.\nBars: analytic and pdf %.2g, value %.2g; four times that in directed rounding. A "
+        "value beyond its bar is ill-conditioned, not\nwrong, within six standard deviations of what "
+        "rounding in the network's sums costs there.\n\n",
         oracle_arithmetic(), STABILITY_ANALYTIC_BAR, STABILITY_VALUE_BAR);
     for (int m = 0; m < count; m++) {
         fprintf(file, "%s\n  %-16s %-9s %-36s %8s %6s %9s %9s %9s\n", results[m].path, "case", "stage",
@@ -165,7 +178,8 @@ void stability_print(const stability_result *results, int count, int brief, FILE
 
 void stability_write_csv(const stability_result *results, int count, FILE *file)
 {
-    fputs("model,case,stage,backend,values,not_finite,negative,inconsistent,differs,worst,worst_of_f,"
+    fputs("model,case,stage,backend,values,not_finite,negative,inconsistent,differs,ill_conditioned,"
+          "worst,worst_of_f,"
           "worst_ulp,"
           "bar,within,channel,got,expected,ulp_sensitivity,wi_x,wi_y,wi_z,wo_x,wo_y,wo_z,alpha_x,alpha_"
           "y,eta,kd,"
@@ -180,10 +194,10 @@ void stability_write_csv(const stability_result *results, int count, FILE *file)
             csv_write_text(file, results[m].path);
             fprintf(file, ",%s,%s,", row->what->name, stability_stage_name(row->stage));
             csv_write_text(file, row->backend);
-            fprintf(file, ",%zu,%zu,%zu,%zu,%zu,%.4g,%.4g,%.4g,%.4g,%d,%d,%.9g,%.9g,%.4g", row->values,
-                    row->not_finite, row->negative, row->inconsistent, row->differs, row->worst_scale,
-                    row->worst_own, row->worst_ulp, row->bar, row->within, p->channel, p->got,
-                    p->expected, p->sensitivity);
+            fprintf(file, ",%zu,%zu,%zu,%zu,%zu,%zu,%.4g,%.4g,%.4g,%.4g,%d,%d,%.9g,%.9g,%.4g",
+                    row->values, row->not_finite, row->negative, row->inconsistent, row->differs,
+                    row->ill_conditioned, row->worst_scale, row->worst_own, row->worst_ulp, row->bar,
+                    row->within, p->channel, p->got, p->expected, p->sensitivity);
             for (int i = 0; i < 6; i++)
                 fprintf(file, ",%.9g", (double)p->pair[i]);
             fprintf(file, ",%.9g,%.9g,%.9g,%.9g,%.9g,", (double)p->material.alpha[0],
@@ -224,8 +238,9 @@ static void json_row(const char *path, const stability_row *row, FILE *file)
     cli_write_json_text(file, row->backend);
     fprintf(file,
             ", \"values\": %zu, \"not_finite\": %zu, \"negative\": %zu, \"inconsistent\": %zu, "
-            "\"differs\": %zu",
-            row->values, row->not_finite, row->negative, row->inconsistent, row->differs);
+            "\"differs\": %zu, \"ill_conditioned\": %zu",
+            row->values, row->not_finite, row->negative, row->inconsistent, row->differs,
+            row->ill_conditioned);
     put(file, "worst", row->worst_scale);
     put(file, "worst_of_f", row->worst_own);
     put(file, "worst_ulp", row->worst_ulp);

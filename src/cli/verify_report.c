@@ -35,7 +35,10 @@ static void print_arithmetic(const gpu_arithmetic *a, FILE *file)
     fprintf(
         file,
         ", subnormals %s; built-in exp within %.3g ulp, log within %.2g near 1 (seen on %d values)\n",
-        a->keeps_denormals ? "kept" : "flushed", a->exp_ulp, a->log_error, a->values);
+        a->keeps_denormals     ? "kept"
+        : a->flushes_denormals ? "flushed, operands and results alike"
+                               : "flushed in part",
+        a->exp_ulp, a->log_error, a->values);
     if (a->exp_share > 1.0 || a->log_share > 1.0)
         fprintf(file, "  NOT WITHIN what the bounds assume of exp (%.3g times) or log (%.3g times)\n",
                 a->exp_share, a->log_share);
@@ -235,9 +238,10 @@ static void write_json_report(const verification *v, const verified_device *devi
     const gpu_arithmetic *a = &report->arithmetic;
     fprintf(file,
             ",\n      \"arithmetic\": {\"exact_basic\": %s, \"exact_divide\": %s, \"exact_sqrt\": %s, "
-            "\"keeps_subnormals\": %s",
+            "\"keeps_subnormals\": %s, \"flushes_subnormals\": %s",
             a->exact_basic ? "true" : "false", a->exact_divide ? "true" : "false",
-            a->exact_sqrt ? "true" : "false", a->keeps_denormals ? "true" : "false");
+            a->exact_sqrt ? "true" : "false", a->keeps_denormals ? "true" : "false",
+            a->flushes_denormals ? "true" : "false");
     fprintf(file, ", \"has_half\": %s, \"exact_half\": %s", a->has_half ? "true" : "false",
             a->exact_half ? "true" : "false");
     write_member(file, ", \"divide_ulp\": ", a->divide_ulp);

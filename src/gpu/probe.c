@@ -149,6 +149,31 @@ static void compare_bits(const float operands[OPERANDS], float reference, float 
         *exact = 0;
 }
 
+static float flushed(float x)
+{
+    return subnormal(x) ? copysignf(0.0f, x) : x;
+}
+
+/* Clears *flushes if the device's bits are not the flushed reference. */
+static void compare_flushed(float reference, float device, int *flushes)
+{
+    if (isfinite(reference) && hnbrdf_float_to_bits(flushed(reference)) != hnbrdf_float_to_bits(device))
+        *flushes = 0;
+}
+
+/* The operations once more where subnormal numbers are zeros. */
+static void compare_all_flushed(const float operands[OPERANDS], const float *device, int *flushes)
+{
+    float a = flushed(operands[0]), b = flushed(operands[1]), c = flushed(operands[2]);
+    compare_flushed(a + b, device[0], flushes);
+    compare_flushed(a - b, device[1], flushes);
+    compare_flushed(a * b, device[2], flushes);
+    compare_flushed(flushed(a * b) + c, device[3], flushes);
+    compare_flushed(sqrtf(fabsf(a)), device[5], flushes);
+    if (b != 0.0f && fabsf(b) <= 0x1p126f) /* what Vulkan promises of divisors */
+        compare_flushed(a / b, device[4], flushes);
+}
+
 static double error_in_ulp(double truth, float device)
 {
     float rounded = fabsf((float)truth);
@@ -173,6 +198,7 @@ static void compare_all(const gpu_rules *rules, const float (*operands)[OPERANDS
                         const float (*results)[RESULTS], gpu_arithmetic *seen)
 {
     seen->exact_basic = seen->exact_divide = seen->exact_sqrt = seen->keeps_denormals = 1;
+    seen->flushes_denormals = 1;
     for (int k = 0; k < PROBE_VALUES; k++) {
         float a = operands[k][0], b = operands[k][1], c = operands[k][2];
         const float *device = results[k];
@@ -186,12 +212,14 @@ static void compare_all(const gpu_rules *rules, const float (*operands)[OPERANDS
         if (!subnormal(a))
             seen->sqrt_ulp = larger(seen->sqrt_ulp, error_in_ulp(sqrt(fabs((double)a)), device[5]));
         compare_functions(rules, operands[k], device, seen);
+        compare_all_flushed(operands[k], device, &seen->flushes_denormals);
         if (subnormal(b) || fabsf(b) > 0x1p126f || !isfinite(a / b))
             continue;
         compare_bits(operands[k], a / b, device[4], &seen->exact_divide, keeps);
         if (!subnormal(a) && !subnormal(a / b) && a / b != 0.0f)
             seen->divide_ulp = larger(seen->divide_ulp, error_in_ulp((double)a / (double)b, device[4]));
     }
+    seen->flushes_denormals &= !seen->keeps_denormals;
 }
 
 /* ---- Running it ------------------------------------------------------------------------------ */

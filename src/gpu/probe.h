@@ -10,6 +10,8 @@ typedef struct gpu_arithmetic {
     int exact_basic; /* + - *, and a * b + c kept as two operations where the shader says `precise` */
     int exact_divide, exact_sqrt;
     int keeps_denormals;
+    int flushes_denormals; /* instead of keeping them, all: every subnormal operand and result is a zero of its
+                              sign, otherwise the bits of IEEE 754 */
     int has_half; /* half precision, which the following is about */
     int exact_half,
         keeps_half_denormals;    /* conversion, + and * to the nearest, ties to even; subnormals */

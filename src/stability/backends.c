@@ -13,29 +13,56 @@
 #define CAN_FLUSH 0
 #endif
 
-/* What the FPU is set to while the library runs, and only then. */
-enum { MODE_FLUSH = -1 }; /* otherwise a rounding mode of <fenv.h> */
-
 /* Directed rounding errs by up to an ulp, not half of one, and always to the same side. */
 #define DIRECTED 4.0
 
-static unsigned enter(int mode)
+/* The rounding mode of <fenv.h>; -1 where there is none. */
+static int rounding_of(stability_state state)
+{
+    switch (state) {
+#ifdef FE_UPWARD
+    case STABILITY_UP:
+        return FE_UPWARD;
+#endif
+#ifdef FE_DOWNWARD
+    case STABILITY_DOWN:
+        return FE_DOWNWARD;
+#endif
+#ifdef FE_TOWARDZERO
+    case STABILITY_TO_ZERO:
+        return FE_TOWARDZERO;
+#endif
+    case STABILITY_NEAREST:
+    case STABILITY_FLUSH:
+        return FE_TONEAREST;
+    default:
+        return -1;
+    }
+}
+
+static int can_be_in(stability_state state)
+{
+    return rounding_of(state) >= 0 && (state != STABILITY_FLUSH || CAN_FLUSH);
+}
+
+/* What the FPU is set to while the library runs, and only then. */
+static unsigned enter(stability_state state)
 {
     unsigned before = 0;
 #if CAN_FLUSH
     const unsigned flush_to_zero = 0x8000, denormals_are_zero = 0x40;
     before = _mm_getcsr();
-    if (mode == MODE_FLUSH)
+    if (state == STABILITY_FLUSH)
         _mm_setcsr(before | flush_to_zero | denormals_are_zero);
 #endif
-    if (mode != MODE_FLUSH)
-        fesetround(mode);
+    if (state != STABILITY_FLUSH)
+        fesetround(rounding_of(state));
     return before;
 }
 
-static void leave(int mode, unsigned before)
+static void leave(stability_state state, unsigned before)
 {
-    if (mode != MODE_FLUSH)
+    if (state != STABILITY_FLUSH)
         fesetround(FE_TONEAREST);
 #if CAN_FLUSH
     _mm_setcsr(before);
@@ -153,7 +180,7 @@ static hnbrdf_result run(stability_backend *backend, stability_stage stage,
                          hnbrdf_error *error)
 {
     (void)error;
-    unsigned before = enter(backend->mode);
+    unsigned before = enter(backend->state);
     switch ((call_form)backend->form) {
     case FORM_PREPARED:
         run_prepared(backend->model, stage, block, values);
@@ -168,7 +195,7 @@ static hnbrdf_result run(stability_backend *backend, stability_stage stage,
         run_single(backend->model, stage, block, values);
         break;
     }
-    leave(backend->mode, before);
+    leave(backend->state, before);
     return HNBRDF_OK;
 }
 
@@ -186,43 +213,28 @@ static const struct {
 };
 
 static void add(stability_backend *backends, int *count, hnbrdf_variant variant, call_form form,
-                int mode, const char *suffix)
+                stability_state state)
 {
+    static const char *const suffixes[STABILITY_STATES] = {
+        "", ", rounding up", ", rounding down", ", rounding to zero", ", flushing subnormals"};
     stability_backend *b = &backends[(*count)++];
-    double loosen = mode == FE_TONEAREST || mode == MODE_FLUSH ? 1.0 : DIRECTED;
+    double loosen = state == STABILITY_NEAREST || state == STABILITY_FLUSH ? 1.0 : DIRECTED;
     *b = (stability_backend){.stages = forms[form].stages,
                              .loosen = loosen,
                              .loosen_value = loosen,
-                             .exact = mode == FE_TONEAREST,
+                             .state = state,
+                             .exact = 1,
                              .begin = begin,
                              .run = run,
                              .end = end,
                              .variant = (int)variant,
-                             .form = (int)form,
-                             .mode = mode};
+                             .form = (int)form};
     snprintf(b->name, sizeof b->name, "c %s%s%s", hnbrdf_variant_name(variant), forms[form].suffix,
-             suffix);
+             suffixes[state]);
 }
 
 int stability_c_backends(stability_backend backends[STABILITY_C_BACKENDS])
 {
-    static const struct {
-        const char *suffix;
-        int mode;
-    } modes[] = {
-#ifdef FE_UPWARD
-        {", rounding up", FE_UPWARD},
-#endif
-#ifdef FE_DOWNWARD
-        {", rounding down", FE_DOWNWARD},
-#endif
-#ifdef FE_TOWARDZERO
-        {", rounding to zero", FE_TOWARDZERO},
-#endif
-#if CAN_FLUSH
-        {", flushing subnormals", MODE_FLUSH},
-#endif
-    };
     int count = 0;
     hnbrdf_variant fastest = HNBRDF_VARIANT_PLAIN;
     for (int v = HNBRDF_VARIANT_PLAIN; hnbrdf_variant_name((hnbrdf_variant)v); v++) {
@@ -230,12 +242,14 @@ int stability_c_backends(stability_backend backends[STABILITY_C_BACKENDS])
             continue;
         fastest = (hnbrdf_variant)v;
         for (int f = 0; f < FORMS; f++)
-            add(backends, &count, fastest, (call_form)f, FE_TONEAREST, "");
+            add(backends, &count, fastest, (call_form)f, STABILITY_NEAREST);
     }
-    for (size_t k = 0; k < sizeof modes / sizeof modes[0]; k++) {
-        add(backends, &count, HNBRDF_VARIANT_PLAIN, FORM_SINGLE, modes[k].mode, modes[k].suffix);
+    for (int state = STABILITY_NEAREST + 1; state < STABILITY_STATES; state++) {
+        if (!can_be_in((stability_state)state))
+            continue;
+        add(backends, &count, HNBRDF_VARIANT_PLAIN, FORM_SINGLE, (stability_state)state);
         if (fastest != HNBRDF_VARIANT_PLAIN)
-            add(backends, &count, fastest, FORM_BATCH, modes[k].mode, modes[k].suffix);
+            add(backends, &count, fastest, FORM_BATCH, (stability_state)state);
     }
     return count;
 }

@@ -71,6 +71,15 @@ static void turned_needle(hnbrdf_rng *rng, int number, hnbrdf_material *m)
     m->rotation = number == 0 ? TAU / 4.0f : uniform(rng, -TAU, TAU);
 }
 
+static void near_mirror(hnbrdf_rng *rng, int number, hnbrdf_material *m)
+{
+    static const float alphas[] = {HNBRDF_MIN_ALPHA, 3e-4f, 1e-3f};
+    any_material(rng, 0, m);
+    m->alpha[0] = m->alpha[1] = alphas[number % 3];
+    if (number % 4 == 3)
+        m->alpha[1] = alphas[(number + 1) % 3];
+}
+
 /* Indices from the least above 1 to the greatest, apart from channel to channel; kd all or nothing. */
 static void far_channels(hnbrdf_rng *rng, int number, hnbrdf_material *m)
 {
@@ -265,6 +274,29 @@ static void nearly_opposite(hnbrdf_rng *rng, int k, const hnbrdf_material *m, fl
         nudge(rng, wo);
 }
 
+/* One is the other's negative, or was before a component moved by an ulp; at the horizon too. */
+static void opposite(hnbrdf_rng *rng, int k, const hnbrdf_material *m, float wi[3], float wo[3])
+{
+    static const float heights[] = {0.0f, -0.0f, FLT_TRUE_MIN, FLT_MIN, 1e-7f};
+    any_pair(rng, k, m, wi, wo);
+    if (k % 2)
+        at_height(rng, heights[pick(rng, 5)], wi);
+    for (int i = 0; i < 3; i++)
+        wo[i] = -wi[i];
+    if (k % 3)
+        nudge(rng, wo);
+}
+
+/* Where a mirror sends what grazes it: wi within an ulp of there. */
+static void grazing_mirror(hnbrdf_rng *rng, int k, const hnbrdf_material *m, float wi[3], float wo[3])
+{
+    (void)m;
+    at_height(rng, power(rng, -7.0f, -2.0f), wo);
+    mirror(wo, wi);
+    if (k % 2)
+        nudge(rng, wi);
+}
+
 static void not_unit(hnbrdf_rng *rng, int k, const hnbrdf_material *m, float wi[3], float wo[3])
 {
     static const double off[] = {1e-6, 1e-3, 0.1};
@@ -300,72 +332,97 @@ static void broken_pair(hnbrdf_rng *rng, int k, const hnbrdf_material *m, float 
     "digits"
 
 const stability_case stability_cases[] = {
-    {"ordinary", "any material, any directions", NULL, STABILITY_ACCURATE, STABILITY_ACCURATE, 0, 0,
-     any_material, any_pair},
+    {"ordinary", "any material, any directions", NULL, STABILITY_ACCURATE, STABILITY_ACCURATE,
+     .change = any_material, .pair = any_pair},
     {"as-fitted", "the model's materials as they are, any directions", NULL, STABILITY_ACCURATE,
-     STABILITY_ACCURATE, 0, 0, as_it_is, any_pair},
+     STABILITY_ACCURATE, .change = as_it_is, .pair = any_pair},
     {"alpha", "alpha 1e-4 to 1, half vectors over the lobe", NULL, STABILITY_ACCURATE,
-     STABILITY_ACCURATE, 0, 0, each_alpha, lobe_pair},
+     STABILITY_ACCURATE, .change = each_alpha, .pair = lobe_pair},
     {"anisotropy", "alpha_x : alpha_y to 1e4 : 1, half vectors over the lobe", NULL, STABILITY_ACCURATE,
-     STABILITY_ACCURATE, 0, 0, needle, lobe_pair},
+     STABILITY_ACCURATE, .change = needle, .pair = lobe_pair},
     {"turned", "the same in a turned tangent frame",
      "turning rounds x and y of each direction: that moves h across the needle, by 9 2^-24/(alpha s.z) "
      "of its width",
-     STABILITY_TURNED, STABILITY_TURNED, 0, 0, turned_needle, lobe_pair},
-    {"half-at-normal", "half vector within 1e-7 of n", NULL, STABILITY_ACCURATE, STABILITY_ACCURATE, 0,
-     0, each_alpha, half_at_normal},
+     STABILITY_TURNED, STABILITY_TURNED, .change = turned_needle, .pair = lobe_pair},
+    {"half-at-normal", "half vector within 1e-7 of n", NULL, STABILITY_ACCURATE, STABILITY_ACCURATE,
+     .change = each_alpha, .pair = half_at_normal},
     {"half-at-horizon", "half vector within 1e-7 of the horizon", NULL, STABILITY_ACCURATE,
-     STABILITY_ACCURATE, 0, 0, each_alpha, half_at_horizon},
-    {"grazing", "one or both cosines 1e-7 to 0.1", NULL, STABILITY_ACCURATE, STABILITY_ACCURATE, 0, 0,
-     any_material, grazing},
+     STABILITY_ACCURATE, .change = each_alpha, .pair = half_at_horizon},
+    {"grazing", "one or both cosines 1e-7 to 0.1", NULL, STABILITY_ACCURATE, STABILITY_ACCURATE,
+     .change = any_material, .pair = grazing},
     {"smallest-cosine", "one cosine down to the smallest normal float", NULL, STABILITY_ACCURATE,
-     STABILITY_ACCURATE, 0, 0, any_material, smallest_cosine},
+     STABILITY_ACCURATE, .change = any_material, .pair = smallest_cosine},
     {"both-smallest", "both cosines 1e-12 to the smallest normal float",
      "below 1e-19 the squares of wi.z + wo.z, and of |wi + wo| of opposite directions, are no floats",
-     STABILITY_FINITE, STABILITY_FINITE, 0, 0, any_material, both_smallest},
+     STABILITY_FINITE, STABILITY_FINITE, .change = any_material, .pair = both_smallest},
     {"at-zero", "a cosine 0, -0, subnormal or negative; wi = -wo",
      "a subnormal cosine may be flushed to 0, which is below the horizon", STABILITY_FINITE,
-     STABILITY_FINITE, 0, 0, any_material, at_zero},
-    {"retro", "wi = wo, and within an ulp", NULL, STABILITY_ACCURATE, STABILITY_ACCURATE, 0, 0,
-     each_alpha, retro},
+     STABILITY_FINITE, .change = any_material, .pair = at_zero},
+    {"retro", "wi = wo, and within an ulp", NULL, STABILITY_ACCURATE, STABILITY_ACCURATE,
+     .change = each_alpha, .pair = retro},
     {"mirror", "wi the mirror image of wo, and within an ulp", NULL, STABILITY_ACCURATE,
-     STABILITY_ACCURATE, 0, 0, each_alpha, mirror_pair},
+     STABILITY_ACCURATE, .change = each_alpha, .pair = mirror_pair},
     {"opposite", "wi = -wo but for cosines of 1e-7 to 0.01, and within an ulp", NULL,
-     STABILITY_ACCURATE, STABILITY_ACCURATE, 0, 0, each_alpha, nearly_opposite},
+     STABILITY_ACCURATE, STABILITY_ACCURATE, .change = each_alpha, .pair = nearly_opposite},
+    {"opposite-exact", "wi = -wo exactly and within an ulp: one of them is not above the horizon", NULL,
+     STABILITY_ACCURATE, STABILITY_ACCURATE, .change = any_material, .pair = opposite},
+    {"mirror-grazing", "alpha 1e-4 to 1e-3, mirror image at cosines 1e-7 to 0.01, and within an ulp",
+     NULL, STABILITY_ACCURATE, STABILITY_ACCURATE, .change = near_mirror, .pair = grazing_mirror},
     {"eta", "eta 1 + 2^-23 to 1000, channels far apart; kd 0 and 1", NULL, STABILITY_ACCURATE,
-     STABILITY_ACCURATE, 0, 0, far_channels, lobe_pair},
-    {"latent", "latent code times 1 to 3e11", OFTEN_CANCELS, STABILITY_ACCURATE, STABILITY_FINITE, 0, 0,
-     great_latent, any_pair},
+     STABILITY_ACCURATE, .change = far_channels, .pair = lobe_pair},
+    {"latent", "latent code times 1 to 3e11", OFTEN_CANCELS, STABILITY_ACCURATE, STABILITY_FINITE,
+     .change = great_latent, .pair = any_pair},
+    {"weights-12", "the largest weight 12, as in published models", OFTEN_CANCELS, STABILITY_ACCURATE,
+     STABILITY_FINITE, .change = as_it_is, .pair = any_pair, .largest_weight = 12.0f},
+    {"weights-1200", "the largest weight 1200: half precision overflows", OFTEN_CANCELS,
+     STABILITY_ACCURATE, STABILITY_FINITE, .change = as_it_is, .pair = any_pair,
+     .largest_weight = 1200.0f},
     {"weights-100", "weights and biases times 100", OFTEN_CANCELS, STABILITY_ACCURATE, STABILITY_FINITE,
-     100.0f, 0, as_it_is, any_pair},
+     .change = as_it_is, .pair = any_pair, .weight_factor = 100.0f},
     {"weights-1e12", "weights and biases times 1e12: products overflow", OFTEN_CANCELS,
-     STABILITY_ACCURATE, STABILITY_FINITE, 1e12f, 0, as_it_is, any_pair},
-    {"not-unit", "lengths off by 1e-6, 1e-3, 10 %", NULL, STABILITY_ACCURATE, STABILITY_ACCURATE, 0, 0,
-     any_material, not_unit},
+     STABILITY_ACCURATE, STABILITY_FINITE, .change = as_it_is, .pair = any_pair,
+     .weight_factor = 1e12f},
+    {"not-unit", "lengths off by 1e-6, 1e-3, 10 %", NULL, STABILITY_ACCURATE, STABILITY_ACCURATE,
+     .change = any_material, .pair = not_unit},
     {"any-length", "lengths of 1e-38 to 1e38", "squares overflow and underflow", STABILITY_FINITE,
-     STABILITY_FINITE, 0, 0, any_material, any_length},
+     STABILITY_FINITE, .change = any_material, .pair = any_length},
     {"forbidden", "materials out of their ranges", "evaluation trusts the ranges", STABILITY_FINITE,
-     STABILITY_FINITE, 0, 1, forbidden, lobe_pair},
+     STABILITY_FINITE, .change = forbidden, .pair = lobe_pair, .not_a_number = 1},
     {"not-finite", "NaN and infinity in directions", "there is no true value", STABILITY_FINITE,
-     STABILITY_FINITE, 0, 1, as_it_is, broken_pair},
+     STABILITY_FINITE, .change = as_it_is, .pair = broken_pair, .not_a_number = 1},
     {"not-finite-field", "NaN and infinity in each field of a material", "there is no true value",
-     STABILITY_FINITE, STABILITY_FINITE, 0, 1, broken_field, any_pair},
+     STABILITY_FINITE, STABILITY_FINITE, .change = broken_field, .pair = any_pair, .not_a_number = 1},
+    {"not-finite-u", "NaN, infinity and numbers outside of [0, 1) for sampling",
+     "there is no true value", STABILITY_FINITE, STABILITY_FINITE, .change = any_material,
+     .pair = any_pair, .not_a_number = 1, .broken_u = 1},
 };
 const int stability_case_count = sizeof stability_cases / sizeof stability_cases[0];
+
+/* FNV-1a: what a case draws does not depend on its place in the table. */
+static uint64_t hash_of(const char *name)
+{
+    uint64_t hash = 0xcbf29ce484222325;
+    for (; *name; name++)
+        hash = (hash ^ (unsigned char)*name) * 0x100000001b3;
+    return hash;
+}
 
 void stability_block_make(const stability_case *what, int number, const hnbrdf_material *material,
                           stability_block *block)
 {
-    static const float ends[] = {0.0f, 1.0f - 0x1p-24f, 0.5f};
+    static const float ends[] = {0.0f, 1.0f - 0x1p-24f, 0.5f},
+                       broken[] = {NAN, -NAN, INFINITY, -INFINITY, 1.0f, -0.5f, 1e9f, FLT_MAX};
     hnbrdf_rng rng;
-    hnbrdf_rng_seed(&rng, (uint64_t)(what - stability_cases), (uint64_t)number);
+    hnbrdf_rng_seed(&rng, hash_of(what->name), (uint64_t)number);
     block->material = *material;
     what->change(&rng, number, &block->material);
     for (int k = 0; k < STABILITY_BLOCK; k++) {
         what->pair(&rng, k, &block->material, block->pairs[k], block->pairs[k] + 3);
         for (int i = 0; i < 3; i++) {
             float u = hnbrdf_rng_float(&rng);
-            block->u[k][i] = k % 3 == 0 ? ends[pick(&rng, 3)] : u;
+            block->u[k][i] = what->broken_u && k % 2 ? broken[pick(&rng, 8)]
+                             : k % 3 == 0            ? ends[pick(&rng, 3)]
+                                                     : u;
         }
     }
 }

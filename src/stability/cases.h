@@ -10,7 +10,8 @@ enum { STABILITY_BLOCK = 64 };
 typedef struct stability_block {
     hnbrdf_material material;
     float pairs[STABILITY_BLOCK][6]; /* wi, wo */
-    float u[STABILITY_BLOCK][3];     /* for sampling wo: every third one at an end of [0, 1) */
+    float u[STABILITY_BLOCK][3];     /* for sampling wo: every third one at an end of [0, 1); NaN, infinite or outside
+                                        of it in every second if the case breaks them */
 } stability_block;
 
 /* What is asked of a case. */
@@ -26,11 +27,14 @@ typedef struct stability_case {
     const char *why;   /* why the value may be far off; NULL for STABILITY_ACCURATE */
     stability_demand demand;
     stability_demand value_demand; /* of the whole BRDF, where its network asks for less */
-    float weight_factor;           /* on the network's weights and biases; 0: as they are */
-    int not_a_number;              /* 1: some arguments are NaN or infinite; there is no true value */
     void (*change)(hnbrdf_rng *rng, int number, hnbrdf_material *material);
     void (*pair)(hnbrdf_rng *rng, int number, const hnbrdf_material *material, float wi[3],
                  float wo[3]);
+    /* 0 unless the case asks for it: */
+    float weight_factor;  /* on the network's weights and biases */
+    float largest_weight; /* the factor that makes this the largest of them */
+    int not_a_number;     /* 1: some arguments are NaN or infinite; there is no true value */
+    int broken_u;         /* 1: random numbers for sampling too */
 } stability_case;
 
 extern const stability_case stability_cases[];

@@ -3,6 +3,7 @@
 
 #include "core/error.h"
 #include "oracle/oracle.h"
+#include "stability/rounding.h"
 
 #include <float.h>
 #include <math.h>
@@ -139,8 +140,21 @@ static int is_valid(stability_row *row, const stability_block *block, int k, int
     return 0;
 }
 
-static void judge(stability_row *row, const stability_block *block, int k, int channel, double bar,
-                  float value, const oracle_point *point)
+/* Of a value beyond its bar: six standard deviations of what rounding in the network's sums must be
+ * expected to cost there. Such a place is told, not held against the code. */
+static int is_ill_conditioned(const hnbrdf_model_desc *desc, const stability_row *row,
+                              const stability_block *block, const oracle_point *point, int channel,
+                              double relative_error)
+{
+    if (row->stage != STABILITY_VALUE)
+        return 0;
+    stability_rounding rounding =
+        stability_rounding_of(desc, &block->material, point, channel, row->state);
+    return relative_error <= rounding.mean + 6.0 * rounding.deviation;
+}
+
+static void judge(stability_row *row, const hnbrdf_model_desc *desc, const stability_block *block,
+                  int k, int channel, double bar, float value, const oracle_point *point)
 {
     double scale, expected = truth(point, row->stage, channel, &scale);
     double error = fabs((double)value - expected), own = fmax(fabs(expected), (double)FLT_MIN);
@@ -153,7 +167,10 @@ static void judge(stability_row *row, const stability_block *block, int k, int c
     row->worst_own = fmax(row->worst_own, error / own);
     row->worst_ulp = fmax(row->worst_ulp, error / spacing(own));
     row->bar = fmin(row->bar, bar);
-    row->worst_share = fmax(row->worst_share, error / scale / bar);
+    if (error / scale > bar && is_ill_conditioned(desc, row, block, point, channel, error / scale))
+        row->ill_conditioned++;
+    else
+        row->worst_share = fmax(row->worst_share, error / scale / bar);
 }
 
 /* A sample's own rules; its density is judged where it says it was drawn. */
@@ -169,15 +186,15 @@ static void judge_sample(stability_row *row, const hnbrdf_model_desc *desc,
     memcpy(drawn.pairs[k], values, 3 * sizeof(float));
     oracle_point point = {
         .pdf = oracle_pdf(desc->kind, &block->material, drawn.pairs[k], drawn.pairs[k] + 3)};
-    judge(row, &drawn, k, 0, bar_of(row->what, backend, row->stage, &block->material, drawn.pairs[k]),
-          pdf, &point);
+    judge(row, desc, &drawn, k, 0,
+          bar_of(row->what, backend, row->stage, &block->material, drawn.pairs[k]), pdf, &point);
 }
 
-/* What has the bits of the first backend has its errors too: see close_row(). */
+/* What must have the bits of `like`, and has, has its errors too: see close_row(). */
 static void judge_block(stability_row *row, const hnbrdf_model_desc *desc,
-                        const stability_backend *backend, int is_first, const stability_block *block,
+                        const stability_backend *backend, const stability_block *block,
                         float values[STABILITY_BLOCK][STABILITY_NUMBERS],
-                        float first[STABILITY_BLOCK][STABILITY_NUMBERS], const oracle_point *points)
+                        float like[STABILITY_BLOCK][STABILITY_NUMBERS], const oracle_point *points)
 {
     int numbers = stability_stage_numbers(row->stage);
     for (int k = 0; k < STABILITY_BLOCK; k++) {
@@ -185,22 +202,40 @@ static void judge_block(stability_row *row, const hnbrdf_model_desc *desc,
         size_t differs = 0;
         int valid = 1;
         for (int n = 0; n < numbers; n++) {
-            differs += memcmp(&values[k][n], &first[k][n], sizeof(float)) != 0;
+            differs += memcmp(&values[k][n], &like[k][n], sizeof(float)) != 0;
             valid &= is_valid(row, block, k, n, values[k][n]);
         }
         row->differs += differs;
-        if (!valid || (row->exact && !is_first && differs == 0))
+        if (!valid || (row->exact && differs == 0))
             continue;
         if (row->stage == STABILITY_SAMPLE)
             judge_sample(row, desc, block, k, backend, values[k]);
         else
             for (int n = 0; n < numbers && !row->what->not_a_number; n++)
-                judge(row, block, k, n, bar, values[k][n], &points[k]);
+                judge(row, desc, block, k, n, bar, values[k][n], &points[k]);
     }
 }
 
 /* ---- Running
  * ----------------------------------------------------------------------------------------- */
+
+/* What the case multiplies weights and biases by; 0: nothing. */
+static float factor_of(const stability_case *what, const hnbrdf_model *model)
+{
+    hnbrdf_model_desc desc;
+    float largest = 0.0f;
+    hnbrdf_model_describe(model, &desc);
+    if (what->largest_weight == 0.0f || desc.kind == HNBRDF_KIND_GGX)
+        return what->weight_factor;
+    int columns = 6 + desc.latent;
+    for (int k = 0; k <= desc.layers; k++) {
+        int rows = k < desc.layers ? desc.hidden : desc.kind == HNBRDF_KIND_HYBRID ? 6 : 3;
+        for (int i = 0; i < rows * columns; i++)
+            largest = fmaxf(largest, fabsf(desc.weights[k][i]));
+        columns = rows;
+    }
+    return largest > 0.0f ? what->largest_weight / largest : 0.0f;
+}
 
 /* A model whose weights and biases are `factor` times those of another one; free with
  * hnbrdf_model_free(). */
@@ -238,14 +273,22 @@ typedef struct runner {
     hnbrdf_error *error;
 } runner;
 
+/* The first backend in the state of this one. */
+static int first_in_state(const runner *r, int backend)
+{
+    int first = 0;
+    while (r->backends[first].state != r->backends[backend].state)
+        first++;
+    return first;
+}
+
 static hnbrdf_result run_block(const runner *r, const hnbrdf_model_desc *desc,
                                const stability_block *block, const oracle_point *points,
                                stability_row *rows)
 {
     for (int stage = 0; stage < STABILITY_STAGES; stage++) {
-        static const float zeros[STABILITY_BLOCK][STABILITY_NUMBERS];
-        float first[STABILITY_BLOCK][STABILITY_NUMBERS], values[STABILITY_BLOCK][STABILITY_NUMBERS];
-        memcpy(first, zeros, sizeof first);
+        float values[STABILITY_BLOCK][STABILITY_NUMBERS],
+            firsts[STABILITY_STATES][STABILITY_BLOCK][STABILITY_NUMBERS] = {{{0.0f}}};
         for (int b = 0; b < r->backend_count; b++) {
             stability_backend *backend = &r->backends[b];
             stability_row *row = &rows[b * STABILITY_STAGES + stage];
@@ -255,10 +298,11 @@ static hnbrdf_result run_block(const runner *r, const hnbrdf_model_desc *desc,
                 backend->run(backend, (stability_stage)stage, block, values, r->error);
             if (result)
                 return result;
-            if (b == 0)
-                memcpy(first, values, sizeof first);
+            if (first_in_state(r, b) == b)
+                memcpy(firsts[backend->state], values, sizeof values);
             row->applies = 1;
-            judge_block(row, desc, backend, b == 0, block, values, first, points);
+            judge_block(row, desc, backend, block, values,
+                        firsts[row->exact ? backend->state : r->backends[0].state], points);
         }
     }
     return HNBRDF_OK;
@@ -273,16 +317,18 @@ static void open_rows(const runner *r, const stability_case *what, stability_row
             row->what = what;
             memcpy(row->backend, r->backends[b].name, sizeof row->backend);
             row->stage = (stability_stage)stage;
-            row->exact = r->backends[b].exact;
+            row->state = r->backends[b].state;
+            row->exact = r->backends[b].exact && first_in_state(r, b) != b;
             row->bar = (double)INFINITY;
         }
 }
 
-/* first: the row of the first backend for the same case and stage. */
+/* first: the row of the first backend in this state for the same case and stage. */
 static void close_row(const hnbrdf_model_desc *desc, const stability_row *first, stability_row *row)
 {
-    if (row != first && row->exact && row->differs == 0) {
+    if (row->exact && row->differs == 0) {
         row->inconsistent = first->inconsistent;
+        row->ill_conditioned = first->ill_conditioned;
         row->worst_own = first->worst_own;
         row->worst_scale = first->worst_scale;
         row->worst_ulp = first->worst_ulp;
@@ -315,8 +361,10 @@ static hnbrdf_result run_case(const runner *r, const stability_case *what, const
         if (result)
             return result;
     }
-    for (int k = 0; k < r->backend_count * STABILITY_STAGES; k++)
-        close_row(&desc, &rows[k % STABILITY_STAGES], &rows[k]);
+    for (int b = 0; b < r->backend_count; b++)
+        for (int stage = 0; stage < STABILITY_STAGES; stage++)
+            close_row(&desc, &rows[first_in_state(r, b) * STABILITY_STAGES + stage],
+                      &rows[b * STABILITY_STAGES + stage]);
     return HNBRDF_OK;
 }
 
@@ -344,7 +392,7 @@ static hnbrdf_result begin_backends(const runner *r, const hnbrdf_model *model)
  * others. */
 static hnbrdf_result run_cases(const runner *r, const hnbrdf_model *model, int first, int *next)
 {
-    float factor = stability_cases[first].weight_factor;
+    float factor = factor_of(&stability_cases[first], model);
     hnbrdf_model *scaled = NULL;
     hnbrdf_result result = HNBRDF_OK;
     if (factor != 0.0f)
@@ -356,7 +404,8 @@ static hnbrdf_result run_cases(const runner *r, const hnbrdf_model *model, int f
         return result;
     }
     int k = first;
-    for (; !result && k < stability_case_count && stability_cases[k].weight_factor == factor; k++) {
+    for (; !result && k < stability_case_count && factor_of(&stability_cases[k], model) == factor;
+         k++) {
         result = run_case(r, &stability_cases[k], scaled ? scaled : model,
                           r->rows + k * r->backend_count * STABILITY_STAGES);
         if (r->options->progress)

@@ -17,13 +17,24 @@ enum { STABILITY_NUMBERS = 8, STABILITY_NAME = 96 };
 const char *stability_stage_name(stability_stage stage);
 int stability_stage_numbers(stability_stage stage);
 
+/* What arithmetic is in while a backend runs; equal operations then give equal bits. */
+typedef enum stability_state {
+    STABILITY_NEAREST = 0,
+    STABILITY_UP,
+    STABILITY_DOWN,
+    STABILITY_TO_ZERO,
+    STABILITY_FLUSH, /* to nearest; subnormal operands and results are 0 */
+    STABILITY_STATES
+} stability_state;
+
 /* An implementation. run() is called between begin() with the model and end(). */
 typedef struct stability_backend {
     char name[STABILITY_NAME];
     int stages; /* sum of 1 << stage */
     double loosen,
         loosen_value; /* factor on the bars, on that of the value: 1 for correctly rounded operations */
-    int exact;        /* 1: promises the bits of the first backend */
+    stability_state state;
+    int exact; /* 1: promises the bits of the first backend in its state */
     hnbrdf_result (*begin)(struct stability_backend *backend, const hnbrdf_model *model,
                            hnbrdf_error *error);
     hnbrdf_result (*run)(struct stability_backend *backend, stability_stage stage,
@@ -33,12 +44,12 @@ typedef struct stability_backend {
     /* What begin() and run() keep; nobody else looks at them. */
     void *user;
     hnbrdf_model *model;
-    int variant, form, mode;
+    int variant, form;
 } stability_backend;
 
 /* The C library: every variant this machine runs, called for one pair, prepared and in batches; the
  * first is the reference, plain and singly. Then the plain and the fastest variant in every rounding
- * mode and with subnormals flushed. Returns how many; at most STABILITY_C_BACKENDS. */
+ * mode and with subnormals flushed, plain first. Returns how many; at most STABILITY_C_BACKENDS. */
 enum { STABILITY_C_BACKENDS = 32 };
 int stability_c_backends(stability_backend backends[STABILITY_C_BACKENDS]);
 
@@ -67,13 +78,18 @@ typedef struct stability_row {
     size_t not_finite, negative;
     size_t
         inconsistent; /* samples below the horizon, or whose density is not hnbrdf_pdf()'s to the bit */
-    size_t differs;   /* numbers whose bits are not those of the first backend */
-    int exact;        /* and whether there must be none */
-    double worst_own; /* to f itself */
-    double worst_scale;    /* to the scale: what is judged */
-    double worst_ulp;      /* of f itself, in spacings of floats */
-    double bar;            /* least one among its evaluations; infinite: none */
-    double worst_share;    /* of the bar of its own evaluation */
+    /* Beyond the bar of the value, but within what rounding in the network's sums must cost there. */
+    size_t ill_conditioned;
+    stability_state state; /* of the backend */
+    /* Numbers whose bits are not those of the first backend in this state if exact, when there must be none;
+     * otherwise of the first of all. */
+    size_t differs;
+    int exact;
+    double worst_own;   /* to f itself */
+    double worst_scale; /* to the scale: what is judged */
+    double worst_ulp;   /* of f itself, in spacings of floats */
+    double bar;         /* least one among its evaluations; infinite: none */
+    double worst_share; /* of the bar of its own evaluation */
     stability_place place; /* of worst_scale, or of the first number that is not finite or negative */
     int within;
 } stability_row;

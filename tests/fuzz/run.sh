@@ -1,7 +1,7 @@
 #!/bin/sh
-# run.sh [SECONDS] [TARGET...]: fuzzes every reader, or those named, for so long each (default 60) in build/fuzz
-# (or $HNBRDF_FUZZ_BUILD), one process a target and $HNBRDF_FUZZ_JOBS at a time (default 1). The corpora grow in
-# build/fuzz/corpus/TARGET from run to run. What crashes, hangs for a minute, leaks or asks for a block above 1 GiB
+# run.sh [SECONDS] [TARGET...]: fuzzes every reader, or those named, for so long each (default 60), or for
+# $HNBRDF_FUZZ_EXECUTIONS if those are sooner done, in build/fuzz (or $HNBRDF_FUZZ_BUILD), one process a target and
+# $HNBRDF_FUZZ_JOBS at a time (default 1). The corpora grow in build/fuzz/corpus/TARGET from run to run. What crashes, hangs for a minute, leaks or asks for a block above 1 GiB
 # is kept in build/fuzz/crashers/TARGET; once it is understood it belongs in tests/fuzz/regressions/TARGET,
 # which the tests replay. Exit status 1 if there is any.
 set -eu
@@ -9,6 +9,7 @@ here=$(cd "$(dirname "$0")" && pwd)
 root=$(cd "$here/../.." && pwd)
 build=${HNBRDF_FUZZ_BUILD:-$root/build/fuzz}
 jobs=${HNBRDF_FUZZ_JOBS:-1}
+executions=${HNBRDF_FUZZ_EXECUTIONS:--1} # -1: no limit
 seconds=60
 case ${1:-} in
 -h | --help)
@@ -59,19 +60,20 @@ fuzz() {
     quiet=0 status=0
     [ "$1" != csv ] || quiet=2 # the command prints why it refuses each input
     # shellcheck disable=SC2086 # no regressions: no argument
-    UBSAN_OPTIONS=print_stacktrace=1 "$build/fuzz_$1" -max_total_time="$seconds" -timeout=60 -malloc_limit_mb=1024 \
-        -rss_limit_mb=2560 -dict="$here/dictionaries/$1.txt" -artifact_prefix="$crashers/" -close_fd_mask=$quiet \
+    UBSAN_OPTIONS=print_stacktrace=1 "$build/fuzz_$1" -max_total_time="$seconds" -runs="$executions" -timeout=60 \
+        -malloc_limit_mb=1024 -rss_limit_mb=2560 -dict="$here/dictionaries/$1.txt" -artifact_prefix="$crashers/" -close_fd_mask=$quiet \
         -print_final_stats=1 "$corpus" "$build/seeds/$1" $regressions > "$log" 2>&1 || status=$?
     echo "$status" > "$build/$1.status"
 }
 
 report() {
-    executions=$(sed -n 's/^stat::number_of_executed_units: *//p' "$build/$1.log")
+    runs=$(sed -n 's/^stat::number_of_executed_units: *//p' "$build/$1.log")
+    took=$(sed -n 's/^Done [0-9]* runs in \([0-9]*\) second.*/\1/p' "$build/$1.log")
     found=$(find "$build/crashers/$1" -type f | wc -l)
     # shellcheck disable=SC2046 # two words
     set -- "$1" $(last "$build/$1.log")
-    printf '%-12s %12s executions %6s edges %6s inputs %4d crashers\n' "$1" "${executions:--}" "${2:--}" "${3:--}" \
-        "$found"
+    printf '%-12s %12s executions %6s s %6s edges %6s inputs %4d crashers\n' "$1" "${runs:--}" "${took:--}" \
+        "${2:--}" "${3:--}" "$found"
     if [ "$(cat "$build/$1.status")" != 0 ] || [ "$found" != 0 ]; then
         failed=1
         grep -E -A 12 'ERROR|runtime error|broken promise|SUMMARY' "$build/$1.log" | head -n 30
@@ -91,7 +93,7 @@ collect() {
 for target in $targets; do
     started=$((started + 1))
     left=$(((count - started + jobs) / jobs * seconds))
-    [ "$seconds" -lt 10 ] || echo "[$started/$count] $target, about $left s left ($(($(date +%s) - start)) s gone)" >&2
+    [ "$seconds" -lt 10 ] || echo "[$started/$count] $target, at most $left s left ($(($(date +%s) - start)) s gone)" >&2
     rm -f "$build/$target.status"
     fuzz "$target" &
     running="$running $target"
