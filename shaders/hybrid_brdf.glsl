@@ -534,13 +534,14 @@ vec3 hnbrdf_draw(vec2 alpha, hnbrdf_lobes lobes, vec3 wo, vec3 u)
 {
     vec2 share = hnbrdf_lobe_shares(lobes, wo.z);
     HNBRDF_PRECISE float both = share.x + share.y;
+    float u2 = hnbrdf_clamp(u.z, 0.0, 0.99999994); // NaN: 0
     if (u.x < both) {
         bool first = u.x < share.x;
         float turn = first ? hnbrdf_azimuth(u.x, 0.0, share.x, u.y) : hnbrdf_azimuth(u.x, share.x, share.y, u.y);
-        return hnbrdf_draw_lobe(first ? lobes.scale.x : lobes.scale.y, alpha, wo, vec2(turn, u.z));
+        return hnbrdf_draw_lobe(first ? lobes.scale.x : lobes.scale.y, alpha, wo, vec2(turn, u2));
     }
     HNBRDF_PRECISE float rest = 1.0 - both;
-    return hnbrdf_draw_cosine(vec2(hnbrdf_azimuth(u.x, both, rest, u.y), u.z));
+    return hnbrdf_draw_cosine(vec2(hnbrdf_azimuth(u.x, both, rest, u.y), u2));
 }
 
 #endif

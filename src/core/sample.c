@@ -181,14 +181,14 @@ float hnbrdf_prepared_draw(const hnbrdf_prepared *prepared, const float wo[3], c
         return 0.0f;
     hnbrdf_to_tangent(frame, wo, o);
     shares_at(&prepared->lobes, wo[2], share);
-    float both = share[0] + share[1];
+    float both = share[0] + share[1], u2 = hnbrdf_clamp(u[2], 0.0f, 0.99999994f); /* NaN: 0 */
     if (u[0] < both) {
         int k = u[0] < share[0] ? 0 : 1;
         float turn = azimuth(u[0], k ? share[0] : 0.0f, share[k], u[1]);
-        if (!draw_lobe(prepared, k, o, turn, u[2], i))
+        if (!draw_lobe(prepared, k, o, turn, u2, i))
             return 0.0f;
     } else {
-        draw_cosine(azimuth(u[0], both, 1.0f - both, u[1]), u[2], i);
+        draw_cosine(azimuth(u[0], both, 1.0f - both, u[1]), u2, i);
     }
     hnbrdf_from_tangent(frame, i, drawn);
     float pdf = hnbrdf_prepared_pdf(prepared, drawn, wo);
