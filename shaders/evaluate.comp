@@ -5,7 +5,7 @@
 #include "hybrid_brdf.glsl"
 #include "scene.glsl"
 
-layout(constant_id = 0) const int STAGE = 3; // 2: the analytic part, else the value, as in verify.comp
+layout(constant_id = 0) const int WHAT = 1; // 0: the analytic part, 1: the value, 2: the density, 3: a sample
 layout(local_size_x = 64) in;
 layout(std430, set = 0, binding = 0) readonly buffer Inputs { float inputs[]; };
 layout(std430, set = 0, binding = 1) writeonly buffer Values { float values[]; };
@@ -21,7 +21,7 @@ vec4 read4(uint at)
     return vec4(inputs[at], inputs[at + 1], inputs[at + 2], inputs[at + 3]);
 }
 
-// hnbrdf_material read_material(uint at): wi, wo, kd, eta, alpha, cosine and sine, latent are 32 numbers.
+// hnbrdf_material read_material(uint at): wi, wo, kd, eta, alpha, cosine and sine, latent, lobes, then u: 45 numbers.
 #include "material.glsl"
 
 void main()
@@ -29,11 +29,25 @@ void main()
     uint k = gl_GlobalInvocationID.x;
     if (k >= count)
         return;
-    uint at = 32 * k;
+    uint at = 45 * k, to = 8 * k;
     hnbrdf_material m = read_material(at);
-    vec3 wi = read3(at), wo = read3(at + 3);
-    vec3 f = STAGE == 2 ? hnbrdf_eval_analytic(m, wi, wo) : hnbrdf_eval(m, wi, wo);
-    values[3 * k] = f.x;
-    values[3 * k + 1] = f.y;
-    values[3 * k + 2] = f.z;
+    vec3 wi = read3(at), wo = read3(at + 3), f = vec3(0.0);
+    if (WHAT == 0)
+        f = hnbrdf_eval_analytic(m, wi, wo);
+    else if (WHAT == 1)
+        f = hnbrdf_eval(m, wi, wo);
+    else if (WHAT == 2)
+        f.x = hnbrdf_pdf(m, wi, wo);
+    else {
+        hnbrdf_sample_result s = hnbrdf_sample(m, wo, read3(at + 42));
+        f = s.wi;
+        values[to + 3] = s.weight.x;
+        values[to + 4] = s.weight.y;
+        values[to + 5] = s.weight.z;
+        values[to + 6] = s.pdf;
+        values[to + 7] = hnbrdf_pdf(m, s.wi, wo);
+    }
+    values[to] = f.x;
+    values[to + 1] = f.y;
+    values[to + 2] = f.z;
 }

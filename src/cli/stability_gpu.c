@@ -46,14 +46,11 @@ static hnbrdf_result run(stability_backend *backend, stability_stage stage,
                          const stability_block *block, float values[STABILITY_BLOCK][STABILITY_NUMBERS],
                          hnbrdf_error *error)
 {
+    static const gpu_evaluation evaluations[STABILITY_STAGES] = {
+        GPU_EVALUATE_ANALYTIC, GPU_EVALUATE_VALUE, GPU_EVALUATE_PDF, GPU_EVALUATE_SAMPLE};
     shader *s = backend->user;
-    float f[STABILITY_BLOCK][3];
-    gpu_stage run_stage = stage == STABILITY_ANALYTIC ? GPU_STAGE_ANALYTIC : GPU_STAGE_VALUE;
-    hnbrdf_result result = gpu_evaluator_run(&s->evaluator, run_stage, &block->material,
-                                             block->pairs[0], STABILITY_BLOCK, f[0], error);
-    for (int k = 0; k < STABILITY_BLOCK && !result; k++)
-        memcpy(values[k], f[k], sizeof f[k]);
-    return result;
+    return gpu_evaluator_run(&s->evaluator, evaluations[stage], &block->material, block->pairs[0],
+                             block->u[0], STABILITY_BLOCK, values, error);
 }
 
 static void add(stability_gpus *gpus, const gpu_device *device, const gpu_arithmetic *arithmetic,
@@ -69,7 +66,7 @@ static void add(stability_gpus *gpus, const gpu_device *device, const gpu_arithm
     s->device = device;
     s->style = style;
     stability_backend *b = &backends[gpus->shader_count++];
-    *b = (stability_backend){.stages = 1 << STABILITY_ANALYTIC | 1 << STABILITY_VALUE,
+    *b = (stability_backend){.stages = (1 << STABILITY_STAGES) - 1,
                              .loosen = exact ? 1.0 : FAST,
                              .loosen_value = half    ? (double)INFINITY
                                              : exact ? 1.0

@@ -3,7 +3,6 @@
 #include "gpu/evaluate.h"
 
 #include "core/error.h"
-#include "core/frame.h"
 #include "gpu/compile.h"
 
 #include <stdio.h>
@@ -13,8 +12,19 @@
 /* The texts of shaders/evaluate.comp and shaders/hybrid_brdf.glsl. */
 extern const char hnbrdf_evaluate_comp[], hnbrdf_hybrid_brdf_glsl[];
 
-/* Floats of one evaluation: wi, wo, kd, eta, alpha, cosine and sine of the rotation, latent. */
-enum { AT_KD = 6, AT_ETA = 9, AT_ALPHA = 12, AT_ROTATION = 14, AT_LATENT = 16, INPUTS = 32 };
+/* Floats of one evaluation: wi, wo, kd, eta, alpha, cosine and sine of the rotation, latent, scales and
+ * shares of the lobes, u. */
+enum {
+    AT_KD = 6,
+    AT_ETA = 9,
+    AT_ALPHA = 12,
+    AT_ROTATION = 14,
+    AT_LATENT = 16,
+    AT_SCALE = 32,
+    AT_SHARE = 34,
+    AT_U = 42,
+    INPUTS = 45
+};
 
 typedef struct growing {
     char *bytes;
@@ -54,7 +64,10 @@ static void write_reader(const hnbrdf_model_desc *desc, char text[1024])
     for (int v = 0; v < vectors; v++)
         length += snprintf(text + length, 1024 - (size_t)length, "    m.latent%d = read4(at + %d);\n",
                            v, AT_LATENT + 4 * v);
-    snprintf(text + length, 1024 - (size_t)length, "    return m;\n}\n");
+    snprintf(text + length, 1024 - (size_t)length,
+             "    m.lobes = hnbrdf_lobes(read4(at + %d).xy, read4(at + %d), read4(at + %d));\n    "
+             "return m;\n}\n",
+             AT_SCALE, AT_SHARE, AT_SHARE + HNBRDF_LOBE_KNOTS);
 }
 
 /* The same network with one material that has everything a material can have. */
@@ -116,7 +129,7 @@ hnbrdf_result gpu_evaluator_open(const gpu_device *device, const hnbrdf_model *m
                                  const gpu_style *style, size_t capacity, gpu_evaluator *evaluator,
                                  hnbrdf_error *error)
 {
-    gpu_evaluator e = {.device = device, .capacity = capacity};
+    gpu_evaluator e = {.device = device, .model = model, .capacity = capacity};
     growing scene = {0}, weights = {0};
     hnbrdf_model *general = NULL;
     hnbrdf_result result = general_model(model, &general, error);
@@ -129,13 +142,12 @@ hnbrdf_result gpu_evaluator_open(const gpu_device *device, const hnbrdf_model *m
     if (!result)
         result = gpu_buffer_open(device, capacity * INPUTS * sizeof(float), &e.inputs, error);
     if (!result)
-        result = gpu_buffer_open(device, capacity * 3 * sizeof(float), &e.values, error);
+        result = gpu_buffer_open(device, capacity * GPU_EVALUATION_NUMBERS * sizeof(float), &e.values,
+                                 error);
     if (!result)
         result = open_program(&e, general, style, &scene, &weights, error);
-    if (!result)
-        result = gpu_pipeline_open(device, &e.program, GPU_STAGE_ANALYTIC, &e.analytic, error);
-    if (!result)
-        result = gpu_pipeline_open(device, &e.program, GPU_STAGE_VALUE, &e.value, error);
+    for (int what = 0; what < GPU_EVALUATIONS && !result; what++)
+        result = gpu_pipeline_open(device, &e.program, what, &e.pipelines[what], error);
     free(scene.bytes);
     free(weights.bytes);
     hnbrdf_model_free(general);
@@ -150,8 +162,8 @@ void gpu_evaluator_close(gpu_evaluator *e)
 {
     if (!e->device)
         return;
-    vkDestroyPipeline(e->device->handle, e->analytic, NULL);
-    vkDestroyPipeline(e->device->handle, e->value, NULL);
+    for (int what = 0; what < GPU_EVALUATIONS; what++)
+        vkDestroyPipeline(e->device->handle, e->pipelines[what], NULL);
     gpu_program_close(e->device, &e->program);
     gpu_buffer_close(e->device, &e->inputs);
     gpu_buffer_close(e->device, &e->values);
@@ -160,31 +172,35 @@ void gpu_evaluator_close(gpu_evaluator *e)
     memset(e, 0, sizeof *e);
 }
 
-hnbrdf_result gpu_evaluator_run(gpu_evaluator *e, gpu_stage stage, const hnbrdf_material *material,
-                                const float *pairs, size_t count, float *values, hnbrdf_error *error)
+hnbrdf_result gpu_evaluator_run(gpu_evaluator *e, gpu_evaluation what, const hnbrdf_material *material,
+                                const float *pairs, const float *u, size_t count,
+                                float (*values)[GPU_EVALUATION_NUMBERS], hnbrdf_error *error)
 {
-    hnbrdf_frame frame = hnbrdf_frame_of(material);
+    hnbrdf_prepared prepared;
     uint32_t push = (uint32_t)count;
     if (count > e->capacity)
         return hnbrdf_fail(error, HNBRDF_ERROR_LIMIT, "evaluating: %zu pairs, expected at most %zu",
                            count, e->capacity);
+    hnbrdf_prepare(e->model, material,
+                   &prepared); /* the lobes that are guessed, as the exporter writes them */
     for (size_t k = 0; k < count; k++) {
         float *to = e->packed + k * INPUTS;
         memcpy(to, pairs + 6 * k, 6 * sizeof *to);
         memcpy(to + AT_KD, material->kd, sizeof material->kd);
         memcpy(to + AT_ETA, material->eta, sizeof material->eta);
         memcpy(to + AT_ALPHA, material->alpha, sizeof material->alpha);
-        to[AT_ROTATION] = frame.cosine;
-        to[AT_ROTATION + 1] = frame.sine;
+        to[AT_ROTATION] = prepared.cosine;
+        to[AT_ROTATION + 1] = prepared.sine;
         memcpy(to + AT_LATENT, material->latent, sizeof material->latent);
+        memcpy(to + AT_SCALE, prepared.lobes.scale, sizeof prepared.lobes.scale);
+        memcpy(to + AT_SHARE, prepared.lobes.share, sizeof prepared.lobes.share);
+        memcpy(to + AT_U, u + 3 * k, 3 * sizeof *to);
     }
     hnbrdf_result result =
         gpu_upload(e->device, &e->inputs, e->packed, count * INPUTS * sizeof(float), error);
     if (!result)
-        result =
-            gpu_dispatch(e->device, &e->program, stage == GPU_STAGE_ANALYTIC ? e->analytic : e->value,
-                         &push, count, 1, NULL, error);
+        result = gpu_dispatch(e->device, &e->program, e->pipelines[what], &push, count, 1, NULL, error);
     if (!result)
-        result = gpu_download(e->device, &e->values, values, count * 3 * sizeof(float), error);
+        result = gpu_download(e->device, &e->values, values, count * sizeof *values, error);
     return result;
 }

@@ -12,26 +12,37 @@ typedef struct gpu_style {
     gpu_build build;
 } gpu_style;
 
+/* What is asked of it, and how many numbers come of each pair. */
+typedef enum gpu_evaluation {
+    GPU_EVALUATE_ANALYTIC = 0, /* hnbrdf_eval_analytic(): 3 */
+    GPU_EVALUATE_VALUE,        /* hnbrdf_eval(): 3 */
+    GPU_EVALUATE_PDF,          /* hnbrdf_pdf(): 1 */
+    GPU_EVALUATE_SAMPLE,       /* hnbrdf_sample(): wi, weight, pdf, then hnbrdf_pdf() of that wi: 8 */
+    GPU_EVALUATIONS
+} gpu_evaluation;
+enum { GPU_EVALUATION_NUMBERS = 8 };
+
 typedef struct gpu_evaluator {
     const gpu_device *device;
+    const hnbrdf_model *model;
     gpu_buffer inputs, values, weights;
     gpu_program program;
-    VkPipeline analytic, value;
+    VkPipeline pipelines[GPU_EVALUATIONS];
     float *packed;
     size_t capacity;
 } gpu_evaluator;
 
-/* Exports and compiles the model for at most `capacity` evaluations a run. The scene is made to read
- * every field of a material, so it is anisotropic and turned. */
+/* Exports and compiles the model, which must outlive the evaluator, for at most `capacity` evaluations
+ * a run. The scene is made to read every field of a material, so it is anisotropic and turned. */
 hnbrdf_result gpu_evaluator_open(const gpu_device *device, const hnbrdf_model *model,
                                  const gpu_style *style, size_t capacity, gpu_evaluator *evaluator,
                                  hnbrdf_error *error);
 void gpu_evaluator_close(gpu_evaluator *evaluator);
 
-/* GPU_STAGE_ANALYTIC or GPU_STAGE_VALUE of one material: pairs is [count][6], wi then wo; values
- * [count][3]. */
-hnbrdf_result gpu_evaluator_run(gpu_evaluator *evaluator, gpu_stage stage,
-                                const hnbrdf_material *material, const float *pairs, size_t count,
-                                float *values, hnbrdf_error *error);
+/* One material; pairs is [count][6], wi then wo, and u [count][3], random numbers. */
+hnbrdf_result gpu_evaluator_run(gpu_evaluator *evaluator, gpu_evaluation what,
+                                const hnbrdf_material *material, const float *pairs, const float *u,
+                                size_t count, float (*values)[GPU_EVALUATION_NUMBERS],
+                                hnbrdf_error *error);
 
 #endif

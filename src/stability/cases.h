@@ -10,9 +10,11 @@ enum { STABILITY_BLOCK = 64 };
 typedef struct stability_block {
     hnbrdf_material material;
     float pairs[STABILITY_BLOCK][6]; /* wi, wo */
-    float u[STABILITY_BLOCK][3];     /* for sampling wo: every third one at an end of [0, 1); NaN, infinite or outside
-                                        of it in every second if the case breaks them */
+    float u[STABILITY_BLOCK][3];     /* for sampling wo: every third one at an end of [0, 1) */
 } stability_block;
+
+/* All of hnbrdf_material is floats. */
+enum { STABILITY_FIELDS = sizeof(hnbrdf_material) / sizeof(float) };
 
 /* What is asked of a case. */
 typedef enum stability_demand {
@@ -34,7 +36,6 @@ typedef struct stability_case {
     float weight_factor;  /* on the network's weights and biases */
     float largest_weight; /* the factor that makes this the largest of them */
     int not_a_number;     /* 1: some arguments are NaN or infinite; there is no true value */
-    int broken_u;         /* 1: random numbers for sampling too */
 } stability_case;
 
 extern const stability_case stability_cases[];

@@ -71,9 +71,10 @@ static double turned_bar(const hnbrdf_material *material, const float pair[6])
     return bar < 0.1 ? bar : (double)INFINITY;
 }
 
-/* What rounding the view does to the shares of the lobes: 3 sqrt(wo.z), up to 3, is (2 x + 1) u off between its
- * knots, and shares go with it. A share that is small there and large at the next knot feels that most; the lobe
- * may be all there is of the density. The cosine lobe gets 1 less the others, whose roundings, 6 u, stay. */
+/* What rounding the view does to the shares of the lobes: 3 sqrt(wo.z), up to 3, is (2 x + 1) u off
+ * between its knots, and shares go with it. A share that is small there and large at the next knot
+ * feels that most; the lobe may be all there is of the density. The cosine lobe gets 1 less the others,
+ * whose roundings, 6 u, stay. */
 static double shares_bar(const hnbrdf_material *material, double z)
 {
     double x = fmin(3.0 * sqrt(z), 3.0), worst = 0.0, rest[2] = {1.0, 1.0};
@@ -87,7 +88,8 @@ static double shares_bar(const hnbrdf_material *material, double z)
         rest[0] -= from;
         rest[1] -= to;
         if (share > 0.0)
-            worst = fmax(worst, ((2.0 * x + 1.0) * fabs(to - from) + (k == HNBRDF_LOBES ? 6.0 : 0.0)) / share);
+            worst = fmax(worst,
+                         ((2.0 * x + 1.0) * fabs(to - from) + (k == HNBRDF_LOBES ? 6.0 : 0.0)) / share);
     }
     return 0x1p-24 * worst;
 }
@@ -345,9 +347,9 @@ static void close_row(const hnbrdf_model_desc *desc, const stability_row *first,
 static hnbrdf_result run_case(const runner *r, const stability_case *what, const hnbrdf_model *model,
                               stability_row *rows)
 {
-    enum { FIELDS = 25 }; /* cases that break one field after the other need as many blocks */
-    int blocks =
-        what->not_a_number && r->options->blocks < FIELDS + 1 ? FIELDS + 1 : r->options->blocks;
+    /* Cases that break one field after the other need as many blocks. */
+    int least = what->not_a_number ? STABILITY_FIELDS + 1 : 1;
+    int blocks = r->options->blocks < least ? least : r->options->blocks;
     hnbrdf_model_desc desc;
     hnbrdf_model_describe(model, &desc);
     open_rows(r, what, rows);
