@@ -22,7 +22,7 @@ static hnbrdf_result check_values(render_image *image, const char *name, hnbrdf_
             return hnbrdf_fail(error, HNBRDF_ERROR_FORMAT,
                                "%s: pixel (%zu, %zu) is not a finite number: expected radiance", name,
                                i / 3 % (size_t)image->width, i / 3 / (size_t)image->width);
-        image->rgb[i] = image->rgb[i] > 0.0f ? image->rgb[i] : 0.0f;
+        image->rgb[i] = fminf(fmaxf(image->rgb[i], 0.0f), HNBRDF_MAX_VALUE);
     }
     return HNBRDF_OK;
 }

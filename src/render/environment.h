@@ -17,7 +17,7 @@
 /* Immutable once made; may be shared between threads. */
 typedef struct render_environment {
     int width, height;
-    float *rgb;      /* [height][width][3], finite, >= 0 */
+    float *rgb;      /* [height][width][3], in [0, HNBRDF_MAX_VALUE] */
     double *sums;    /* [height] of luminance along each row, = columns[row][width - 1] */
     double *rows;    /* [height] inclusive sums of luminance times solid angle, row by row */
     double *columns; /* [height][width] inclusive sums of luminance along each row */
@@ -29,7 +29,7 @@ typedef struct render_environment {
                         counter-clockwise, seen from above */
 } render_environment;
 
-/* Takes over image->rgb and empties the image. Negative values become 0; a value that is not finite
+/* Takes over image->rgb and empties the image. Values become those of [0, HNBRDF_MAX_VALUE] that are nearest; a value that is not finite
  * or a map that is black throughout is refused. `name` is used in messages. */
 hnbrdf_result render_environment_create(render_image *image, double rotation, const char *name,
                                         render_environment *environment, hnbrdf_error *error);
