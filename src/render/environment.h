@@ -29,7 +29,7 @@ typedef struct render_environment {
                         counter-clockwise, seen from above */
 } render_environment;
 
-/* Takes over image->rgb and empties the image. Values become those of [0, HNBRDF_MAX_VALUE] that are nearest; a value that is not finite
+/* Takes over image->rgb and empties the image. Values are clamped to [0, HNBRDF_MAX_VALUE]; one that is not finite
  * or a map that is black throughout is refused. `name` is used in messages. */
 hnbrdf_result render_environment_create(render_image *image, double rotation, const char *name,
                                         render_environment *environment, hnbrdf_error *error);
