@@ -74,28 +74,28 @@ static double turned_bar(const hnbrdf_material *material, const float pair[6])
 /* What rounding the view does to the shares of the lobes: 3 sqrt(wo.z), up to 3, is (2 x + 1) u off
  * between its knots, and shares go with it. A share that is small there and large at the next knot
  * feels that most; the lobe may be all there is of the density. The cosine lobe gets 1 less the others,
- * whose roundings, 6 u, stay. */
-static double shares_bar(const hnbrdf_material *material, double z)
+ * whose roundings, 6 u, stay, however little is left to it: so much of wi.z / pi, in terms of the
+ * density. */
+static double shares_bar(const hnbrdf_material *material, const float pair[6], double pdf)
 {
-    double x = fmin(3.0 * sqrt(z), 3.0), worst = 0.0, rest[2] = {1.0, 1.0};
+    double x = fmin(3.0 * sqrt((double)pair[5]), 3.0), worst = 0.0, rest = 0.0;
     int j = x < 1.0 ? 0 : x < 2.0 ? 1 : 2;
-    if (material->lobes.scale[0] == 0.0f)
+    if (material->lobes.scale[0] == 0.0f || !(pdf > 0.0))
         return 0.0;
-    for (int k = 0; k <= HNBRDF_LOBES; k++) {
-        double from = k < HNBRDF_LOBES ? (double)material->lobes.share[k][j] : rest[0];
-        double to = k < HNBRDF_LOBES ? (double)material->lobes.share[k][j + 1] : rest[1];
-        double share = from + (x - j) * (to - from);
-        rest[0] -= from;
-        rest[1] -= to;
+    for (int k = 0; k < HNBRDF_LOBES; k++) {
+        double from = (double)material->lobes.share[k][j], to = (double)material->lobes.share[k][j + 1];
+        double share = from + (x - j) * (to - from), off = (2.0 * x + 1.0) * fabs(to - from);
+        rest += off;
         if (share > 0.0)
-            worst = fmax(worst,
-                         ((2.0 * x + 1.0) * fabs(to - from) + (k == HNBRDF_LOBES ? 6.0 : 0.0)) / share);
+            worst = fmax(worst, off / share);
     }
-    return 0x1p-24 * worst;
+    return 0x1p-24 * (worst + (rest + 6.0) * fabs((double)pair[2]) / (3.14159265358979 * pdf));
 }
 
+/* pdf: the true density there. */
 static double bar_of(const stability_case *what, const stability_backend *backend,
-                     stability_stage stage, const hnbrdf_material *material, const float pair[6])
+                     stability_stage stage, const hnbrdf_material *material, const float pair[6],
+                     double pdf)
 {
     stability_demand demand = stage == STABILITY_VALUE ? what->value_demand : what->demand;
     double bar = stage == STABILITY_VALUE ? STABILITY_VALUE_BAR : STABILITY_ANALYTIC_BAR;
@@ -104,7 +104,7 @@ static double bar_of(const stability_case *what, const stability_backend *backen
     if (material->rotation != 0.0f) /* of the case turned, or as the model has it */
         bar += turned_bar(material, pair);
     if (stage == STABILITY_PDF || stage == STABILITY_SAMPLE)
-        bar += shares_bar(material, (double)pair[5]);
+        bar += shares_bar(material, pair, pdf);
     return bar * (stage == STABILITY_VALUE ? backend->loosen_value : backend->loosen);
 }
 
@@ -189,7 +189,8 @@ static void judge_sample(stability_row *row, const hnbrdf_model_desc *desc,
     oracle_point point = {
         .pdf = oracle_pdf(desc->kind, &block->material, drawn.pairs[k], drawn.pairs[k] + 3)};
     judge(row, desc, &drawn, k, 0,
-          bar_of(row->what, backend, row->stage, &block->material, drawn.pairs[k]), pdf, &point);
+          bar_of(row->what, backend, row->stage, &block->material, drawn.pairs[k], point.pdf), pdf,
+          &point);
 }
 
 /* What must have the bits of `like`, and has, has its errors too: see close_row(). */
@@ -200,7 +201,8 @@ static void judge_block(stability_row *row, const hnbrdf_model_desc *desc,
 {
     int numbers = stability_stage_numbers(row->stage);
     for (int k = 0; k < STABILITY_BLOCK; k++) {
-        double bar = bar_of(row->what, backend, row->stage, &block->material, block->pairs[k]);
+        double bar =
+            bar_of(row->what, backend, row->stage, &block->material, block->pairs[k], points[k].pdf);
         size_t differs = 0;
         int valid = 1;
         for (int n = 0; n < numbers; n++) {
