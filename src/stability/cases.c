@@ -409,6 +409,9 @@ const stability_case stability_cases[] = {
      STABILITY_FINITE, .change = as_it_is, .pair = broken_pair, .not_a_number = 1},
     {"not-finite-field", "NaN and infinity in each field of a material", "there is no true value",
      STABILITY_FINITE, STABILITY_FINITE, .change = broken_field, .pair = any_pair, .not_a_number = 1},
+    {"not-finite-u", "NaN, infinity and numbers outside of [0, 1) for sampling",
+     "there is no true value", STABILITY_FINITE, STABILITY_FINITE, .change = any_material,
+     .pair = any_pair, .not_a_number = 1, .broken_u = 1},
 };
 const int stability_case_count = sizeof stability_cases / sizeof stability_cases[0];
 
@@ -424,7 +427,8 @@ static uint64_t hash_of(const char *name)
 void stability_block_make(const stability_case *what, int number, const hnbrdf_material *material,
                           stability_block *block)
 {
-    static const float ends[] = {0.0f, 1.0f - 0x1p-24f, 0.5f};
+    static const float ends[] = {0.0f, 1.0f - 0x1p-24f, 0.5f},
+                       broken[] = {NAN, -NAN, INFINITY, -INFINITY, 1.0f, -0.5f, 1e9f, FLT_MAX};
     hnbrdf_rng rng;
     hnbrdf_rng_seed(&rng, hash_of(what->name), (uint64_t)number);
     block->material = *material;
@@ -433,7 +437,9 @@ void stability_block_make(const stability_case *what, int number, const hnbrdf_m
         what->pair(&rng, k, &block->material, block->pairs[k], block->pairs[k] + 3);
         for (int i = 0; i < 3; i++) {
             float u = hnbrdf_rng_float(&rng);
-            block->u[k][i] = k % 3 == 0 ? ends[pick(&rng, 3)] : u;
+            block->u[k][i] = what->broken_u && k % 2 ? broken[pick(&rng, 8)]
+                             : k % 3 == 0            ? ends[pick(&rng, 3)]
+                                                     : u;
         }
     }
 }

@@ -36,6 +36,7 @@ typedef struct stability_case {
     float weight_factor;  /* on the network's weights and biases */
     float largest_weight; /* the factor that makes this the largest of them */
     int not_a_number;     /* 1: some arguments are NaN or infinite; there is no true value */
+    int broken_u;         /* 1: every second of the random numbers for sampling too, or outside of [0, 1) */
 } stability_case;
 
 extern const stability_case stability_cases[];

@@ -1,9 +1,9 @@
 #!/bin/sh
 # run.sh [SECONDS] [TARGET...]: fuzzes every reader, or those named, for so long each (default 60), or for
 # $HNBRDF_FUZZ_EXECUTIONS if those are sooner done, in build/fuzz (or $HNBRDF_FUZZ_BUILD), one process a target and
-# $HNBRDF_FUZZ_JOBS at a time (default 1). The corpora grow in build/fuzz/corpus/TARGET from run to run. What crashes, hangs for a minute, leaks or asks for a block above 1 GiB
-# is kept in build/fuzz/crashers/TARGET; once it is understood it belongs in tests/fuzz/regressions/TARGET,
-# which the tests replay. Exit status 1 if there is any.
+# $HNBRDF_FUZZ_JOBS at a time (default 1). The corpora grow in build/fuzz/corpus/TARGET from run to run. What crashes,
+# hangs for a minute, leaks or asks for a block above 1 GiB is kept in build/fuzz/crashers/TARGET; once it is
+# understood it belongs in tests/fuzz/regressions/TARGET, which the tests replay. Exit status 1 if there is any.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 root=$(cd "$here/../.." && pwd)
@@ -61,8 +61,9 @@ fuzz() {
     [ "$1" != csv ] || quiet=2 # the command prints why it refuses each input
     # shellcheck disable=SC2086 # no regressions: no argument
     UBSAN_OPTIONS=print_stacktrace=1 "$build/fuzz_$1" -max_total_time="$seconds" -runs="$executions" -timeout=60 \
-        -malloc_limit_mb=1024 -rss_limit_mb=2560 -dict="$here/dictionaries/$1.txt" -artifact_prefix="$crashers/" -close_fd_mask=$quiet \
-        -print_final_stats=1 "$corpus" "$build/seeds/$1" $regressions > "$log" 2>&1 || status=$?
+        -report_slow_units=60 -malloc_limit_mb=1024 -rss_limit_mb=2560 -dict="$here/dictionaries/$1.txt" \
+        -artifact_prefix="$crashers/" -close_fd_mask=$quiet -print_final_stats=1 \
+        "$corpus" "$build/seeds/$1" $regressions > "$log" 2>&1 || status=$?
     echo "$status" > "$build/$1.status"
 }
 
