@@ -30,7 +30,7 @@ void info_print_physics(const hnbrdf_model *model, int width)
     }
     fputs("\nalbedo: the largest share of light from everywhere that leaves towards one direction, "
           "that many\n"
-          "degrees from n. Not reciprocal by: |f - f swapped| over the mean of both, averaged. Black: "
+          "degrees from n, of those up to 88. Not reciprocal by: |f - f swapped| over the mean of both, averaged. Black: "
           "values of 0.\n",
           stdout);
     if (above)
