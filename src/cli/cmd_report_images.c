@@ -258,8 +258,12 @@ static int run(report *r, char **data, int count)
     int code = cli_open_data(data, count, &r->data);
     if (code != CLI_OK)
         return code;
-    hnbrdf_model **models = NULL;
-    code = report_make_folders(r, "models");
+    hnbrdf_model **models = NULL, *given = NULL;
+    if (r->given) /* before anything takes time */
+        code = report_load_model(r, r->given, &given);
+    hnbrdf_model_free(given);
+    if (code == CLI_OK)
+        code = report_make_folders(r, "models");
     if (code == CLI_OK)
         code = report_make_entries(r);
     if (code == CLI_OK && !(models = calloc((size_t)r->count, sizeof *models)))
