@@ -33,10 +33,6 @@ while read -r _ rest; do
     run "$HNBRDF" $rest
     expect_ok "hnbrdf $rest"
 done <commands
-# The same again.
-run "$HNBRDF" gallery "$model" --materials vch_silk_blue --pairs vch_silk_blue:paper_white $small -o h
-cmp -s g/mixes.png h/mixes.png || fail "the same gallery twice differs"
-
 # Without names: two materials and up to six pairs, of a model fitted to what is given.
 run "$HNBRDF" gallery builtin:gold-two-lobe builtin:velvet-crimson builtin:rough-clay --seconds 0.2 $small -o d
 [ "$rc" -eq 0 ] || fail "gallery of data: exit $rc"

@@ -146,7 +146,7 @@ static void every_cell_is_whole(void **state)
     (void)state;
     static const int cells[] = {32, 40, 77, 160};
     for (int count = 1; count <= 11; count += 5)
-        for (int columns = 1; columns <= RENDER_SHEET_COLUMNS; columns += 2)
+        for (int columns = 1; columns <= RENDER_SHEET_COLUMNS; columns += 4)
             for (size_t s = 0; s < sizeof cells / sizeof *cells; s++)
                 for (int blocks = 0; blocks <= 3; blocks++) {
                     render_image image = compose(count, columns, cells[s], blocks);

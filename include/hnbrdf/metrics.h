@@ -39,8 +39,9 @@ typedef struct hnbrdf_image_noise {
     double mse;        /* an estimate of the MSE without noise that is right on average; below 0 at times
                           where there is hardly anything but noise */
     double mse_error;  /* standard error of that estimate */
-    double psnr_error; /* the same in dB: 10/ln 10 mse_error/mse; infinite where mse <= 0 */
-    double psnr_bias;  /* dB by which PSNR is too low because noise counts as error; likewise */
+    double psnr_error; /* dB: standard error of PSNR, 10/ln 10 mse_error/MSE, a little more than it is */
+    double psnr_bias;  /* dB by which PSNR is too low because noise counts as error; infinite where the mse
+                          above is not > 0 */
     double peak_error; /* dB: standard error of 20 log10(peak), one for all images of a reference; from
                           one pixel, so good for a mean over many images only */
 } hnbrdf_image_noise;

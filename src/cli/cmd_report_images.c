@@ -16,7 +16,7 @@ static const cli_command command = {
     "models in models/, and picture rows: images-1.png and so on (EXR beside) with the spheres and\n"
     "their differences in false colours; their radiance lies in pictures/ as EXR. Every figure\n"
     "stands with the standard error that noise leaves, from two renderings of each sphere. The\n"
-    "default is the paper's: 512 pixels, 1024 samples, half a minute a sphere on two cores; --quick\n"
+    "default is the paper's: 512 pixels, 1024 samples, about a minute a sphere on two cores; --quick\n"
     "is a try. Models come from DIR (--resume), from the folder of a `report accuracy` (--from),\n"
     "from a file (--model), or are fitted. Everything is written anew after each material: what an\n"
     "interrupted run has done stays, and --resume goes on with it.",
@@ -258,8 +258,12 @@ static int run(report *r, char **data, int count)
     int code = cli_open_data(data, count, &r->data);
     if (code != CLI_OK)
         return code;
-    hnbrdf_model **models = NULL;
-    code = report_make_folders(r, "models");
+    hnbrdf_model **models = NULL, *given = NULL;
+    if (r->given) /* before anything takes time */
+        code = report_load_model(r, r->given, &given);
+    hnbrdf_model_free(given);
+    if (code == CLI_OK)
+        code = report_make_folders(r, "models");
     if (code == CLI_OK)
         code = report_make_entries(r);
     if (code == CLI_OK && !(models = calloc((size_t)r->count, sizeof *models)))

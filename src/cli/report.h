@@ -122,6 +122,8 @@ const hnbrdf_material *report_material(const report *r, const hnbrdf_model *mode
 /* Fits or reuses, saves and measures all entries; calls `finished` after each one and stops when it
  * does not return 0. Ctrl-C ends it after the step. 0, or CLI_FAILURE after a message. */
 int report_run(report *r, int (*finished)(const report *r, const report_entry *e));
+/* A model that some other command made; one that lacks a material of the data is an error. Likewise. */
+int report_load_model(const report *r, const char *path, hnbrdf_model **model);
 /* Fits, reuses or takes all models and measures nothing; models is [entries]. Likewise. */
 int report_make_models(report *r, hnbrdf_model **models);
 /* Between both, Ctrl-C and SIGTERM only make report_interrupted() say 1. */

@@ -374,8 +374,7 @@ int report_run(report *r, int (*finished)(const report *r, const report_entry *e
 
 /* ---- Models alone -------------------------------------------------------------------------------- */
 
-/* A model that some other command made; it must have every material of the data. */
-static int load_model(const report *r, const char *path, hnbrdf_model **model)
+int report_load_model(const report *r, const char *path, hnbrdf_model **model)
 {
     hnbrdf_error error;
     if (hnbrdf_model_load(path, NULL, model, &error) != HNBRDF_OK)
@@ -391,7 +390,7 @@ static int take_model(const report *r, const report_entry *e, hnbrdf_model **mod
 {
     report earlier = {.directory = r->from};
     char *path = report_path(&earlier, e->name, "safetensors");
-    int code = path ? load_model(r, path, model) : CLI_FAILURE;
+    int code = path ? report_load_model(r, path, model) : CLI_FAILURE;
     free(path);
     return code;
 }
@@ -405,7 +404,7 @@ int report_make_models(report *r, hnbrdf_model **models)
         report_entry *e = &r->entries[k];
         watch_entry(&w, e);
         if (r->given && e->form != REPORT_GGX)
-            result = load_model(r, r->given, &models[k]);
+            result = report_load_model(r, r->given, &models[k]);
         else if (r->from)
             result = take_model(r, e, &models[k]);
         else if (!(models[k] = reuse(r, e)))

@@ -102,16 +102,24 @@ static void write_gain(const report *r, const report_entry *a, const report_entr
         fputs(" |", file);
 }
 
-static double mean_bias(const report *r, const report_entry *e)
+/* Over the materials where there is more than noise. */
+static void write_bias(const report *r, const report_entry *e, FILE *file)
 {
     double bias = 0.0;
-    int done = 0;
-    for (int m = 0; m < r->data.count; m++)
-        if (e->pictures[m].done) {
-            bias += e->pictures[m].psnr_bias;
-            done++;
+    int known = 0, drowned = 0;
+    for (int m = 0; m < r->data.count; m++) {
+        const report_picture *p = &e->pictures[m];
+        if (p->done && isfinite(p->psnr_bias)) {
+            bias += p->psnr_bias;
+            known++;
+        } else if (p->done) {
+            drowned++;
         }
-    return done ? bias / done : 0.0;
+    }
+    fprintf(file, " %.3f", known ? bias / known : 0.0);
+    if (drowned)
+        fprintf(file, "; %d drowned", drowned);
+    fputs(" |", file);
 }
 
 /* The neural model of the same net whose materials store as many numbers. */
@@ -127,15 +135,18 @@ static void write_models(const report *r, FILE *file)
     fputs(
         "\n## Model by model\n\nMean MAE in radiance and PSNR in dB; noise: by how much PSNR is too "
         "low "
-        "because noise counts as error. The last\ncolumns: dB more than GGX alone, and than the neural "
+        "because noise counts as error (drowned: materials "
+        "whose error is less than the noise). The last\ncolumns: dB more than GGX alone, and than the "
+        "neural "
         "model that stores as many numbers a material, and for how many\nmaterials PSNR is higher.\n\n"
         "| model | MAE | PSNR | noise | against GGX alone | against neural "
         "|\n|---|---|---|---|---|---|\n",
         file);
     for (int k = 0; k < r->count; k++) {
         const report_entry *e = &r->entries[k];
-        fprintf(file, "| %s | %.5f | %.2f +- %.2f | %.3f |", e->name, e->mean_mae, e->mean_psnr,
-                e->mean_psnr_error, mean_bias(r, e));
+        fprintf(file, "| %s | %.5f | %.2f +- %.2f |", e->name, e->mean_mae, e->mean_psnr,
+                e->mean_psnr_error);
+        write_bias(r, e, file);
         if (e->form == REPORT_GGX)
             fputs(" |", file);
         else

@@ -69,11 +69,11 @@ void hnbrdf_image_compare_twice(const float *const image[2], const float *const 
     double n = sums.count > 0 ? (double)sums.count : 1.0, decibel = 10.0 / log(10.0);
     noise->mse = error->mse - half_noise / n;
     noise->mse_error = sqrt(variance) / n;
-    int any = sums.squared > 0.0 || half_noise > 0.0;
-    noise->psnr_error = noise->psnr_bias = any ? (double)INFINITY : 0.0;
-    if (noise->mse > 0.0) {
-        noise->psnr_error = decibel * noise->mse_error / noise->mse;
+    int equal = sums.squared == 0.0 && half_noise == 0.0;
+    noise->psnr_error = noise->psnr_bias = equal ? 0.0 : (double)INFINITY;
+    if (error->mse > 0.0) /* error->mse varies a little less than noise->mse, by tr C^2/2 */
+        noise->psnr_error = decibel * noise->mse_error / error->mse;
+    if (noise->mse > 0.0)
         noise->psnr_bias = decibel * log(error->mse / noise->mse);
-    }
     noise->peak_error = sums.peak > 0.0 ? 2.0 * decibel * peak_noise / sums.peak : 0.0;
 }
