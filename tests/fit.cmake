@@ -7,3 +7,5 @@ if(NOT HNBRDF_SANITIZE)
   add_test(NAME test_fit_cli COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/test_fit_cli.sh $<TARGET_FILE:hnbrdf_cli>)
   set_tests_properties(test_fit_cli PROPERTIES SKIP_RETURN_CODE 77)
 endif()
+add_test(NAME test_fit_hostile_cli
+  COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/test_fit_hostile_cli.sh $<TARGET_FILE:hnbrdf_cli>)
