@@ -254,6 +254,51 @@ static void gradients_stay_finite_at_the_limits(void **state)
     problem_free(&p);
 }
 
+/* Bounds of the gradient over one tile of N pairs, whatever the target. |dL/df| f is at most 1 in both
+ * losses, and the lobe is a part of f. d ln(D V V)/d ln alpha lies in [-3, 3]: 4t - 1 with t in [0, 1]
+ * from D, at most 1 from each V. d ln F/d ln(eta - 1) is at most 2, as F goes with (eta - 1)^2 near 1.
+ * d ln(D V V)/d rotation is at most 3 times the ratio of the alphas: 2 from D, 1/2 from each V. dL/dkd
+ * is |dL/df|/pi, largest for SMAPE at f = t = 0: 2/1e-4; the logarithm has 1/1e-3. Rounding may add a
+ * thousandth: floats of 24 bits through at most a few dozen operations, and sums of 64. */
+static void gradients_are_bounded_near_the_alpha_floor_and_eta_1(void **state)
+{
+    (void)state;
+    static const float ln_alphas[] = {-9.2103f, -6.9f, -2.3f, 0.0f};        /* 1e-4, the floor, to 1 */
+    static const float ln_aboves[] = {-20.0f, -15.9f, -6.9f, 0.0f, 4.595f}; /* eta - 1: 2e-9 to 99 */
+    static const float targets[] = {0.0f, 1e-6f, 0.3f, 1e6f, 1e15f};
+    const double slack = 1.001, pairs = FIT_TILE;
+    problem p;
+    problem_make(&p, HNBRDF_KIND_GGX, 0, 0, 0, 0, 0.0f);
+    for (int b = 0; b < FIT_TILE; b += 4) { /* mirror pairs, one of them off by the width of the lobe */
+        for (int c = 0; c < 3; c++)
+            p.wo[c * FIT_TILE + b] = c < 2 ? -p.wi[c * FIT_TILE + b] : p.wi[c * FIT_TILE + b];
+        p.wo[b] += b % 8 ? 0.0f : 2e-4f;
+    }
+    for (int i = 0; i < 4 * 4 * 5 * 5 * 3; i++) {
+        const float x = ln_alphas[i % 4], y = ln_alphas[i / 4 % 4], above = ln_aboves[i / 16 % 5];
+        const float target = targets[i / 80 % 5], mix = 0.5f * (float)(i / 400);
+        const double ratio = exp(fabs((double)x - (double)y));
+        const float a[FIT_ANALYTIC] = {0.0f, 0.5f, 1.0f, above, above, above, x, y, 0.7f};
+        for (int b = 0; b < 3 * FIT_TILE; b++)
+            p.target[b] = target;
+        for (int k = 0; k < 3; k++) {
+            const fit_kernel *kernel = kernel_number(k);
+            float g[FIT_ANALYTIC] = {0};
+            if (!kernel)
+                continue;
+            assert_true(isfinite(kernel->analytic(a, &p.tile, mix, NULL, g)));
+            for (int c = 0; c < 3; c++) {
+                assert_true(fabs((double)g[FIT_KD + c]) <= slack * pairs * 2.0e4 / 3.14159265358979);
+                assert_true(fabs((double)g[FIT_ETA + c]) <= slack * pairs * 2.0);
+            }
+            for (int axis = 0; axis < 2; axis++)
+                assert_true(fabs((double)g[FIT_ALPHA + axis]) <= slack * 3.0 * pairs * 3.0);
+            assert_true(fabs((double)g[FIT_ROTATION]) <= slack * 3.0 * pairs * 3.0 * ratio);
+        }
+    }
+    problem_free(&p);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -261,6 +306,7 @@ int main(void)
         cmocka_unit_test(clipped_value_is_pulled_up),
         cmocka_unit_test(instruction_sets_agree_to_the_bit),
         cmocka_unit_test(gradients_stay_finite_at_the_limits),
+        cmocka_unit_test(gradients_are_bounded_near_the_alpha_floor_and_eta_1),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
