@@ -10,10 +10,3 @@ target_compile_definitions(test_sampling_density PRIVATE
 hnbrdf_test(test_lobes test_lobes.c core_support.c)
 hnbrdf_test(test_core_variants test_core_variants.c variants_sweep.c)
 hnbrdf_test(test_variant_choice test_variant_choice.c)
-
-# The same test for 64-bit Arm, emulated. Sanitized programs check the same code; one more build is enough.
-if(NOT HNBRDF_SANITIZE)
-  add_test(NAME test_neon COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/test_neon.sh ${PROJECT_SOURCE_DIR}
-    ${CMAKE_CURRENT_BINARY_DIR}/neon $<TARGET_FILE:test_core_variants>)
-  set_tests_properties(test_neon PROPERTIES SKIP_RETURN_CODE 77)
-endif()

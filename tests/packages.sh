@@ -3,12 +3,15 @@
 # and Ubuntu, through apt-get, as root or with sudo; elsewhere it says what to install.
 set -eu
 
+optional=""
 wanted="gcc libc6-dev make cmake pkg-config libopenexr-dev libvulkan-dev mesa-vulkan-drivers glslang-tools libstb-dev"
 case ${1:-} in
 demo) ;;
 tests)
     wanted="$wanted g++ clang libcmocka-dev vulkan-validationlayers spirv-cross"
-    wanted="$wanted gcc-aarch64-linux-gnu libc6-dev-arm64-cross qemu-user-static"
+    # Other machines and locales; what needs them is skipped without.
+    optional="locales qemu-user-static gcc-aarch64-linux-gnu libc6-dev-arm64-cross gcc-i686-linux-gnu
+        libc6-dev-i386-cross gcc-s390x-linux-gnu libc6-dev-s390x-cross"
     # libFuzzer and the sanitizers of clang; the package carries the version of the clang that is installed or
     # will be. Without it clang fuzzes nothing.
     clang=$(clang -dumpversion 2> /dev/null || apt-cache depends clang 2> /dev/null | sed -n 's/.*Depends: clang-//p')
@@ -20,12 +23,17 @@ tests)
     ;;
 esac
 
-missing=""
+missing="" also_missing=""
+is_installed() {
+    dpkg-query -W -f '${Status}\n' "$1" 2> /dev/null | grep -q '^install ok installed'
+}
 if command -v dpkg-query > /dev/null; then
     for package in $wanted; do
         # An installed package may be given by another one (pkg-config by pkgconf).
-        dpkg-query -W -f '${Status}\n' "$package" 2> /dev/null | grep -q '^install ok installed' ||
-            missing="$missing $package"
+        is_installed "$package" || missing="$missing $package"
+    done
+    for package in $optional; do
+        is_installed "$package" || also_missing="$also_missing $package"
     done
 else
     for tool in gcc make cmake pkg-config glslangValidator; do
@@ -34,11 +42,11 @@ else
             exit 1
         }
     done
-    echo "no dpkg here: taking it that the equivalents of these are installed: $wanted"
+    echo "no dpkg here: taking it that the equivalents of these are installed:" $wanted $optional
 fi
 
-if [ -n "$missing" ]; then
-    install="apt-get install -y --no-install-recommends$missing"
+if [ -n "$missing$also_missing" ]; then
+    install="apt-get install -y --no-install-recommends$missing$also_missing"
     if [ "$(id -u)" = 0 ]; then
         as_root="env DEBIAN_FRONTEND=noninteractive"
     elif command -v sudo > /dev/null; then
@@ -47,9 +55,18 @@ if [ -n "$missing" ]; then
         printf 'These packages are missing, and only root can install them:\n\n  %s\n' "$install" >&2
         exit 1
     fi
-    echo "installing:$missing"
     log=$(mktemp)
-    { $as_root apt-get update && $as_root $install; } > "$log" 2>&1 || {
+    $as_root apt-get update > "$log" 2>&1 || true # what is missing then is told below
+    for package in $also_missing; do
+        if apt-cache show "$package" > /dev/null 2>&1; then
+            missing="$missing $package"
+        else
+            echo "no package $package here: what needs it will be skipped"
+        fi
+    done
+    install="apt-get install -y --no-install-recommends$missing"
+    [ -z "$missing" ] || echo "installing:$missing"
+    [ -z "$missing" ] || $as_root $install >> "$log" 2>&1 || {
         tail -n 20 "$log" >&2
         rm -f "$log"
         printf 'Could not install what is missing. By hand:\n\n  %s\n' "$install" >&2

@@ -38,8 +38,8 @@ done
 # Evaluation is pure: src/core may call these and nothing else (second line: compiler and hardening).
 archive=$build/libhnbrdf.a
 # __cpu_model and __cpu_indicator_init are what __builtin_cpu_supports() asks.
-allowed=' cos sin sincos atan2 sqrtf memcpy memmove memset vsnprintf __cpu_model __cpu_indicator_init
- __stack_chk_fail __memcpy_chk __memset_chk __vsnprintf_chk _GLOBAL_OFFSET_TABLE_ '
+allowed=' cos sin sincos atan2 sqrtf memcpy memmove memset strcpy snprintf vsnprintf __cpu_model __cpu_indicator_init
+ __stack_chk_fail __memcpy_chk __memset_chk __strcpy_chk __snprintf_chk __vsnprintf_chk _GLOBAL_OFFSET_TABLE_ '
 for path in "$source"/src/core/*.c; do
     object=$(basename "$path").o
     case $object in
@@ -55,16 +55,31 @@ for path in "$source"/src/core/*.c; do
     done
 done
 
-# The rest of libhnbrdf reads and writes files, but never prints, ends the program, starts threads, or does
-# what depends on the locale.
-for symbol in $(nm -u "$archive" 2> /dev/null | awk 'NF == 2 { print $2 }'); do
-    case $symbol in
-    printf | puts | putchar | putc | vprintf | perror | stdout | stderr | exit | _exit | _Exit | quick_exit | \
-        abort | __assert_fail | setlocale | pthread_* | thrd_* | mtx_* | __printf_chk | system | signal | strtod | \
-        strtof | atof)
-        fail "libhnbrdf.a uses $symbol" ;;
-    esac
+# No part prints, ends the program, catches or raises signals, leaves by a jump, looks at errno, changes rounding, or
+# does what depends on the locale; only the trainer starts threads. And none keeps anything that can be written to
+# from one call to the next: what is not constant belongs to the caller.
+for part in "$@"; do
+    archive=$build/lib$part.a
+    for symbol in $(nm -u "$archive" 2> /dev/null | awk 'NF == 2 { print $2 }'); do
+        case $symbol in
+        printf | fprintf | puts | fputs | putchar | putc | fputc | vprintf | vfprintf | perror | stdin | stdout | \
+            stderr | __printf_chk | __fprintf_chk | __vfprintf_chk | exit | _exit | _Exit | quick_exit | atexit | \
+            on_exit | abort | __assert_fail | system | signal | __sysv_signal | sigaction | sigprocmask | sigaltstack | \
+            raise | kill | setjmp | _setjmp | __sigsetjmp | longjmp | siglongjmp | __errno_location | __errno | \
+            fesetround | fesetenv | feholdexcept | feenableexcept | setlocale | uselocale | newlocale | localeconv | \
+            strtod | strtof | strtold | atof | strcoll | toupper | tolower | __ctype_* | sscanf | __isoc99_sscanf | \
+            rand | srand | random | strtok | localtime | gmtime)
+            fail "lib$part.a uses $symbol" ;;
+        pthread_* | thrd_* | mtx_*)
+            [ "$part" = hnbrdf_fit ] || fail "lib$part.a uses $symbol" ;;
+        esac
+    done
+    # Tables of pointers in .data.rel.ro are constant; the linker alone writes them.
+    written=$(objdump -t "$archive" | awk '/[ \t](\.(data|bss|tdata|tbss)[^ \t]*|\*COM\*)\t/ && !/\.data\.rel\.ro/ &&
+        $NF !~ /^\./ { print $NF }')
+    [ -z "$written" ] || fail "lib$part.a keeps what can be written to:" $written
 done
+archive=$build/libhnbrdf.a
 # The environment is read in one place, for HNBRDF_VARIANT.
 for object in $(nm -A -u "$archive" 2> /dev/null | sed -n 's|.*:\([^:]*\): *[Uw] getenv$|\1|p'); do
     [ "$object" = choose_kernel.c.o ] || fail "$object reads the environment"

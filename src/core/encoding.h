@@ -21,6 +21,7 @@ static inline void hnbrdf_encode_directions(const hnbrdf_pair *p, float x[6])
  *   1 + ln(1e-5 + tan^2 th)/4, sqrt(sin th), c, sqrt(1 - c), wi.z wo.z, wi.z + wo.z
  * th is the angle between n and h, c = wi.h. sqrt(1 - c) is taken from |wi - wo|^2 = 4 (1 - c^2), exact
  * where 1 - c would cancel (near retroreflection). */
+HNBRDF_DIVIDES_AS_IEEE
 static inline void hnbrdf_encode_half_difference(const hnbrdf_pair *p, float x[6])
 {
     float r2 = p->sx * p->sx + p->sy * p->sy;
@@ -42,6 +43,7 @@ static inline float hnbrdf_one_minus_c(const hnbrdf_pair *p)
 
 /* What the encodings by angles share; the cosines of incidence are a and b:
  *   1 + ln(1e-5 + tan^2 th)/4, sin th, ln(1e-3 + 1 - c)/4, 1 - c, a, b */
+HNBRDF_DIVIDES_AS_IEEE
 static inline void hnbrdf_encode_angle_terms(const hnbrdf_pair *p, float a, float b, float x[6])
 {
     float r2 = p->sx * p->sx + p->sy * p->sy;
@@ -68,6 +70,7 @@ static inline void hnbrdf_encode_angles(const hnbrdf_pair *p, float x[6])
 }
 
 /* |h.x| for sin th and |h.y| for 1 - c: reciprocal, and mirror-symmetric about the tangent frame. */
+HNBRDF_DIVIDES_AS_IEEE
 static inline void hnbrdf_encode_angles_anisotropic(const hnbrdf_pair *p, float x[6])
 {
     hnbrdf_encode_angles(p, x);

@@ -2,13 +2,15 @@
 #ifndef HNBRDF_CORE_ERROR_H
 #define HNBRDF_CORE_ERROR_H
 
+#include "core/number.h"
 #include "hnbrdf/hnbrdf.h"
 
 #include <stdarg.h>
 #include <stdio.h>
 
 /* Writes the message if error is not NULL and returns result, so that a failure is one statement:
- *     return hnbrdf_fail(error, HNBRDF_ERROR_FORMAT, "%s: header is %zu bytes, expected ...", ...); */
+ *     return hnbrdf_fail(error, HNBRDF_ERROR_FORMAT, "%s: header is %zu bytes, expected ...", ...);
+ * Numbers with a fraction go in as %s and HNBRDF_NUMBER(): a %g would follow the locale. */
 #if defined(__GNUC__)
 __attribute__((format(printf, 3, 4)))
 #endif

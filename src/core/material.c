@@ -20,8 +20,8 @@ static hnbrdf_result range(const char *field, int index, float value, float low,
 {
     if (value >= low && value <= high)
         return HNBRDF_OK;
-    return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT, "%s[%d] is %g, expected %g to %g", field, index,
-                       (double)value, (double)low, (double)high);
+    return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT, "%s[%d] is %s, expected %s to %s", field, index,
+                       HNBRDF_NUMBER(value), HNBRDF_NUMBER(low), HNBRDF_NUMBER(high));
 }
 
 static hnbrdf_result check_lobes(const hnbrdf_lobes *lobes, hnbrdf_error *error)
@@ -49,18 +49,18 @@ hnbrdf_result hnbrdf_material_check(const hnbrdf_material *material, hnbrdf_erro
             return result;
     for (int c = 0; c < 3; c++)
         if (!(material->eta[c] > 1.0f && material->eta[c] <= HNBRDF_MAX_ETA))
-            return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT, "eta[%d] is %g, expected above 1, at most %g",
-                               c, (double)material->eta[c], (double)HNBRDF_MAX_ETA);
+            return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT, "eta[%d] is %s, expected above 1, at most %s",
+                               c, HNBRDF_NUMBER(material->eta[c]), HNBRDF_NUMBER(HNBRDF_MAX_ETA));
     for (int c = 0; c < 2; c++)
         if ((result = range("alpha", c, material->alpha[c], HNBRDF_MIN_ALPHA, HNBRDF_MAX_ALPHA, error)))
             return result;
     if (!isfinite(material->rotation))
-        return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT, "rotation is %g, expected a finite angle",
-                           (double)material->rotation);
+        return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT, "rotation is %s, expected a finite angle",
+                           HNBRDF_NUMBER(material->rotation));
     for (int i = 0; i < HNBRDF_MAX_LATENT; i++)
         if (!isfinite(material->latent[i]))
-            return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT, "latent[%d] is %g, expected a finite number",
-                               i, (double)material->latent[i]);
+            return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT, "latent[%d] is %s, expected a finite number",
+                               i, HNBRDF_NUMBER(material->latent[i]));
     return check_lobes(&material->lobes, error);
 }
 

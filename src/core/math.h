@@ -4,9 +4,23 @@
 #ifndef HNBRDF_CORE_MATH_H
 #define HNBRDF_CORE_MATH_H
 
+#include <float.h>
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
+
+#if defined(FLT_EVAL_METHOD) && FLT_EVAL_METHOD > 0
+#error floats are computed in a wider type: build with CMake, or see src/arithmetic.cmake for the flags
+#endif
+
+/* Before a function that may divide by 0. Only the smallest cosines, directions that are no unit vectors and
+ * materials that break their ranges bring that about; what IEEE 754 then gives, infinity or NaN, is clamped where
+ * the value ends, and to ask for it here would cost every evaluation. Without this UBSan would stop there. */
+#if defined(__GNUC__)
+#define HNBRDF_DIVIDES_AS_IEEE __attribute__((no_sanitize("float-divide-by-zero")))
+#else
+#define HNBRDF_DIVIDES_AS_IEEE
+#endif
 
 #define HNBRDF_PI 3.14159265f
 #define HNBRDF_INV_PI 0.318309886f

@@ -40,6 +40,7 @@ static inline float hnbrdf_ggx_area(float ax, float ay)
     return (HNBRDF_PI * ax) * ay;
 }
 
+HNBRDF_DIVIDES_AS_IEEE
 static inline float hnbrdf_ggx_d_of_area(float sx, float sy, float sz, float length2, float ax, float ay,
                                          float area)
 {
@@ -82,6 +83,7 @@ static inline float hnbrdf_fresnel_e(float eta)
     return (eta - 1.0f) * (eta + 1.0f);
 }
 
+HNBRDF_DIVIDES_AS_IEEE
 static inline float hnbrdf_fresnel_of_e(float e, float c)
 {
     float sum = sqrtf(e + c * c) + c;   /* g + c */

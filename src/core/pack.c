@@ -81,8 +81,9 @@ static hnbrdf_result check_range(const char *field, const float range[2], float 
     if (range[0] >= low && range[0] <= range[1] && range[1] <= high)
         return HNBRDF_OK;
     return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT,
-                       "packing: the range of %s is %g to %g, expected to lie within %g to %g", field,
-                       (double)range[0], (double)range[1], (double)low, (double)high);
+                       "packing: the range of %s is %s to %s, expected to lie within %s to %s", field,
+                       HNBRDF_NUMBER(range[0]), HNBRDF_NUMBER(range[1]), HNBRDF_NUMBER(low),
+                       HNBRDF_NUMBER(high));
 }
 
 hnbrdf_result hnbrdf_packing_check(const hnbrdf_packing *packing, hnbrdf_error *error)

@@ -4,6 +4,7 @@
 
 /* ---- Lobes ------------------------------------------------------------------------------------- */
 
+HNBRDF_DIVIDES_AS_IEEE
 float hnbrdf_specular_share(const hnbrdf_model *model, const hnbrdf_material *material)
 {
     if (model->desc.kind == HNBRDF_KIND_NEURAL)
@@ -61,6 +62,7 @@ static void shares_at(const hnbrdf_lobes *lobes, float z, float share[HNBRDF_LOB
 /* ---- Density ----------------------------------------------------------------------------------- */
 
 /* Of reflections about visible normals D V(wo)/2; about all normals D h.n / (4 wo.h). */
+HNBRDF_DIVIDES_AS_IEEE
 static float lobe_density(const hnbrdf_prepared *m, int k, const hnbrdf_pair *p)
 {
     float ax = m->lobe_alpha[k][0], ay = m->lobe_alpha[k][1];

@@ -225,8 +225,8 @@ static hnbrdf_result take_frozen(hnbrdf_fit_options *o, hnbrdf_error *error)
             "the model to freeze is a ggx model: it has no network; fit with kind ggx instead");
     if (desc.scale != 1.0f || desc.shift != 0.0f)
         return hnbrdf_fail(error, HNBRDF_ERROR_UNSUPPORTED,
-                           "the model to freeze has scale %g and shift %g, expected 1 and 0",
-                           (double)desc.scale, (double)desc.shift);
+                           "the model to freeze has scale %s and shift %s, expected 1 and 0",
+                           HNBRDF_NUMBER(desc.scale), HNBRDF_NUMBER(desc.shift));
     o->kind = desc.kind;
     o->hidden = desc.hidden;
     o->layers = desc.layers;
@@ -372,8 +372,10 @@ static hnbrdf_result refuse_data(const trainer *t, hnbrdf_error *error)
                  others == 1 ? "" : "s");
     return hnbrdf_fail(
         error, HNBRDF_ERROR_FORMAT,
-        "%s: %.3g %% of the directions drawn are valid measurements, expected at least %g %%%s",
-        hnbrdf_measured_name(t->data[first]), 100.0 * t->drawn[first].valid, 100.0 * LEAST_VALID, more);
+        "%s: %s %% of the directions drawn are valid measurements, expected at least %s %%%s",
+        hnbrdf_measured_name(t->data[first]),
+        hnbrdf_print_number((char[HNBRDF_NUMBER_TEXT]){""}, 100.0 * t->drawn[first].valid, 3),
+        HNBRDF_NUMBER(100.0 * LEAST_VALID), more);
 }
 
 /* A model's names differ; better told now than after training. */

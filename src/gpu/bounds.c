@@ -67,6 +67,7 @@ static num multiply(const gpu_rules *rules, num a, num b)
     return basic(rules, a.v * b.v, fabs((double)a.v) * b.e + fabs((double)b.v) * a.e + a.e * b.e);
 }
 
+HNBRDF_DIVIDES_AS_IEEE
 static num divide(const gpu_rules *rules, num a, num b)
 {
     double size_a = fabs((double)a.v), size_b = fabs((double)b.v), least_b = size_b - b.e;

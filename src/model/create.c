@@ -71,12 +71,12 @@ static hnbrdf_result check_constants(const hnbrdf_model_desc *desc, hnbrdf_error
 {
     if (!isfinite(desc->scale) || !isfinite(desc->shift)) {
         return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT,
-                           "scale is %g and shift is %g, expected finite numbers", (double)desc->scale,
-                           (double)desc->shift);
+                           "scale is %s and shift is %s, expected finite numbers", HNBRDF_NUMBER(desc->scale),
+                           HNBRDF_NUMBER(desc->shift));
     }
     if (!(desc->floor >= 0) || !isfinite(desc->floor)) {
         return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT,
-                           "floor is %g, expected a finite number of at least 0", (double)desc->floor);
+                           "floor is %s, expected a finite number of at least 0", HNBRDF_NUMBER(desc->floor));
     }
     return HNBRDF_OK;
 }
@@ -91,8 +91,8 @@ static hnbrdf_result check_finite(const char *what, int layer, const float *valu
     for (size_t i = 0; i < count; ++i) {
         if (!isfinite(values[i])) {
             return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT,
-                               "%s[%d] holds %g at index %zu, expected finite numbers", what, layer,
-                               (double)values[i], i);
+                               "%s[%d] holds %s at index %zu, expected finite numbers", what, layer,
+                               HNBRDF_NUMBER(values[i]), i);
         }
     }
     return HNBRDF_OK;

@@ -173,7 +173,7 @@ hnbrdf_result hnbrdf_scene_make(const hnbrdf_model *model, const hnbrdf_glsl_opt
     for (int k = 0; k < s->count && s->energy; k++)
         if (!(s->energy[k] > 0.0f && s->energy[k] <= 1.0f))
             return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT,
-                               "export: energy[%d] is %g, expected above 0, at most 1", k, (double)s->energy[k]);
+                               "export: energy[%d] is %s, expected above 0, at most 1", k, HNBRDF_NUMBER(s->energy[k]));
     s->weights = hnbrdf_model_weight_count(model);
     s->multiplications = hnbrdf_model_multiplications(model);
     if (s->folded) {

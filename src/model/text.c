@@ -6,7 +6,6 @@
 #include <float.h>
 #include <math.h>
 #include <stdint.h>
-#include <stdio.h>
 #include <string.h>
 
 static int is_digit(char c)
@@ -16,35 +15,10 @@ static int is_digit(char c)
 
 /* ---- Printing ---------------------------------------------------------------------------------- */
 
-/* Whatever run of bytes in a finite number is no digit, sign or exponent is the locale's separator. */
-static size_t with_point(const char *printed, char *text)
-{
-    size_t length = 0;
-    int in_separator = 0;
-    for (; *printed; ++printed) {
-        const int plain = is_digit(*printed) || *printed == '+' || *printed == '-' || *printed == 'e';
-        if (plain) {
-            text[length++] = *printed;
-        } else if (!in_separator) {
-            text[length++] = '.';
-        }
-        in_separator = !plain;
-    }
-    text[length] = '\0';
-    return length;
-}
-
 static int format_digits(char *buffer, size_t size, double value, int digits)
 {
-    char printed[64], text[64];
-    size_t length;
-    if (isfinite(value)) {
-        snprintf(printed, sizeof printed, "%.*g", digits, value);
-        length = with_point(printed, text);
-    } else {
-        strcpy(text, isnan(value) ? "nan" : value < 0 ? "-inf" : "inf");
-        length = strlen(text);
-    }
+    char text[HNBRDF_NUMBER_TEXT];
+    const size_t length = strlen(hnbrdf_print_number(text, value, digits));
     if (size > 0) {
         const size_t kept = length < size ? length : size - 1;
         memcpy(buffer, text, kept);

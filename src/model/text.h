@@ -3,10 +3,9 @@
 #ifndef HNBRDF_MODEL_TEXT_H
 #define HNBRDF_MODEL_TEXT_H
 
-#include <stddef.h>
+#include "core/number.h" /* HNBRDF_NUMBER_TEXT: a buffer that holds any number printed here */
 
-/* A buffer that holds any number printed here, with its NUL. */
-enum { HNBRDF_NUMBER_TEXT = 32 };
+#include <stddef.h>
 
 /* Print as C's "%.9g" (float) and "%.17g" (double) do in the C locale: enough digits to read back the
  * same bits. Returns the length as snprintf does: what does not fit in size bytes is cut, and what is
