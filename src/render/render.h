@@ -105,10 +105,13 @@ void render_shade(const render_surface *surface, const render_environment *envir
 
 /* Seen along -z by a camera at 8 radii with a long lens; the unit sphere fills 1 / RENDER_FRAME of the
  * square picture. */
-#define RENDER_FRAME 1.06
+#define RENDER_FRAME 1.06f
+#define RENDER_DISTANCE 8.0f
+/* The outline's place in the picture plane times RENDER_FRAME: RENDER_FRAME / sqrt(RENDER_DISTANCE^2 - 1). */
+#define RENDER_SCALE 0.13354744f
 /* The ray through (x, y) in [-1, 1]^2, y up. Returns 1 and the point it hits, or 0. The tangent points
- * along increasing longitude about y; at the poles along +x. */
-int render_sphere_hit(double x, double y, render_point *point);
+ * along increasing longitude about y. shaders/sphere.comp holds the same, to the last bit. */
+int render_sphere_hit(float x, float y, render_point *point);
 
 /* Zero-initialise for defaults. */
 typedef struct render_options {
