@@ -170,12 +170,17 @@ static size_t texel_of(const render_environment *environment, const float direct
     return row * (size_t)environment->width + column;
 }
 
+double render_environment_density(const render_environment *environment, size_t number)
+{
+    return luminance(environment->rgb + 3 * number) / environment->total;
+}
+
 /* Radiance of a texel, and the density of directions in it. */
 static double look(const render_environment *environment, size_t number, float radiance[3])
 {
     const float *rgb = environment->rgb + 3 * number;
     memcpy(radiance, rgb, 3 * sizeof(float));
-    return luminance(rgb) / environment->total;
+    return render_environment_density(environment, number);
 }
 
 void render_environment_lookup_many(const render_environment *environment, int count,

@@ -47,6 +47,8 @@ void render_environment_free(render_environment *environment);
 /* Radiance from a unit direction; returns the density with which sample() draws it, in 1/sr. */
 double render_environment_lookup(const render_environment *environment, const float direction[3],
                                  float radiance[3]);
+/* The density in 1/sr of directions in a texel, by its number: row by row. */
+double render_environment_density(const render_environment *environment, size_t texel);
 /* Draws a direction; u in [0, 1)^2. Returns its density in 1/sr, > 0. */
 double render_environment_sample(const render_environment *environment, const double u[2],
                                  float direction[3], float radiance[3]);

@@ -126,6 +126,12 @@ typedef struct render_options {
     void *progress_user;
 } render_options;
 
+/* Where in [-1, 1]^2 the ray of a pixel's sample passes, y up. Settled options; the stream is the pixel's. */
+void render_sphere_place(const render_options *options, size_t pixel, const render_stream *stream,
+                         uint32_t index, float at[2]);
+/* options with its zeros settled; HNBRDF_ERROR_ARGUMENT if spp is not 1 to 2^24. */
+hnbrdf_result render_options_settle(const render_options *options, render_options *settled,
+                                    hnbrdf_error *error);
 /* Pixels of radiance with the sphere's coverage as alpha; black and 0 beside it. */
 hnbrdf_result render_sphere(const render_surface *surface, const render_environment *environment,
                             const render_options *options, render_image *image, hnbrdf_error *error);

@@ -54,6 +54,16 @@ static float across(uint32_t u)
     return (float)(u >> 8) * 0x1p-23f;
 }
 
+void render_sphere_place(const render_options *options, size_t pixel, const render_stream *stream,
+                         uint32_t index, float at[2])
+{
+    int size = options->size, column = (int)(pixel % (size_t)size), row = (int)(pixel / (size_t)size);
+    uint32_t u[2];
+    render_stream_pair(stream, RENDER_PAIR_LENS, index, u);
+    at[0] = ((float)(2 * column - size) + across(u[0])) / (float)size;
+    at[1] = ((float)(size - 2 * row) - across(u[1])) / (float)size;
+}
+
 static void render_pixel(const render_job *job, int column, int row)
 {
     const render_options *options = &job->options;
@@ -66,11 +76,9 @@ static void render_pixel(const render_job *job, int column, int row)
     for (int first = 0; first < options->spp; first += RENDER_BLOCK) {
         int count = options->spp - first < RENDER_BLOCK ? options->spp - first : RENDER_BLOCK, hits = 0;
         for (int i = 0; i < count; i++) {
-            uint32_t u[2];
-            render_stream_pair(&stream, RENDER_PAIR_LENS, (uint32_t)(first + i), u);
-            float x = ((float)(2 * column - options->size) + across(u[0])) / (float)options->size;
-            float y = ((float)(options->size - 2 * row) - across(u[1])) / (float)options->size;
-            hits += render_sphere_hit(x, y, &points[hits]);
+            float at[2];
+            render_sphere_place(options, pixel, &stream, (uint32_t)(first + i), at);
+            hits += render_sphere_hit(at[0], at[1], &points[hits]);
         }
         render_shade(job->surface, job->environment, options->strategy, &stream, (uint32_t)first,
                      points, hits, sum);
@@ -129,20 +137,29 @@ static int thread_count(int wanted)
     return count < 1 ? 1 : count > MAX_THREADS ? MAX_THREADS : (int)count;
 }
 
+hnbrdf_result render_options_settle(const render_options *options, render_options *settled,
+                                    hnbrdf_error *error)
+{
+    render_options result = *options;
+    if (result.size == 0)
+        result.size = 512;
+    if (result.spp == 0)
+        result.spp = 64;
+    if (result.spp < 1 || result.spp > 1 << 24)
+        return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT, "%d samples a pixel: expected 1 to %d", result.spp,
+                           1 << 24);
+    *settled = result;
+    return HNBRDF_OK;
+}
+
 hnbrdf_result render_sphere(const render_surface *surface, const render_environment *environment,
                             const render_options *options, render_image *image, hnbrdf_error *error)
 {
     render_image result;
-    render_job job = {
-        .surface = surface, .environment = environment, .options = *options, .image = &result};
-    if (job.options.size == 0)
-        job.options.size = 512;
-    if (job.options.spp == 0)
-        job.options.spp = 64;
-    if (job.options.spp < 1 || job.options.spp > 1 << 24)
-        return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT, "%d samples a pixel: expected 1 to %d",
-                           job.options.spp, 1 << 24);
-    hnbrdf_result created = render_image_create(job.options.size, job.options.size, 1, &result, error);
+    render_job job = {.surface = surface, .environment = environment, .image = &result};
+    hnbrdf_result created = render_options_settle(options, &job.options, error);
+    if (created == HNBRDF_OK)
+        created = render_image_create(job.options.size, job.options.size, 1, &result, error);
     if (created != HNBRDF_OK)
         return created;
     job.tiles_across = (job.options.size + TILE - 1) / TILE;
