@@ -153,7 +153,8 @@ static int run(render_job *job)
         return CLI_FAILURE;
     if (render_guide_model(&job->guide, &error) != HNBRDF_OK)
         return cli_fail("%s", error.text);
-    return render_all(job) == CLI_OK ? write_picture(job) : CLI_FAILURE;
+    int code = render_all(job);
+    return code == CLI_OK ? write_picture(job) : code;
 }
 
 int cmd_render(int argc, char **argv)

@@ -121,22 +121,21 @@ static int run_on(const render_gpu *job, const gpu_device *device, render_image 
     return code;
 }
 
-/* The number of a device, or -1 after a message. */
-static int choose(const gpu_instance *instance, const char *text)
+/* CLI_OK, or an exit code after a message. */
+static int choose(const gpu_instance *instance, const char *text, int *index)
 {
     char *end;
     long number = strtol(text, &end, 10);
     if (end == text || *end)
-        return cli_fail("--device: found '%s', expected a number (hnbrdf verify --list)", text), -1;
+        return cli_fail("--device: found '%s', expected a number (hnbrdf verify --list)", text), CLI_USAGE;
     if (instance->count == 0)
         return cli_fail("no Vulkan device found (Debian: apt-get install mesa-vulkan-drivers brings one in "
-                        "software)"),
-               -1;
+                        "software)");
     if (number < 0 || number >= instance->count)
         return cli_fail("--device %ld: this machine has devices 0 to %d (hnbrdf verify --list)", number,
-                        instance->count - 1),
-               -1;
-    return (int)number;
+                        instance->count - 1);
+    *index = (int)number;
+    return CLI_OK;
 }
 
 int render_gpu_run(const render_gpu *job, render_image *image)
@@ -144,12 +143,13 @@ int render_gpu_run(const render_gpu *job, render_image *image)
     gpu_instance instance;
     gpu_device device;
     hnbrdf_error error;
+    int index = 0;
     if (gpu_open(GPU_NOT_VALIDATED, &instance, &error) != HNBRDF_OK)
         return cli_fail("%s", error.text);
-    int code = CLI_FAILURE, index = choose(&instance, job->device);
-    if (index >= 0 && gpu_device_open(&instance, index, &device, &error) != HNBRDF_OK) {
-        cli_fail("%s", error.text);
-    } else if (index >= 0) {
+    int code = choose(&instance, job->device, &index);
+    if (code == CLI_OK && gpu_device_open(&instance, index, &device, &error) != HNBRDF_OK) {
+        code = cli_fail("%s", error.text);
+    } else if (code == CLI_OK) {
         code = run_on(job, &device, image);
         gpu_device_close(&device);
     }

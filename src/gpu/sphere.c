@@ -29,24 +29,6 @@ typedef struct push_constants {
 
 /* ---- Opening --------------------------------------------------------------------------------- */
 
-typedef struct growing {
-    char *bytes;
-    size_t size;
-} growing;
-
-static int append(void *user, const void *data, size_t size)
-{
-    growing *text = user;
-    char *grown = realloc(text->bytes, text->size + size + 1);
-    if (!grown)
-        return 1;
-    memcpy(grown + text->size, data, size);
-    text->bytes = grown;
-    text->size += size;
-    grown[text->size] = '\0';
-    return 0;
-}
-
 /* Opens a buffer and fills it by `fill`, which gets the environment and `size` bytes. */
 static hnbrdf_result open_filled(const gpu_device *device, const render_environment *environment,
                                  size_t size, void (*fill)(const render_environment *, void *),
@@ -140,8 +122,8 @@ hnbrdf_result gpu_sphere_open(const gpu_device *device, const hnbrdf_model *mode
     const hnbrdf_glsl_options options = {
         .materials = &material, .material_count = 1, .only = HNBRDF_GLSL_EVAL_SAMPLE, .fixed = 1};
     const int strategies = RENDER_BRDF + 1;
-    growing scene = {0};
-    hnbrdf_result result = hnbrdf_export_glsl(model, &options, append, &scene, error);
+    gpu_text scene = {0};
+    hnbrdf_result result = hnbrdf_export_glsl(model, &options, gpu_text_append, &scene, error);
     if (!result)
         result = open_buffers(&s, environment, mode, error);
     if (!result)
