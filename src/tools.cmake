@@ -4,7 +4,7 @@ set(HNBRDF_TOOL_SOURCES
   src/cli/progress.c src/cli/texels.c src/cli/svg.c
   src/cli/cmd_fit.c src/cli/fit_log.c src/cli/fit_speed.c src/cli/loss_plot.c
   src/cli/cmd_eval.c src/cli/cmd_compare.c src/cli/compare_images.c src/cli/cmd_export.c
-  src/cli/cmd_verify.c src/cli/cmd_render.c src/cli/cmd_sheet.c src/cli/cmd_import.c
+  src/cli/cmd_verify.c src/cli/cmd_render.c src/cli/render_gpu.c src/cli/cmd_sheet.c src/cli/cmd_import.c
   src/cli/cmd_info.c src/cli/picture.c src/cli/palette.c src/cli/cmd_edit.c src/cli/cmd_mix.c src/cli/cmd_report_sampling.c src/cli/sampling_measure.c src/cli/sampling_write.c
   src/cli/sampling_strips.c src/cli/lobes.c src/cli/cmd_lobes.c
   src/cli/peak.c src/cli/cmd_report.c src/cli/cmd_bake.c src/cli/bake_search.c src/cli/bake_sizes.c
@@ -58,7 +58,8 @@ target_compile_definitions(hnbrdf_cli PRIVATE _POSIX_C_SOURCE=200809L)
 if(HNBRDF_WITH_VULKAN)
   # What the harness compiles, as texts named hnbrdf_ and the file's name with _ for the dot.
   set(HNBRDF_SHADER_TEXTS "")
-  foreach(shader verify.comp probe.comp probe_half.comp bench.comp evaluate.comp)
+  foreach(shader verify.comp probe.comp probe_half.comp bench.comp evaluate.comp
+      sphere.comp)
     string(REPLACE "." "_" symbol ${shader})
     set(text ${CMAKE_CURRENT_BINARY_DIR}/generated/${symbol}.c)
     add_custom_command(OUTPUT ${text}
@@ -71,8 +72,9 @@ if(HNBRDF_WITH_VULKAN)
   add_library(hnbrdf_gpu STATIC EXCLUDE_FROM_ALL
     src/gpu/device.c src/gpu/compile.c src/gpu/compute.c src/gpu/probe.c src/gpu/probe_half.c
     src/gpu/half.c src/gpu/pairs.c src/gpu/bounds.c src/gpu/reference.c src/gpu/scene.c src/gpu/verify.c
-    src/gpu/timed.c src/gpu/evaluate.c ${HNBRDF_SHADER_TEXTS})
-  target_link_libraries(hnbrdf_gpu PRIVATE hnbrdf_flags PUBLIC hnbrdf_measured_static Vulkan::Vulkan)
+    src/gpu/timed.c src/gpu/evaluate.c src/gpu/sphere.c ${HNBRDF_SHADER_TEXTS})
+  target_link_libraries(hnbrdf_gpu PRIVATE hnbrdf_flags PUBLIC hnbrdf_render hnbrdf_measured_static
+    Vulkan::Vulkan)
   target_compile_definitions(hnbrdf_gpu PRIVATE _POSIX_C_SOURCE=200809L)
   target_sources(hnbrdf_cli PRIVATE src/cli/verify_report.c)
   target_compile_definitions(hnbrdf_cli PRIVATE HNBRDF_WITH_VULKAN)

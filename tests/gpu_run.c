@@ -4,7 +4,6 @@
 
 #include "gpu/compile.h"
 #include "gpu/compute.h"
-#include "gpu/probe.h"
 
 #include <dlfcn.h>
 #include <stdio.h>
@@ -49,6 +48,16 @@ int gpu_run_exact(void)
 {
     return arithmetic.exact_basic && arithmetic.exact_divide && arithmetic.exact_sqrt &&
            (arithmetic.keeps_denormals || (CAN_FLUSH && arithmetic.flushes_denormals));
+}
+
+const gpu_device *gpu_run_device(void)
+{
+    return &device;
+}
+
+gpu_rules gpu_run_rules(int exact)
+{
+    return exact ? gpu_rules_exact(&arithmetic) : gpu_rules_fast(&arithmetic, device.driver_id);
 }
 
 #if CAN_FLUSH

@@ -5,6 +5,8 @@
 
 #include "hnbrdf/hnbrdf.h"
 
+#include "gpu/probe.h"
+
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdint.h>
@@ -21,6 +23,10 @@ int gpu_run_tests(const struct CMUnitTest *tests, size_t count);
 int gpu_run_exact(void);
 void gpu_run_c_begin(void);
 void gpu_run_c_end(void);
+
+/* The device that the running test is to use, and how it rounds in a build with HNBRDF_EXACT 1 or 0. */
+const gpu_device *gpu_run_device(void);
+gpu_rules gpu_run_rules(int exact);
 
 /* SPIR-V of body with HNBRDF_EXACT 1 or 0, malloc'ed. The body follows hybrid_brdf.glsl, the scene and
  *   uint in_words[], float results[] (set 0, bindings 0 and 1), uint count, int material (push

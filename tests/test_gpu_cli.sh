@@ -1,5 +1,5 @@
 #!/bin/sh
-# test_gpu_cli.sh HNBRDF SCENES: `hnbrdf export` and `hnbrdf verify` as a user runs them.
+# test_gpu_cli.sh HNBRDF SCENES: `hnbrdf export`, `hnbrdf verify` and `hnbrdf render --device` as a user runs them.
 set -eu
 hnbrdf=$1 scenes=$2
 work=$(mktemp -d)
@@ -62,4 +62,18 @@ status 0 "$hnbrdf" verify "$uneven" --device 0 --pairs 256 --weights uniform --p
 grep -q '"weights": "uniform", "precision": "half"' "$work/v.json" || fail "json does not name the style"
 status 1 "$hnbrdf" verify "$model" --device 99
 status 2 "$hnbrdf" verify "$model" --device first
+
+# Render: device and CPU, times of both, the comparison; the picture beside it.
+render() { expected=$1; shift; status "$expected" "$hnbrdf" render "$@" --size 24 --spp 80 -o "$work/r.png"; }
+render 0 "$model" --material gold-paint --device 0 --check
+[ "$(grep -c 'ns a sample$' "$work/out")" = 2 ] || fail "no two times"
+grep -q '^check: ' "$work/out" || fail "no comparison"
+[ -s "$work/r.png" ] || fail "no picture"
+rm "$work/r.png"
+render 1 "$model" --material gold-paint --device 99
+render 1 builtin:clear-coat-red --device 0
+render 2 "$model" --material gold-paint --device first
+render 2 "$model" --material gold-paint --device 0 --analytic
+render 2 "$model" --material gold-paint --check
+[ -e "$work/r.png" ] && fail "a failed rendering leaves a picture"
 echo ok

@@ -2,6 +2,7 @@
 #include "render/environment.h"
 
 #include "hnbrdf/measured.h"
+#include "render/turn.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -48,6 +49,28 @@ static double texel_angle(const render_environment *environment, int row)
 {
     return 2.0 * pi / environment->width *
            (cos(pi * row / environment->height) - cos(pi * (row + 1) / environment->height));
+}
+
+/* The errors that turn.h states, over all directions and magnitudes; ends and axes are exact. */
+static void turn_is_within_its_error(void **state)
+{
+    (void)state;
+    hnbrdf_rng rng;
+    hnbrdf_rng_seed(&rng, 4, 0);
+    for (int i = 0; i < 2000000; i++) {
+        float length = exp2f(120.0f * hnbrdf_rng_float(&rng) - 60.0f);
+        double angle = i % 4 == 0 ? pow(10.0, -8.0 * (double)hnbrdf_rng_float(&rng)) * pi / 4.0
+                                  : 2.0 * pi * (double)hnbrdf_rng_float(&rng);
+        float y = length * (float)sin(angle), x = length * (float)cos(angle);
+        double turn = atan2((double)y, (double)x) / (2.0 * pi), found = (double)render_turn(y, x);
+        turn += turn < 0.0;
+        assert_true(fabs(found - turn) <= 8e-8);
+        if (turn < 0.125)
+            assert_true(fabs(found - turn) <= 3e-7 * turn);
+    }
+    assert_true(render_turn(0.0f, 0.0f) == 0.0f && render_turn(0.0f, 1.0f) == 0.0f);
+    assert_true(render_turn(1.0f, 0.0f) == 0.25f && render_turn(2.0f, 2.0f) == 0.125f);
+    assert_true(render_turn(0.0f, -1.0f) == 0.5f && render_turn(-1.0f, 0.0f) == 0.75f);
 }
 
 static const int sizes[][2] = {{1, 1}, {7, 5}, {64, 32}, {128, 1}, {3, 100}};
@@ -268,6 +291,7 @@ static void white_diffuse_sphere_under_the_sky_is_near_one(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(turn_is_within_its_error),
         cmocka_unit_test(density_integrates_to_one),
         cmocka_unit_test(sampling_frequencies_match_the_density),
         cmocka_unit_test(lookup_agrees_with_sampling),

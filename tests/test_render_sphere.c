@@ -127,7 +127,7 @@ static void shading_frame_is_right_handed_and_orthonormal(void **state)
     int hits = 0;
     for (int i = 0; i < 200 * 200; i++) {
         render_point p;
-        if (!render_sphere_hit((i % 200 + 0.5) / 100.0 - 1.0, (i / 200 + 0.5) / 100.0 - 1.0, &p))
+        if (!render_sphere_hit((float)(2 * (i % 200) - 199) / 200.0f, (float)(2 * (i / 200) - 199) / 200.0f, &p))
             continue;
         const float *t = p.tangent, *b = p.bitangent, *n = p.normal;
         float cross[3] = {t[1] * b[2] - t[2] * b[1], t[2] * b[0] - t[0] * b[2],
@@ -140,7 +140,36 @@ static void shading_frame_is_right_handed_and_orthonormal(void **state)
         hits++;
     }
     /* The disc of radius 1 / RENDER_FRAME; a pixel's area is 1e-4, its edge is off by a few. */
-    assert_true(fabs(hits * 1e-4 - pi / (RENDER_FRAME * RENDER_FRAME)) < 0.01);
+    assert_true(fabs(hits * 1e-4 - pi / (double)(RENDER_FRAME * RENDER_FRAME)) < 0.01);
+}
+
+/* The ray meets the sphere where it does in doubles: in floats everything is off by a few 2^-24, but D near the
+ * outline, the square root of what x and y leave to 1. */
+static void hits_are_where_the_ray_meets_the_sphere(void **state)
+{
+    (void)state;
+    for (float y = -0.95f; y < 0.95f; y += 0.0137f)
+        for (float x = -0.95f; x < 0.95f; x += 0.0151f) {
+            render_point p;
+            double distance = (double)RENDER_DISTANCE, frame = (double)RENDER_FRAME;
+            double scale = frame / sqrt(distance * distance - 1.0), d[3] = {x * scale, y * scale, -1.0};
+            double length = sqrt(d[0] * d[0] + d[1] * d[1] + 1.0), half = -distance / length;
+            double inside = half * half - (distance * distance - 1.0);
+            int hit = render_sphere_hit(x, y, &p);
+            if (fabs(inside) < 1e-4)
+                continue; /* the outline itself */
+            assert_int_equal(hit, inside > 0.0);
+            if (!hit)
+                continue;
+            double t = (-half - sqrt(inside)) / length, tolerance = 1e-6 / sqrt(inside);
+            for (int k = 0; k < 3; k++) {
+                double wo = (double)p.tangent[k] * (double)p.wo[0] +
+                            (double)p.bitangent[k] * (double)p.wo[1] +
+                            (double)p.normal[k] * (double)p.wo[2];
+                assert_true(fabs((double)p.normal[k] - (t * d[k] + (k == 2 ? distance : 0.0))) < tolerance);
+                assert_true(fabs(wo + d[k] / length) < tolerance);
+            }
+        }
 }
 
 /* Neighbouring rays have neighbouring tangents: their angle is bounded by the step over the distance
@@ -148,9 +177,9 @@ static void shading_frame_is_right_handed_and_orthonormal(void **state)
 static void tangent_has_no_seam(void **state)
 {
     (void)state;
-    const double step = 1e-3;
-    for (double y = -0.94; y < 0.94; y += 0.0202)
-        for (double x = -0.94; x < 0.94; x += step) {
+    const float step = 1e-3f;
+    for (float y = -0.94f; y < 0.94f; y += 0.0202f)
+        for (float x = -0.94f; x < 0.94f; x += step) {
             render_point p, q;
             if (!render_sphere_hit(x, y, &p) || !render_sphere_hit(x + step, y, &q))
                 continue;
@@ -167,7 +196,7 @@ static void picture_is_upright(void **state)
 {
     (void)state;
     render_point p;
-    assert_true(render_sphere_hit(0.5, 0.3, &p));
+    assert_true(render_sphere_hit(0.5f, 0.3f, &p));
     assert_true(p.normal[0] > 0.4f && p.normal[1] > 0.2f && p.normal[2] > 0.5f);
     render_surface surface = make_ggx(0.8f, 1.5f, 0.3f, 0.3f);
     render_image image = render(&surface, &sky, RENDER_MIS, 32, 16, 1, 1);
@@ -368,6 +397,7 @@ int main(void)
         cmocka_unit_test(samples_of_a_pixel_are_stratified),
         cmocka_unit_test(pairs_are_not_tied_to_each_other),
         cmocka_unit_test(shading_frame_is_right_handed_and_orthonormal),
+        cmocka_unit_test(hits_are_where_the_ray_meets_the_sphere),
         cmocka_unit_test(tangent_has_no_seam),
         cmocka_unit_test(picture_is_upright),
         cmocka_unit_test(lambert_sphere_returns_its_albedo_in_a_furnace),

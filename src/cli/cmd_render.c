@@ -1,5 +1,6 @@
 /* cmd_render.c: `hnbrdf render`: a sphere of one material, as OpenEXR with a PNG beside it. */
 #include "cli/picture.h"
+#include "cli/render_gpu.h"
 
 #include <string.h>
 
@@ -16,12 +17,14 @@ static const cli_command command = {
     "hnbrdf render model.safetensors --material gold-two-lobe --analytic -o gold_ggx.png\n"
     "hnbrdf render model.safetensors --material gold-two-lobe --env furnace --exposure -1 \\\n"
     "    --background env -o furnace.exr    # brighter than the ground: gives off more than it gets\n"
-    "hnbrdf render chrome.binary --env studio.hdr --rotate 90 --background env -o chrome.exr",
+    "hnbrdf render chrome.binary --env studio.hdr --rotate 90 --background env -o chrome.exr\n"
+    "hnbrdf render model.safetensors --material gold-two-lobe --device 0 --check -o gold.exr",
 };
 
 typedef struct render_job {
     const char *path, *material, *background, *output;
-    int analytic, half, layers;
+    const char *device; /* of Vulkan; NULL: the CPU */
+    int analytic, half, layers, check;
     long size;
     picture_options picture;
     cli_source source;
@@ -95,8 +98,26 @@ static int add_analytic_layer(render_job *job, picture_progress *progress)
     return code;
 }
 
+static int render_on_device(render_job *job)
+{
+    const render_gpu gpu = {.device = job->device,
+                            .check = job->check,
+                            .model = job->source.model,
+                            .material = job->index,
+                            .environment = &job->environment,
+                            .options = {.size = (int)job->size,
+                                        .spp = (int)job->picture.spp,
+                                        .seed = (uint64_t)job->picture.seed,
+                                        .threads = (int)job->picture.threads}};
+    if (!job->source.model)
+        return cli_fail("%s is no model: --device renders what `hnbrdf export` can write", job->path);
+    return render_gpu_run(&gpu, &job->image);
+}
+
 static int render_all(render_job *job)
 {
+    if (job->device)
+        return render_on_device(job);
     picture_progress progress = {.count = 1 + job->layers};
     cli_progress_begin(&progress.line, "rendering");
     int code = render_one(job, job->analytic, &progress, &job->image);
@@ -132,7 +153,8 @@ static int run(render_job *job)
         return CLI_FAILURE;
     if (render_guide_model(&job->guide, &error) != HNBRDF_OK)
         return cli_fail("%s", error.text);
-    return render_all(job) == CLI_OK ? write_picture(job) : CLI_FAILURE;
+    int code = render_all(job);
+    return code == CLI_OK ? write_picture(job) : code;
 }
 
 int cmd_render(int argc, char **argv)
@@ -151,6 +173,10 @@ int cmd_render(int argc, char **argv)
         {"layers", 0, CLI_FLAG, &job.layers, 0, 0, NULL,
          "EXR: also the analytic part, as analytic.R, .G, .B"},
         {"half", 0, CLI_FLAG, &job.half, 0, 0, NULL, "EXR: half instead of float"},
+        {"device", 'd', CLI_TEXT, &job.device, 0, 0, "N",
+         "on Vulkan device N (hnbrdf verify --list), by the exported shader and its sampling"},
+        {"check", 0, CLI_FLAG, &job.check, 0, 0, NULL,
+         "with --device: also on the CPU, with the same random numbers; fails if they differ"},
         CLI_READING_OPTIONS,
         CLI_SIGNED_OPTION,
         {NULL, 0, CLI_FLAG, NULL, 0, 0, NULL, NULL},
@@ -162,6 +188,10 @@ int cmd_render(int argc, char **argv)
         return cli_usage(&command, "expected one SOURCE, found %d", positionals);
     if (!is_one_of(job.background, "backdrop", "env", "none"))
         return cli_usage(&command, "--background %s: expected backdrop, env or none", job.background);
+    if (job.check && !job.device)
+        return cli_usage(&command, "--check compares a device with the CPU: expected --device N too");
+    if (job.device && (job.analytic || job.layers))
+        return cli_usage(&command, "--analytic and --layers are for the CPU, without --device");
     code = picture_check_output(&command, job.output);
     if (code >= 0)
         return code;

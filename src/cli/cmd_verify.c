@@ -3,6 +3,7 @@
 
 #ifdef HNBRDF_WITH_VULKAN
 #include "cli/verify_report.h"
+#include "gpu/compile.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -37,30 +38,8 @@ typedef struct settings {
 
 /* ---- The scene ------------------------------------------------------------------------------- */
 
-typedef struct growing_text {
-    char *bytes;
-    size_t size, room;
-} growing_text;
-
-static int append(void *user, const void *data, size_t size)
-{
-    growing_text *text = user;
-    if (text->size + size + 1 > text->room) {
-        size_t room = 2 * (text->size + size + 1);
-        char *grown = realloc(text->bytes, room);
-        if (!grown)
-            return 1;
-        text->bytes = grown;
-        text->room = room;
-    }
-    memcpy(text->bytes + text->size, data, size);
-    text->size += size;
-    text->bytes[text->size] = '\0';
-    return 0;
-}
-
 typedef struct exported_scene {
-    growing_text text, weights;
+    gpu_text text, weights;
 } exported_scene;
 
 static int export_scene(const hnbrdf_model *model, const settings *set, const int *materials, int count,
@@ -72,9 +51,9 @@ static int export_scene(const hnbrdf_model *model, const settings *set, const in
                                          .precision = (hnbrdf_glsl_precision)set->precision,
                                          .fixed = set->fixed};
     hnbrdf_error error;
-    hnbrdf_result result = hnbrdf_export_glsl(model, &options, append, &scene->text, &error);
+    hnbrdf_result result = hnbrdf_export_glsl(model, &options, gpu_text_append, &scene->text, &error);
     if (!result && options.weights == HNBRDF_GLSL_UNIFORM && hnbrdf_weights_size(model) > 0)
-        result = hnbrdf_export_weights(model, &options, append, &scene->weights, &error);
+        result = hnbrdf_export_weights(model, &options, gpu_text_append, &scene->weights, &error);
     return result ? cli_fail("%s", error.text) : CLI_OK;
 }
 

@@ -30,6 +30,23 @@ int gpu_compiler_found(void)
     return 0;
 }
 
+int gpu_text_append(void *user, const void *data, size_t size)
+{
+    gpu_text *text = user;
+    if (text->size + size + 1 > text->room) {
+        size_t room = 2 * (text->size + size + 1);
+        char *grown = realloc(text->bytes, room);
+        if (!grown)
+            return 1;
+        text->bytes = grown;
+        text->room = room;
+    }
+    memcpy(text->bytes + text->size, data, size);
+    text->size += size;
+    text->bytes[text->size] = '\0';
+    return 0;
+}
+
 /* ---- Files in the private directory ---------------------------------------------------------- */
 
 typedef struct workplace {

@@ -11,6 +11,13 @@ typedef struct gpu_include {
     const char *name, *text;
 } gpu_include;
 
+/* A text that grows by gpu_text_append(), which is an hnbrdf_write_fn. Zero-initialise; free bytes. */
+typedef struct gpu_text {
+    char *bytes; /* ends in a NUL that size does not count; NULL while empty */
+    size_t size, room;
+} gpu_text;
+int gpu_text_append(void *text, const void *data, size_t size);
+
 enum { GPU_MAX_DEFINES = 3 };
 
 /* 1 if glslangValidator is in PATH. */

@@ -26,28 +26,6 @@ enum {
     INPUTS = 45
 };
 
-typedef struct growing {
-    char *bytes;
-    size_t size, room;
-} growing;
-
-static int append(void *user, const void *data, size_t size)
-{
-    growing *text = user;
-    if (text->size + size + 1 > text->room) {
-        size_t room = 2 * (text->size + size + 1);
-        char *grown = realloc(text->bytes, room);
-        if (!grown)
-            return 1;
-        text->bytes = grown;
-        text->room = room;
-    }
-    memcpy(text->bytes + text->size, data, size);
-    text->size += size;
-    text->bytes[text->size] = '\0';
-    return 0;
-}
-
 /* The fields that the exporter gives to the struct of a scene that is anisotropic and turned. */
 static void write_reader(const hnbrdf_model_desc *desc, char text[1024])
 {
@@ -87,18 +65,18 @@ static hnbrdf_result general_model(const hnbrdf_model *model, hnbrdf_model **gen
     return hnbrdf_model_create(&desc, NULL, general, error);
 }
 
-static hnbrdf_result export_scene(const hnbrdf_model *general, const gpu_style *style, growing *scene,
-                                  growing *weights, hnbrdf_error *error)
+static hnbrdf_result export_scene(const hnbrdf_model *general, const gpu_style *style, gpu_text *scene,
+                                  gpu_text *weights, hnbrdf_error *error)
 {
     const hnbrdf_glsl_options options = {.weights = style->weights, .precision = style->precision};
-    hnbrdf_result result = hnbrdf_export_glsl(general, &options, append, scene, error);
+    hnbrdf_result result = hnbrdf_export_glsl(general, &options, gpu_text_append, scene, error);
     if (!result && style->weights == HNBRDF_GLSL_UNIFORM && hnbrdf_weights_size(general) > 0)
-        result = hnbrdf_export_weights(general, &options, append, weights, error);
+        result = hnbrdf_export_weights(general, &options, gpu_text_append, weights, error);
     return result;
 }
 
 static hnbrdf_result open_program(gpu_evaluator *e, const hnbrdf_model *general, const gpu_style *style,
-                                  const growing *scene, const growing *weights, hnbrdf_error *error)
+                                  const gpu_text *scene, const gpu_text *weights, hnbrdf_error *error)
 {
     hnbrdf_model_desc desc;
     char reader[1024];
@@ -130,7 +108,7 @@ hnbrdf_result gpu_evaluator_open(const gpu_device *device, const hnbrdf_model *m
                                  hnbrdf_error *error)
 {
     gpu_evaluator e = {.device = device, .model = model, .capacity = capacity};
-    growing scene = {0}, weights = {0};
+    gpu_text scene = {0}, weights = {0};
     hnbrdf_model *general = NULL;
     hnbrdf_result result = general_model(model, &general, error);
     if (!result)

@@ -105,22 +105,32 @@ static void put_pdf(hnbrdf_printer *out, const hnbrdf_scene *s)
     hnbrdf_put(out, "    return hnbrdf_density(%s, m.lobes, wi, wo);\n}\n", alpha_text(s));
 }
 
-static void put_sample(hnbrdf_printer *out, const hnbrdf_scene *s)
+static void put_sample_direction(hnbrdf_printer *out, const hnbrdf_scene *s)
 {
-    hnbrdf_put(out, "\n// Draws wi given wo; u is three numbers in [0, 1): make them as float(u32 >> "
-                    "8) * 2^-24.\n");
-    hnbrdf_put(out, "hnbrdf_sample_result hnbrdf_sample(hnbrdf_material m, vec3 wo, vec3 u)\n{\n"
-                    "    hnbrdf_sample_result drawn = "
-                    "hnbrdf_sample_result(vec3(0.0, 0.0, 1.0), 0.0, vec3(0.0));\n"
-                    "    if (!(wo.z > 0.0))\n        return drawn;\n");
-    hnbrdf_put(out, "    vec3 wi = hnbrdf_draw(%s, m.lobes, %s, u);\n", alpha_text(s),
+    hnbrdf_put(out, "\n// Draws wi alone, for renderers that weigh it otherwise; u is three numbers in [0, 1): make "
+                    "them as\n// float(u32 >> 8) * 2^-24. Returns its density; 0: no direction, "
+                    "(0, 0, 1).\n");
+    hnbrdf_put(out, "float hnbrdf_sample_direction(hnbrdf_material m, vec3 wo, vec3 u, out vec3 wi)\n{\n"
+                    "    wi = vec3(0.0, 0.0, 1.0);\n"
+                    "    if (!(wo.z > 0.0))\n        return 0.0;\n");
+    hnbrdf_put(out, "    vec3 drawn = hnbrdf_draw(%s, m.lobes, %s, u);\n", alpha_text(s),
                s->rotated ? "hnbrdf_to_tangent(m.rotation, wo)" : "wo");
     if (s->rotated)
-        hnbrdf_put(out, "    wi = hnbrdf_from_tangent(m.rotation, wi);\n");
-    hnbrdf_put(out, "    float pdf = hnbrdf_pdf(m, wi, wo);\n"
-                    "    if (!(pdf > 0.0))\n        return drawn;\n"
-                    "    HNBRDF_PRECISE vec3 weight = hnbrdf_eval(m, wi, wo) * wi.z / pdf;\n"
-                    "    drawn.wi = wi;\n    drawn.pdf = pdf;\n"
+        hnbrdf_put(out, "    drawn = hnbrdf_from_tangent(m.rotation, drawn);\n");
+    hnbrdf_put(out, "    float pdf = hnbrdf_pdf(m, drawn, wo);\n"
+                    "    if (!(pdf > 0.0))\n        return 0.0;\n"
+                    "    wi = drawn;\n    return pdf;\n}\n");
+}
+
+static void put_sample(hnbrdf_printer *out)
+{
+    hnbrdf_put(out, "\n// Draws wi given wo and weighs it.\n");
+    hnbrdf_put(out, "hnbrdf_sample_result hnbrdf_sample(hnbrdf_material m, vec3 wo, vec3 u)\n{\n"
+                    "    hnbrdf_sample_result drawn;\n"
+                    "    drawn.pdf = hnbrdf_sample_direction(m, wo, u, drawn.wi);\n"
+                    "    drawn.weight = vec3(0.0);\n"
+                    "    if (!(drawn.pdf > 0.0))\n        return drawn;\n"
+                    "    HNBRDF_PRECISE vec3 weight = hnbrdf_eval(m, drawn.wi, wo) * drawn.wi.z / drawn.pdf;\n"
                     "    drawn.weight = hnbrdf_finish(weight);\n    return drawn;\n}\n");
 }
 
@@ -146,7 +156,8 @@ void hnbrdf_put_evaluate(hnbrdf_printer *out, const hnbrdf_scene *s)
     put_eval(out, s);
     if (hnbrdf_scene_has_sampling(s)) {
         put_pdf(out, s);
-        put_sample(out, s);
+        put_sample_direction(out, s);
+        put_sample(out);
     }
     if (s->fixed)
         put_named(out, s);

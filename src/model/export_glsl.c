@@ -45,6 +45,7 @@ static void put_contents(hnbrdf_printer *out, const hnbrdf_scene *s)
                                {"hnbrdf_eval_NAME", s->fixed},
                                {"hnbrdf_eval_analytic", everything},
                                {"hnbrdf_sample", hnbrdf_scene_has_sampling(s)},
+                               {"hnbrdf_sample_direction", hnbrdf_scene_has_sampling(s)},
                                {"hnbrdf_pdf", hnbrdf_scene_has_sampling(s)},
                                {"hnbrdf_material_unpack", s->packing != NULL}};
     const listed left_out[] = {{"anisotropy", analytic && !s->anisotropic},
@@ -53,7 +54,7 @@ static void put_contents(hnbrdf_printer *out, const hnbrdf_scene *s)
                                {"latent code (in the first bias)", s->folded},
                                {"the analytic part alone", analytic && !everything},
                                {"sampling", !hnbrdf_scene_has_sampling(s)}};
-    put_list(out, "//   contains   ", contents, 6);
+    put_list(out, "//   contains   ", contents, 7);
     put_list(out, "//   left out   ", left_out, 6);
 }
 

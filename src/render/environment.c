@@ -2,6 +2,8 @@
 #include "render/environment.h"
 
 #include "core/error.h"
+#include "core/math.h"
+#include "render/turn.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -27,35 +29,56 @@ static hnbrdf_result check_values(render_image *image, const char *name, hnbrdf_
     return HNBRDF_OK;
 }
 
-/* Cuts [0, total) into `count` equal cells and keeps for each the first of the ascending sums that is
- * greater than where it begins (Chen and Asau 1974). */
-static void cut(const double *sums, int count, uint16_t *starts)
+/* Cuts the places into `count` equal cells and keeps for each the first of the ascending ends that lies
+ * behind its first place (Chen and Asau 1974). */
+static void cut(const uint32_t *ends, int count, uint16_t *starts)
 {
-    double total = sums[count - 1];
-    for (int cell = 0, index = 0; cell < count; cell++) {
-        while (index < count - 1 && sums[index] <= total * cell / count)
+    const uint64_t cells = (uint64_t)count;
+    for (uint64_t cell = 0, index = 0; cell < cells; cell++) {
+        uint64_t first = (cell * RENDER_ENVIRONMENT_PLACES + cells - 1) / cells;
+        while (index < cells - 1 && ends[index] <= first)
             index++;
         starts[cell] = (uint16_t)index;
     }
 }
 
+static uint32_t end_of(double sum, double total)
+{
+    return (uint32_t)(sum / total * RENDER_ENVIRONMENT_PLACES + 0.5);
+}
+
+/* Places for the texels of a row, by luminance, of which it returns the sum. */
+static double divide_row(const float *rgb, int width, uint32_t *ends)
+{
+    double sum = 0.0, total = 0.0;
+    for (int x = 0; x < width; x++)
+        total += luminance(rgb + 3 * x);
+    for (int x = 0; x < width; x++) {
+        sum += luminance(rgb + 3 * x);
+        ends[x] = total > 0.0 ? end_of(sum, total) : 0;
+    }
+    return total;
+}
+
 static void sum_luminance(render_environment *environment)
 {
-    size_t width = (size_t)environment->width;
-    double step = 2.0 * pi / environment->width, total = 0.0;
-    for (int y = 0; y <= environment->height; y++)
-        environment->borders[y] = cos(pi * y / environment->height);
-    for (int y = 0; y < environment->height; y++) {
-        double *sums = environment->columns + (size_t)y * width, sum = 0.0;
-        for (size_t x = 0; x < width; x++)
-            sums[x] = sum += luminance(environment->rgb + 3 * ((size_t)y * width + x));
-        environment->sums[y] = sum;
-        total += sum * step * (environment->borders[y] - environment->borders[y + 1]);
-        environment->rows[y] = total;
-        cut(sums, environment->width, environment->column_start + (size_t)y * width);
+    const int width = environment->width, height = environment->height;
+    double step = 2.0 * pi / width, total = 0.0;
+    for (int y = 0; y <= height; y++) {
+        double half = sin(pi * (y < height - y ? y : height - y) / (2.0 * height));
+        environment->caps[y] = (float)(2.0 * half * half);
+    }
+    for (int y = 0; y < height; y++) {
+        size_t first = (size_t)y * (size_t)width;
+        double sum = divide_row(environment->rgb + 3 * first, width, environment->columns + first);
+        total += sum * step * (cos(pi * y / height) - cos(pi * (y + 1) / height));
+        environment->sums[y] = total;
+        cut(environment->columns + first, width, environment->column_start + first);
     }
     environment->total = total;
-    cut(environment->rows, environment->height, environment->row_start);
+    for (int y = 0; y < height; y++)
+        environment->rows[y] = total > 0.0 ? end_of(environment->sums[y], total) : 0;
+    cut(environment->rows, height, environment->row_start);
 }
 
 hnbrdf_result render_environment_create(render_image *image, double rotation, const char *name,
@@ -64,15 +87,19 @@ hnbrdf_result render_environment_create(render_image *image, double rotation, co
     hnbrdf_result checked = check_values(image, name, error);
     if (checked != HNBRDF_OK)
         return checked;
-    render_environment result = {.width = image->width, .height = image->height, .rotation = rotation};
+    double turn = rotation / (2.0 * pi);
+    render_environment result = {.width = image->width,
+                                 .height = image->height,
+                                 .rotation = rotation,
+                                 .turn = (float)(turn - floor(turn))};
     size_t height = (size_t)image->height, texels = height * (size_t)image->width;
-    result.rows = malloc(sizeof(double) * height);
     result.sums = malloc(sizeof(double) * height);
-    result.columns = malloc(sizeof(double) * texels);
-    result.borders = malloc(sizeof(double) * (height + 1));
+    result.rows = malloc(sizeof(uint32_t) * height);
+    result.columns = malloc(sizeof(uint32_t) * texels);
+    result.caps = malloc(sizeof(float) * (height + 1));
     result.row_start = malloc(sizeof(uint16_t) * height);
     result.column_start = malloc(sizeof(uint16_t) * texels);
-    if (!result.rows || !result.sums || !result.columns || !result.borders || !result.row_start ||
+    if (!result.rows || !result.sums || !result.columns || !result.caps || !result.row_start ||
         !result.column_start) {
         render_environment_free(&result);
         return hnbrdf_fail(error, HNBRDF_ERROR_MEMORY, "%s: no memory to sample %d x %d pixels", name,
@@ -120,29 +147,32 @@ void render_environment_free(render_environment *environment)
     free(environment->rows);
     free(environment->sums);
     free(environment->columns);
-    free(environment->borders);
+    free(environment->caps);
     free(environment->row_start);
     free(environment->column_start);
     memset(environment, 0, sizeof *environment);
 }
 
-static int texel(double place, int count)
+static int texel(float place, int count)
 {
-    return place > 0.0 ? (place < count ? (int)place : count - 1) : 0; /* NaN: 0 */
+    return place > 0.0f ? (place < (float)count ? (int)place : count - 1) : 0; /* NaN: 0 */
 }
 
-/* Number of the texel that a direction shows. */
+/* Number of the texel that a direction shows. shaders/sphere.comp holds the same, to the last bit. */
 static size_t texel_of(const render_environment *environment, const float direction[3])
 {
-    double y = (double)direction[1];
-    double theta = acos(y > -1.0 ? (y < 1.0 ? y : 1.0) : -1.0);
-    double turn =
-        (atan2((double)direction[0], -(double)direction[2]) + environment->rotation) / (2.0 * pi);
-    turn += 0.5;
-    turn -= floor(turn);
-    size_t row = (size_t)texel(theta / pi * environment->height, environment->height);
-    size_t column = (size_t)texel(turn * environment->width, environment->width);
+    float x = direction[0], y = direction[1], z = direction[2];
+    float polar = render_turn(sqrtf(x * x + z * z), y);
+    float turn = (render_turn(x, -z) + environment->turn) + 0.5f;
+    turn -= floorf(turn);
+    size_t row = (size_t)texel(2.0f * polar * (float)environment->height, environment->height);
+    size_t column = (size_t)texel(turn * (float)environment->width, environment->width);
     return row * (size_t)environment->width + column;
+}
+
+double render_environment_density(const render_environment *environment, size_t number)
+{
+    return luminance(environment->rgb + 3 * number) / environment->total;
 }
 
 /* Radiance of a texel, and the density of directions in it. */
@@ -150,7 +180,7 @@ static double look(const render_environment *environment, size_t number, float r
 {
     const float *rgb = environment->rgb + 3 * number;
     memcpy(radiance, rgb, 3 * sizeof(float));
-    return luminance(rgb) / environment->total;
+    return render_environment_density(environment, number);
 }
 
 void render_environment_lookup_many(const render_environment *environment, int count,
@@ -171,36 +201,62 @@ double render_environment_lookup(const render_environment *environment, const fl
     return look(environment, texel_of(environment, direction), radiance);
 }
 
-/* Where the search among count ascending sums begins. */
-static int cell(double total, int count, double x)
+/* ---- Drawing. shaders/sphere.comp holds the same, to the last bit. ------------------------------- */
+
+/* The number of a place; u in [0, 1). */
+static uint32_t place_of(double u)
 {
-    return texel(x / total * count, count);
+    return (uint32_t)(u * RENDER_ENVIRONMENT_PLACES);
 }
 
-/* The first of count ascending sums that is greater than x; never an entry that adds nothing. From where
- * x's cell begins it is one step on average; rounding may have put that start behind. */
-static int find(const double *sums, int start, int count, double x)
+/* The cell of a place. */
+static size_t cell(uint32_t place, int count)
 {
-    int index = start;
-    while (index > 0 && sums[index - 1] > x)
-        index--;
-    while (index < count - 1 && sums[index] <= x)
-        index++;
-    return index;
+    return (size_t)((uint64_t)place * (uint64_t)count / RENDER_ENVIRONMENT_PLACES);
 }
 
-/* Where x lies between the sum before index and the sum at it, in [0, 1]. */
-static double share(const double *sums, int index, double x)
+/* The first of the ascending ends that lies behind a place, never one without places of its own; from where
+ * the place's cell begins it is one step on average. */
+static int find(const uint32_t *ends, int start, uint32_t place)
 {
-    double before = index > 0 ? sums[index - 1] : 0.0;
-    double part = (x - before) / (sums[index] - before);
-    return part > 0.0 ? (part < 1.0 ? part : 1.0) : 0.0;
+    while (ends[start] <= place)
+        start++;
+    return start;
+}
+
+/* How far a place lies between the end before index and the end at it, in [0, 1]. */
+static float share(const uint32_t *ends, int index, uint32_t place)
+{
+    uint32_t before = index > 0 ? ends[index - 1] : 0;
+    return (float)(place - before) / (float)(ends[index] - before);
+}
+
+/* The direction that a point of the map shows: texel, and how far down and along inside it. Uniform in solid
+ * angle: 1 - |y|, the height of the cap above it, is linear in `down`. */
+static void direction_of(const render_environment *environment, int row, int column, float down,
+                         float along, float direction[3])
+{
+    float upper = environment->caps[row], lower = environment->caps[row + 1], cap, y, sine, cosine;
+    int mirrored = environment->height - 1 - row;
+    if (row == mirrored) { /* across the equator */
+        y = (1.0f - upper) * (1.0f - 2.0f * down);
+        cap = 1.0f - fabsf(y);
+    } else {
+        cap = upper + (lower - upper) * down;
+        y = row < mirrored ? 1.0f - cap : cap - 1.0f;
+    }
+    float radius = sqrtf(cap * (2.0f - cap));
+    float turn = (((float)column + along) / (float)environment->width + 0.5f) - environment->turn;
+    hnbrdf_sincos_turn(turn - floorf(turn), &sine, &cosine);
+    direction[0] = radius * sine;
+    direction[1] = y;
+    direction[2] = -(radius * cosine);
 }
 
 /* A sample on its way: what is still to be fetched for it lies at `cell` of the table of starts, then
- * around `column` of the row's sums. */
+ * around `column` of the row's ends. */
 typedef struct draw {
-    double along_rows, along_row;
+    uint32_t down, along;
     size_t base, cell; /* base: number of the row's first texel */
     int row, column;
 } draw;
@@ -208,12 +264,11 @@ typedef struct draw {
 static void draw_row(const render_environment *environment, const double u[2], draw *d)
 {
     int height = environment->height, width = environment->width;
-    d->along_rows = u[0] * environment->total;
-    d->row = find(environment->rows, environment->row_start[cell(environment->total, height, d->along_rows)],
-                  height, d->along_rows);
+    d->down = place_of(u[0]);
+    d->along = place_of(u[1]);
+    d->row = find(environment->rows, environment->row_start[cell(d->down, height)], d->down);
     d->base = (size_t)d->row * (size_t)width;
-    d->along_row = u[1] * environment->sums[d->row];
-    d->cell = d->base + (size_t)cell(environment->sums[d->row], width, d->along_row);
+    d->cell = d->base + cell(d->along, width);
     __builtin_prefetch(environment->column_start + d->cell);
 }
 
@@ -225,22 +280,16 @@ static void start_column(const render_environment *environment, draw *d)
 
 static void draw_column(const render_environment *environment, draw *d)
 {
-    d->column = find(environment->columns + d->base, d->column, environment->width, d->along_row);
+    d->column = find(environment->columns + d->base, d->column, d->along);
     __builtin_prefetch(environment->rgb + 3 * (d->base + (size_t)d->column));
 }
 
 static double finish(const render_environment *environment, const draw *d, float direction[3],
                      float radiance[3])
 {
-    double top = environment->borders[d->row], bottom = environment->borders[d->row + 1];
-    double y = top + (bottom - top) * share(environment->rows, d->row, d->along_rows);
-    double place = share(environment->columns + d->base, d->column, d->along_row);
-    double turn = (d->column + place) / environment->width - 0.5;
-    double phi = 2.0 * pi * turn - environment->rotation;
-    double radius = sqrt(fmax(0.0, 1.0 - y * y));
-    direction[0] = (float)(radius * sin(phi));
-    direction[1] = (float)y;
-    direction[2] = (float)(-radius * cos(phi));
+    float down = share(environment->rows, d->row, d->down);
+    float along = share(environment->columns + d->base, d->column, d->along);
+    direction_of(environment, d->row, d->column, down, along, direction);
     return look(environment, d->base + (size_t)d->column, radiance);
 }
 

@@ -14,19 +14,25 @@
 
 #include <stdint.h>
 
+/* Random numbers on the map are whole: a row, and in it a texel, owns as many of these places as its share of
+ * the luminance, so that what is drawn does not depend on the machine. Texels with less than a place are never
+ * drawn; they hold 2^-31 of the light at most. */
+#define RENDER_ENVIRONMENT_PLACES (UINT32_C(1) << 31)
+
 /* Immutable once made; may be shared between threads. */
 typedef struct render_environment {
     int width, height;
-    float *rgb;      /* [height][width][3], in [0, HNBRDF_MAX_VALUE] */
-    double *sums;    /* [height] of luminance along each row, = columns[row][width - 1] */
-    double *rows;    /* [height] inclusive sums of luminance times solid angle, row by row */
-    double *columns; /* [height][width] inclusive sums of luminance along each row */
-    double total;    /* luminance integrated over the sphere, = rows[height - 1] */
-    double *borders; /* [height + 1] cosines of the polar angles between rows, 1 to -1 */
+    float *rgb;        /* [height][width][3], in [0, HNBRDF_MAX_VALUE] */
+    double *sums;      /* [height] inclusive sums of luminance times solid angle, row by row */
+    double total;      /* luminance integrated over the sphere, = sums[height - 1] */
+    uint32_t *rows;    /* [height] where the places of each row end */
+    uint32_t *columns; /* [height][width] where those of each texel end, in its row */
+    float *caps;       /* [height + 1] 1 - |cosine| of the polar angles between rows: 0, ... 1 ..., 0 */
     uint16_t *row_start;    /* [height] where the search for a row begins, see find() */
     uint16_t *column_start; /* [height][width] likewise in each row */
     double rotation; /* radians about +y: the direction that the centre column shows is -z turned
                         counter-clockwise, seen from above */
+    float turn;      /* the same in turns, in [0, 1] */
 } render_environment;
 
 /* Takes over image->rgb and empties the image. Values are clamped to [0, HNBRDF_MAX_VALUE]; one that is not finite
@@ -41,6 +47,8 @@ void render_environment_free(render_environment *environment);
 /* Radiance from a unit direction; returns the density with which sample() draws it, in 1/sr. */
 double render_environment_lookup(const render_environment *environment, const float direction[3],
                                  float radiance[3]);
+/* The density in 1/sr of directions in a texel, by its number: row by row. */
+double render_environment_density(const render_environment *environment, size_t texel);
 /* Draws a direction; u in [0, 1)^2. Returns its density in 1/sr, > 0. */
 double render_environment_sample(const render_environment *environment, const double u[2],
                                  float direction[3], float radiance[3]);

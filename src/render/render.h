@@ -105,10 +105,13 @@ void render_shade(const render_surface *surface, const render_environment *envir
 
 /* Seen along -z by a camera at 8 radii with a long lens; the unit sphere fills 1 / RENDER_FRAME of the
  * square picture. */
-#define RENDER_FRAME 1.06
+#define RENDER_FRAME 1.06f
+#define RENDER_DISTANCE 8.0f
+/* The outline's place in the picture plane times RENDER_FRAME: RENDER_FRAME / sqrt(RENDER_DISTANCE^2 - 1). */
+#define RENDER_SCALE 0.13354744f
 /* The ray through (x, y) in [-1, 1]^2, y up. Returns 1 and the point it hits, or 0. The tangent points
- * along increasing longitude about y; at the poles along +x. */
-int render_sphere_hit(double x, double y, render_point *point);
+ * along increasing longitude about y. shaders/sphere.comp holds the same, to the last bit. */
+int render_sphere_hit(float x, float y, render_point *point);
 
 /* Zero-initialise for defaults. */
 typedef struct render_options {
@@ -123,6 +126,12 @@ typedef struct render_options {
     void *progress_user;
 } render_options;
 
+/* Where in [-1, 1]^2 the ray of a pixel's sample passes, y up. Settled options; the stream is the pixel's. */
+void render_sphere_place(const render_options *options, size_t pixel, const render_stream *stream,
+                         uint32_t index, float at[2]);
+/* options with its zeros settled; HNBRDF_ERROR_ARGUMENT if spp is not 1 to 2^24. */
+hnbrdf_result render_options_settle(const render_options *options, render_options *settled,
+                                    hnbrdf_error *error);
 /* Pixels of radiance with the sphere's coverage as alpha; black and 0 beside it. */
 hnbrdf_result render_sphere(const render_surface *surface, const render_environment *environment,
                             const render_options *options, render_image *image, hnbrdf_error *error);

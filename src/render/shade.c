@@ -91,25 +91,26 @@ static void to_world(const render_point *point, const float local[3], float worl
 /* ---- The estimator
  * ----------------------------------------------------------------------------------- */
 
-/* Samples of a block wait here for one batch of evaluations: factor is radiance wi.z weight / density.
+/* Samples of a block wait here for one batch of evaluations: factor is radiance wi.z weight / density. Floats
+ * up to the sum, as in shaders/sphere.comp.
  */
 typedef struct sample_batch {
     float wi[2 * RENDER_BLOCK][3], wo[2 * RENDER_BLOCK][3], f[2 * RENDER_BLOCK][3];
-    double factor[2 * RENDER_BLOCK][3];
+    float factor[2 * RENDER_BLOCK][3];
     size_t count;
 } sample_batch;
 
 /* With the balance heuristic weight / density is 1 over the sum of both densities, whichever drew it.
  */
 static void add_sample(sample_batch *batch, const float wi[3], const float wo[3],
-                       const float radiance[3], double density)
+                       const float radiance[3], float density)
 {
     if (!(wi[2] > 0.0f && wo[2] > 0.0f))
         return;
     memcpy(batch->wi[batch->count], wi, sizeof batch->wi[0]);
     memcpy(batch->wo[batch->count], wo, sizeof batch->wo[0]);
     for (int k = 0; k < 3; k++)
-        batch->factor[batch->count][k] = (double)radiance[k] * (double)wi[2] / density;
+        batch->factor[batch->count][k] = radiance[k] * wi[2] / density;
     batch->count++;
 }
 
@@ -129,9 +130,10 @@ static void sample_light(const render_surface *surface, const render_environment
                                    density);
     for (int i = 0; i < count; i++) {
         to_local(&points[i], world[i], wi);
+        float sum = (float)density[i];
         if (strategy == RENDER_MIS && wi[2] > 0.0f)
-            density[i] += (double)surface->pdf(surface, wi, points[i].wo);
-        add_sample(batch, wi, points[i].wo, radiance[i], density[i]);
+            sum += surface->pdf(surface, wi, points[i].wo);
+        add_sample(batch, wi, points[i].wo, radiance[i], sum);
     }
 }
 
@@ -154,7 +156,7 @@ static void sample_brdf(const render_surface *surface, const render_environment 
     render_environment_lookup_many(environment, count, (const float(*)[3])world, radiance, density);
     for (int i = 0; i < count; i++)
         add_sample(batch, wi[i], points[i].wo, radiance[i],
-                   strategy == RENDER_MIS ? density[i] + (double)drawn[i] : (double)drawn[i]);
+                   strategy == RENDER_MIS ? (float)density[i] + drawn[i] : drawn[i]);
 }
 
 void render_shade(const render_surface *surface, const render_environment *environment,
@@ -171,5 +173,5 @@ void render_shade(const render_surface *surface, const render_environment *envir
         surface->eval(surface, batch.count, batch.wi[0], batch.wo[0], batch.f[0]);
     for (size_t i = 0; i < batch.count; i++)
         for (int k = 0; k < 3; k++)
-            sum[k] += (double)batch.f[i][k] * batch.factor[i][k];
+            sum[k] += (double)(batch.f[i][k] * batch.factor[i][k]);
 }

@@ -10,44 +10,29 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-static const double camera_distance = 8.0;
 enum { TILE = 16, MAX_THREADS = 256 };
 
-/* Longitude about y gives the tangent; it turns once around each pole, where it is +x by definition. */
-static void shading_frame(const double n[3], render_point *point)
+/* Where the ray (X, Y, -1) from (0, 0, d) meets the unit sphere, written so that nothing cancels:
+ *   D = sqrt(1 - (d^2 - 1) R^2), R^2 = X^2 + Y^2 = the outline's where D = 0;  t = (d - D) / (1 + R^2)
+ *   n = (t X, t Y, d - t) = (t X, t Y, (d R^2 + D) / (1 + R^2))
+ *   -ray in the frame of n and longitude, times |ray|: (-d X / rho, -(1 + t D) Y / rho, D), rho = |(n.x, n.z)|
+ * Longitude about y gives the tangent; rho is never 0, the poles are behind the outline. */
+int render_sphere_hit(float x, float y, render_point *point)
 {
-    double radius = sqrt(n[0] * n[0] + n[2] * n[2]);
-    double t[3] = {radius > 0.0 ? n[2] / radius : 1.0, 0.0, radius > 0.0 ? -n[0] / radius : 0.0};
-    double b[3] = {n[1] * t[2] - n[2] * t[1], n[2] * t[0] - n[0] * t[2], n[0] * t[1] - n[1] * t[0]};
-    for (int k = 0; k < 3; k++) {
-        point->tangent[k] = (float)t[k];
-        point->bitangent[k] = (float)b[k];
-        point->normal[k] = (float)n[k];
-    }
-}
-
-int render_sphere_hit(double x, double y, render_point *point)
-{
-    /* The sphere's outline lies at tan(asin(1/distance)) of the picture plane. */
-    double scale = RENDER_FRAME / sqrt(camera_distance * camera_distance - 1.0);
-    double d[3] = {x * scale, y * scale, -1.0};
-    double length = sqrt(d[0] * d[0] + d[1] * d[1] + 1.0);
-    for (int k = 0; k < 3; k++)
-        d[k] /= length;
-    double half = camera_distance * d[2];
-    double discriminant = half * half - (camera_distance * camera_distance - 1.0);
-    if (!(discriminant > 0.0))
+    float inside = 1.0f - (RENDER_FRAME * RENDER_FRAME) * (x * x + y * y);
+    if (!(inside > 0.0f))
         return 0;
-    double t = -half - sqrt(discriminant);
-    double n[3] = {t * d[0], t * d[1], camera_distance + t * d[2]};
-    shading_frame(n, point);
-    for (int k = 0; k < 3; k++)
-        point->wo[k] = 0.0f;
-    for (int k = 0; k < 3; k++) {
-        point->wo[0] -= point->tangent[k] * (float)d[k];
-        point->wo[1] -= point->bitangent[k] * (float)d[k];
-        point->wo[2] -= point->normal[k] * (float)d[k];
-    }
+    float root = sqrtf(inside), px = x * RENDER_SCALE, py = y * RENDER_SCALE;
+    float r2 = px * px + py * py, length2 = 1.0f + r2, length = sqrtf(length2);
+    float t = (RENDER_DISTANCE - root) / length2;
+    float n[3] = {t * px, t * py, (RENDER_DISTANCE * r2 + root) / length2};
+    float rho = sqrtf(n[0] * n[0] + n[2] * n[2]), tx = n[2] / rho, tz = -(n[0] / rho);
+    const render_point hit = {.tangent = {tx, 0.0f, tz},
+                              .bitangent = {n[1] * tz, n[2] * tx - n[0] * tz, -(n[1] * tx)},
+                              .normal = {n[0], n[1], n[2]},
+                              .wo = {-(RENDER_DISTANCE * px) / (rho * length),
+                                     -((1.0f + t * root) * py) / (rho * length), root / length}};
+    *point = hit;
     return 1;
 }
 
@@ -63,6 +48,22 @@ typedef struct render_job {
     atomic_int next, done, stop;
 } render_job;
 
+/* In [0, 2): across a pixel, where the picture is 2 wide. */
+static float across(uint32_t u)
+{
+    return (float)(u >> 8) * 0x1p-23f;
+}
+
+void render_sphere_place(const render_options *options, size_t pixel, const render_stream *stream,
+                         uint32_t index, float at[2])
+{
+    int size = options->size, column = (int)(pixel % (size_t)size), row = (int)(pixel / (size_t)size);
+    uint32_t u[2];
+    render_stream_pair(stream, RENDER_PAIR_LENS, index, u);
+    at[0] = ((float)(2 * column - size) + across(u[0])) / (float)size;
+    at[1] = ((float)(size - 2 * row) - across(u[1])) / (float)size;
+}
+
 static void render_pixel(const render_job *job, int column, int row)
 {
     const render_options *options = &job->options;
@@ -75,11 +76,9 @@ static void render_pixel(const render_job *job, int column, int row)
     for (int first = 0; first < options->spp; first += RENDER_BLOCK) {
         int count = options->spp - first < RENDER_BLOCK ? options->spp - first : RENDER_BLOCK, hits = 0;
         for (int i = 0; i < count; i++) {
-            uint32_t u[2];
-            render_stream_pair(&stream, RENDER_PAIR_LENS, (uint32_t)(first + i), u);
-            double x = 2.0 * (column + u[0] * 0x1p-32) / options->size - 1.0;
-            double y = 1.0 - 2.0 * (row + u[1] * 0x1p-32) / options->size;
-            hits += render_sphere_hit(x, y, &points[hits]);
+            float at[2];
+            render_sphere_place(options, pixel, &stream, (uint32_t)(first + i), at);
+            hits += render_sphere_hit(at[0], at[1], &points[hits]);
         }
         render_shade(job->surface, job->environment, options->strategy, &stream, (uint32_t)first,
                      points, hits, sum);
@@ -138,20 +137,29 @@ static int thread_count(int wanted)
     return count < 1 ? 1 : count > MAX_THREADS ? MAX_THREADS : (int)count;
 }
 
+hnbrdf_result render_options_settle(const render_options *options, render_options *settled,
+                                    hnbrdf_error *error)
+{
+    render_options result = *options;
+    if (result.size == 0)
+        result.size = 512;
+    if (result.spp == 0)
+        result.spp = 64;
+    if (result.spp < 1 || result.spp > 1 << 24)
+        return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT, "%d samples a pixel: expected 1 to %d", result.spp,
+                           1 << 24);
+    *settled = result;
+    return HNBRDF_OK;
+}
+
 hnbrdf_result render_sphere(const render_surface *surface, const render_environment *environment,
                             const render_options *options, render_image *image, hnbrdf_error *error)
 {
     render_image result;
-    render_job job = {
-        .surface = surface, .environment = environment, .options = *options, .image = &result};
-    if (job.options.size == 0)
-        job.options.size = 512;
-    if (job.options.spp == 0)
-        job.options.spp = 64;
-    if (job.options.spp < 1 || job.options.spp > 1 << 24)
-        return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT, "%d samples a pixel: expected 1 to %d",
-                           job.options.spp, 1 << 24);
-    hnbrdf_result created = render_image_create(job.options.size, job.options.size, 1, &result, error);
+    render_job job = {.surface = surface, .environment = environment, .image = &result};
+    hnbrdf_result created = render_options_settle(options, &job.options, error);
+    if (created == HNBRDF_OK)
+        created = render_image_create(job.options.size, job.options.size, 1, &result, error);
     if (created != HNBRDF_OK)
         return created;
     job.tiles_across = (job.options.size + TILE - 1) / TILE;
