@@ -9,7 +9,7 @@
 
 const int STRATEGY_MIS = 0, STRATEGY_LIGHT = 1, STRATEGY_BRDF = 2, STRATEGIES = 3; // render_strategy
 const uint BLOCK = 64u; // RENDER_BLOCK: hits are numbered within this many samples, dispatches begin at multiples of it
-const int PAIR_LENS = 0, PAIR_LIGHT = 1, PAIR_DIRECTION = 2, PAIR_LOBE = 3, PAIRS = 4;
+const int PAIR_LENS = 0, PAIR_LIGHT = 1, PAIR_DIRECTION = 2, PAIRS = 4; // the fourth is that of guides
 
 layout(constant_id = 0) const int MODE = 0; // a strategy; + STRATEGIES: writes down what it draws instead of sums
 const int STRATEGY = MODE % STRATEGIES;
@@ -269,11 +269,12 @@ drawn_direction draw_light(hnbrdf_material m, hit_point p, uvec2 u)
     return d;
 }
 
-drawn_direction draw_brdf(hnbrdf_material m, hit_point p, uint lobe, uvec2 u)
+// One number for lobe and azimuth, as surface.c has it: pairs that are stratified stay so in each lobe.
+drawn_direction draw_brdf(hnbrdf_material m, hit_point p, uvec2 u)
 {
     drawn_direction d;
-    precise float density = hnbrdf_sample_direction(
-        m, p.wo, vec3(unit_float(lobe), unit_float(u.x), unit_float(u.y)), d.wi);
+    precise float density =
+        hnbrdf_sample_direction(m, p.wo, vec3(unit_float(u.x), 0.0, unit_float(u.y)), d.wi);
     d.number = 0;
     d.density = density;
     if (!(density > 0.0))
@@ -339,7 +340,7 @@ void main()
             if (part == 0)
                 d = draw_light(m, p, stream_pair(s, PAIR_LIGHT, index));
             else
-                d = draw_brdf(m, p, stream_pair(s, PAIR_LOBE, index).x, stream_pair(s, PAIR_DIRECTION, index));
+                d = draw_brdf(m, p, stream_pair(s, PAIR_DIRECTION, index));
             bool counts = d.density > 0.0 && d.wi.z > 0.0;
             vec3 f = counts ? hnbrdf_eval(m, d.wi, p.wo) : vec3(0.0);
             if (RECORDS)
