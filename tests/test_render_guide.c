@@ -182,6 +182,7 @@ static void guides_take_noise_away(void **state)
             cosine.lobes[0].share = 1.0f;
             render_surface_guide(&surface, &cosine);
             mean(&surface, RENDER_MIS, 32, 5, &without);
+            print_message("    %s: %.3g, cosine alone %.3g\n", names[n], with, without);
             assert_true(with < 0.5 * without);
             hnbrdf_measured_close(measured);
         }

@@ -91,7 +91,7 @@ static int measure_way(const sampling_report *r, sampling_subject *s, sampling_w
         if (k + 1 == r->count_count) /* the longest is known best */
             s->runs[way].ns = (processor_seconds() - before) * 1e9 / (s->covered * r->counts[k] * repeats);
         /* Half of the work is the reference. */
-        picture_report(progress, 0.5 + 0.5 * (way + (k + 1.0) / r->count_count) / SAMPLING_WAYS);
+        picture_report(progress, 0.5 + 0.5 * ((int)way + (k + 1.0) / r->count_count) / SAMPLING_WAYS);
     }
     return CLI_OK;
 }
