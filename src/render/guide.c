@@ -39,12 +39,12 @@ static float guide_sample(const render_surface *surface, const float wo[3], cons
                           float wi[3])
 {
     const render_guide *guide = &surface->guide;
-    float left = u[0];
+    float left = u[1]; /* u[1] and u[2] are stratified together, and stay so in each lobe: see hnbrdf_sample() */
     int k = 0;
     while (k < guide->count - 1 && left >= guide->lobes[k].share)
         left -= guide->lobes[k++].share;
     float rest = left / guide->lobes[k].share, last = 1.0f - 0x1p-24f;
-    float numbers[3] = {rest < last ? rest : last, u[1], u[2]};
+    float numbers[3] = {rest < last ? rest : last, 0.0f, u[2]};
     if (!lobe_sample(&guide->lobes[k].prepared, guide->lobes[k].retro, wo, numbers, wi))
         return 0.0f;
     return guide_pdf(surface, wi, wo);
