@@ -42,7 +42,7 @@ typedef enum trouble {
     ZERO_CHANNEL, /* blue 0 */
     CONSTANT,     /* 0.3 */
     BLACK,        /* 0 */
-    OUTLIERS,     /* one pair in 1000 is 1e30 */
+    OUTLIERS,     /* one pair in 1000 is the largest value there is */
     INFINITE,     /* one in 100 is infinite in red */
     NOT_A_NUMBER, /* one in 10 is NaN in one channel */
     NEGATIVE,     /* one in 3 is -5 */
@@ -94,7 +94,7 @@ static int eval(const void *user, const float wi[3], const float wo[3], float f[
         break;
     case OUTLIERS:
         if (h % 1000 == 0)
-            f[0] = f[1] = f[2] = 1e30f;
+            f[0] = f[1] = f[2] = HNBRDF_MAX_VALUE;
         break;
     case INFINITE:
         if (h % 100 == 0)
