@@ -50,8 +50,9 @@ build/plain/hnbrdf --help > /dev/null || fail "hnbrdf --help without Vulkan and 
 
 announce "AddressSanitizer and UndefinedBehaviorSanitizer"
 build gcc build/sanitize -DCMAKE_BUILD_TYPE=RelWithDebInfo -DHNBRDF_SANITIZE=ON
-# Tests of what other programs make of our text or flags find nothing here that the release tests do not.
-UBSAN_OPTIONS=print_stacktrace=1 ctest --test-dir build/sanitize -E '^test_(glsl_languages|minimal)' -j "$jobs" \
+# Tests of what other programs make of our text or flags, and of a second driver, find nothing here that the release
+# tests do not.
+UBSAN_OPTIONS=print_stacktrace=1 ctest --test-dir build/sanitize -E '^test_(glsl_languages|minimal|.*_second_driver)' -j "$jobs" \
     --output-on-failure ||
     fail "tests under sanitizers"
 
