@@ -4,7 +4,8 @@ set(HNBRDF_TOOL_SOURCES
   src/cli/progress.c src/cli/texels.c src/cli/svg.c
   src/cli/cmd_fit.c src/cli/fit_log.c src/cli/fit_speed.c src/cli/loss_plot.c
   src/cli/cmd_eval.c src/cli/cmd_compare.c src/cli/compare_images.c src/cli/cmd_export.c
-  src/cli/cmd_verify.c src/cli/cmd_render.c src/cli/render_gpu.c src/cli/cmd_sheet.c src/cli/cmd_import.c
+  src/cli/cmd_verify.c src/cli/cmd_render.c src/cli/render_gpu.c src/cli/cmd_scene.c
+  src/cli/scene_job.c src/cli/scene_compare.c src/cli/render_mesh.c src/cli/cmd_sheet.c src/cli/cmd_import.c
   src/cli/cmd_info.c src/cli/picture.c src/cli/palette.c src/cli/cmd_edit.c src/cli/cmd_mix.c src/cli/cmd_report_sampling.c src/cli/sampling_measure.c src/cli/sampling_write.c
   src/cli/sampling_strips.c src/cli/lobes.c src/cli/cmd_lobes.c
   src/cli/peak.c src/cli/cmd_report.c src/cli/cmd_bake.c src/cli/bake_search.c src/cli/bake_sizes.c
@@ -20,15 +21,24 @@ set(HNBRDF_TOOL_SOURCES
 # The renderer is a library only so that its tests need not compile it again; it is not installed.
 add_library(hnbrdf_render STATIC EXCLUDE_FROM_ALL
   src/render/image.c src/render/exr.c src/render/radiance.c src/render/png.c
-  src/render/environment.c src/render/sky.c src/render/surface.c src/render/guide.c src/render/tabulated.c src/render/shade.c
-  src/render/sphere.c src/render/backdrop.c src/render/label.c src/render/glyphs.c
-  src/render/sheet.c src/render/draw.c src/render/difference.c)
+  src/render/environment.c src/render/sky.c src/render/surface.c src/render/guide.c src/render/tabulated.c src/render/sequence.c
+  src/render/shade.c src/render/tiles.c src/render/sphere.c src/render/backdrop.c src/render/label.c src/render/glyphs.c
+  src/render/sheet.c src/render/draw.c src/render/difference.c
+  src/render/mesh.c src/render/polygon.c src/render/obj.c src/render/shapes.c src/render/teapot.c
+  src/render/scene.c src/render/trace.c src/render/hit.c src/render/lights.c src/render/portals.c
+  src/render/path.c src/render/film.c src/render/passes.c src/render/words.c src/render/describe.c
+  src/render/describe_shape.c src/render/load.c)
 target_link_libraries(hnbrdf_render PRIVATE hnbrdf_flags PUBLIC hnbrdf_measured_static Threads::Threads)
 target_include_directories(hnbrdf_render SYSTEM PRIVATE ${STB_INCLUDE_DIR})
 target_compile_definitions(hnbrdf_render PRIVATE _POSIX_C_SOURCE=200809L)
 if(HNBRDF_WITH_OPENEXR)
   target_compile_definitions(hnbrdf_render PRIVATE HNBRDF_WITH_OPENEXR)
   target_link_libraries(hnbrdf_render PRIVATE OpenEXR::OpenEXRCore)
+endif()
+
+if(HNBRDF_WITH_EMBREE)
+  target_compile_definitions(hnbrdf_render PRIVATE HNBRDF_WITH_EMBREE=${HNBRDF_EMBREE_MAJOR})
+  target_link_libraries(hnbrdf_render PRIVATE embree)
 endif()
 
 # What the BRDF is by its formulas, for tests and `hnbrdf stability`; no installed library links it.

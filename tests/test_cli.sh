@@ -4,7 +4,7 @@ set -u
 . "$(dirname "$0")/test_cli_support.sh"
 
 "$FILES" . || exit 1
-commands="fit eval compare export verify render sheet gallery import info"
+commands="fit eval compare export verify render scene sheet gallery import info"
 first=$("$HNBRDF" info builtin | awk 'NR == 2 { print $1 }')
 second=$("$HNBRDF" info builtin | awk 'NR == 3 { print $1 }')
 

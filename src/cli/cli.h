@@ -17,6 +17,7 @@ int cmd_compare(int argc, char **argv);
 int cmd_export(int argc, char **argv);
 int cmd_verify(int argc, char **argv);
 int cmd_render(int argc, char **argv);
+int cmd_scene(int argc, char **argv);
 int cmd_sheet(int argc, char **argv);
 int cmd_gallery(int argc, char **argv);
 int cmd_edit(int argc, char **argv);
@@ -97,6 +98,8 @@ typedef struct cli_reading {
     int merl_identify; /* no option: for commands that tell about files */
 } cli_reading;
 extern cli_reading cli_read;
+/* The same as measured.h wants it. */
+hnbrdf_measured_options cli_reading_options(void);
 /* A line on stdout with the options that are not the default; nothing if all are. */
 void cli_print_reading(void);
 

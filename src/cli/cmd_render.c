@@ -1,16 +1,15 @@
-/* cmd_render.c: `hnbrdf render`: a sphere of one material, as OpenEXR with a PNG beside it. */
-#include "cli/picture.h"
+/* cmd_render.c: `hnbrdf render`: a sphere or a mesh of one material, as OpenEXR with a PNG beside it. */
 #include "cli/render_gpu.h"
+#include "cli/render_mesh.h"
 
 #include <string.h>
 
 static const cli_command command = {
     "render",
-    "SOURCE [--material NAME] [options] -o FILE.exr",
-    "Renders a sphere under an environment, one bounce of light. SOURCE is a model file, a measured "
-    "file\n"
-    "or builtin:NAME. FILE.exr gets linear radiance (float, ZIP), FILE.png beside it the same times\n"
-    "2^exposure, clamped to [0, 1] and through the sRGB curve. With -o FILE.png there is no EXR.\n"
+    "SOURCE [--material NAME] [--mesh FILE.obj] [options] -o FILE.exr",
+    "Renders a sphere, or a mesh, under an environment, one bounce of light. SOURCE is a model file, a\n"
+    "measured file or builtin:NAME. FILE.exr gets linear radiance (float, ZIP), FILE.png beside it the\n"
+    "same times 2^exposure, clamped to [0, 1] and through the sRGB curve. With -o FILE.png there is no EXR.\n"
     "The camera looks along -z, y is up; the middle column of a map lies straight ahead of it.",
     "hnbrdf render builtin:clear-coat-red -o red.exr\n"
     "hnbrdf render model.safetensors --material gold-two-lobe --spp 256 -o gold.exr\n"
@@ -18,7 +17,10 @@ static const cli_command command = {
     "hnbrdf render model.safetensors --material gold-two-lobe --env furnace --exposure -1 \\\n"
     "    --background env -o furnace.exr    # brighter than the ground: gives off more than it gets\n"
     "hnbrdf render chrome.binary --env studio.hdr --rotate 90 --background env -o chrome.exr\n"
-    "hnbrdf render model.safetensors --material gold-two-lobe --device 0 --check -o gold.exr",
+    "hnbrdf render model.safetensors --material gold-two-lobe --device 0 --check -o gold.exr\n"
+    "hnbrdf render --mesh bunny.obj model.safetensors --material gold-two-lobe --turn 30 -o bunny.exr\n"
+    "hnbrdf render --mesh bunny.obj model.safetensors --material gold-two-lobe --bounces 8 --time 60 \\\n"
+    "    --spp 65536 -o bunny.exr           # light between its parts too; a minute's worth of it",
 };
 
 typedef struct render_job {
@@ -27,6 +29,8 @@ typedef struct render_job {
     int analytic, half, layers, check;
     long size;
     picture_options picture;
+    mesh_view mesh;
+    scene_job scene; /* of a mesh */
     cli_source source;
     int index;           /* of the material in the model */
     hnbrdf_model *guide; /* see render_guide_model() */
@@ -114,8 +118,26 @@ static int render_on_device(render_job *job)
     return render_gpu_run(&gpu, &job->image);
 }
 
+/* A model draws its own directions; what else there is has a guide. */
+static int render_mesh_view(render_job *job)
+{
+    const hnbrdf_model *model = job->source.model;
+    render_surface surface = model && !job->analytic
+                                 ? render_surface_model(model, hnbrdf_model_material(model, job->index))
+                                 : make_surface(job, job->analytic);
+    job->scene.output = job->output;
+    job->scene.spp = job->picture.spp;
+    job->scene.seed = job->picture.seed;
+    job->scene.threads = job->picture.threads;
+    job->scene.transparent = strcmp(job->background, "env") != 0;
+    return mesh_view_render(&job->mesh, &surface, &job->environment, (int)job->size, &job->scene,
+                            &job->image);
+}
+
 static int render_all(render_job *job)
 {
+    if (job->mesh.path)
+        return render_mesh_view(job);
     if (job->device)
         return render_on_device(job);
     picture_progress progress = {.count = 1 + job->layers};
@@ -135,7 +157,7 @@ static int write_picture(render_job *job)
     double gain = exp2(-job->picture.exposure);
     if (strcmp(job->background, "backdrop") == 0)
         render_over_backdrop(&job->image, 0.16 * gain);
-    else if (strcmp(job->background, "env") == 0)
+    else if (strcmp(job->background, "env") == 0 && !job->mesh.path)
         render_over_environment(&job->image, &job->environment,
                                 strcmp(job->picture.env, "furnace") == 0 ? 1.0 : 0.35);
     snprintf(comments, sizeof comments, "hnbrdf %s render: %s%s, %ld samples a pixel, seed %ld",
@@ -159,7 +181,9 @@ static int run(render_job *job)
 
 int cmd_render(int argc, char **argv)
 {
-    render_job job = {.background = "backdrop", .size = 512, .picture = PICTURE_DEFAULTS(64)};
+    render_job job = {.background = "backdrop", .size = 512, .picture = PICTURE_DEFAULTS(64),
+                      .mesh = MESH_VIEW_DEFAULTS,
+                      .scene = {.bounces = 1}};
     const cli_option options[] = {
         {"material", 0, CLI_TEXT, &job.material, 0, 0, "NAME", "of a model with several"},
         {"output", 'o', CLI_TEXT, &job.output, 0, 0, "FILE",
@@ -177,6 +201,10 @@ int cmd_render(int argc, char **argv)
          "on Vulkan device N (hnbrdf verify --list), by the exported shader and its sampling"},
         {"check", 0, CLI_FLAG, &job.check, 0, 0, NULL,
          "with --device: also on the CPU, with the same random numbers; fails if they differ"},
+        MESH_OPTIONS(job.mesh),
+        {"bounces", 0, CLI_INT, &job.scene.bounces, 1, RENDER_MAX_BOUNCES, "N",
+         "of a mesh: most reflections of light, default 1"},
+        SCENE_LENGTH_OPTIONS(job.scene),
         CLI_READING_OPTIONS,
         CLI_SIGNED_OPTION,
         {NULL, 0, CLI_FLAG, NULL, 0, 0, NULL, NULL},
@@ -192,6 +220,11 @@ int cmd_render(int argc, char **argv)
         return cli_usage(&command, "--check compares a device with the CPU: expected --device N too");
     if (job.device && (job.analytic || job.layers))
         return cli_usage(&command, "--analytic and --layers are for the CPU, without --device");
+    if (!job.mesh.path && (job.scene.bounces > 1 || job.scene.seconds > 0.0 || job.scene.resume ||
+                           job.mesh.smooth || job.scene.clamp > 0.0))
+        return cli_usage(&command, "--bounces, --time, --resume, --clamp and --smooth are for --mesh");
+    if (job.mesh.path && (job.layers || job.device))
+        return cli_usage(&command, "--layers and --device are for the sphere, without --mesh");
     code = picture_check_output(&command, job.output);
     if (code >= 0)
         return code;

@@ -19,6 +19,7 @@ static const subcommand subcommands[] = {
     {"verify", cmd_verify, "prove on a GPU that the exported shader equals the C library"},
     {"stability", cmd_stability, "error against an oracle at extremes, on CPU and GPU"},
     {"render", cmd_render, "picture of a sphere under an environment map"},
+    {"scene", cmd_scene, "picture of a scene with global illumination"},
     {"sheet", cmd_sheet, "contact sheet: reference, GGX alone and model, side by side"},
     {"edit", cmd_edit, "change a material: colour, refraction, roughness, angle"},
     {"mix", cmd_mix, "materials between two of a model"},

@@ -93,7 +93,7 @@ static int open_builtin(int index, hnbrdf_measured **measured)
 
 cli_reading cli_read = {.utia_scale = 1.0};
 
-static hnbrdf_measured_options reading_options(void)
+hnbrdf_measured_options cli_reading_options(void)
 {
     return (hnbrdf_measured_options){.merl_lookup = (hnbrdf_merl_lookup)cli_read.merl,
                                      .merl_node = (hnbrdf_merl_node)cli_read.merl_node,
@@ -176,7 +176,7 @@ static int open_measured_file(const char *path, hnbrdf_measured **measured)
         return fail_missing(path);
     if (has_extension(path, ".brdf"))
         return cli_fail("%s: a published shader; make a model of it first: hnbrdf import", path);
-    hnbrdf_measured_options options = reading_options();
+    hnbrdf_measured_options options = cli_reading_options();
     if (hnbrdf_measured_open(path, &options, measured, &error) == HNBRDF_OK)
         return CLI_OK;
     return cli_fail("%s", error.text);

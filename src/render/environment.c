@@ -153,6 +153,14 @@ void render_environment_free(render_environment *environment)
     memset(environment, 0, sizeof *environment);
 }
 
+void render_environment_scale(render_environment *environment, double gain)
+{
+    size_t values = 3 * (size_t)environment->width * (size_t)environment->height;
+    for (size_t i = 0; i < values; i++)
+        environment->rgb[i] = (float)fmin((double)environment->rgb[i] * gain, (double)HNBRDF_MAX_VALUE);
+    sum_luminance(environment);
+}
+
 static int texel(float place, int count)
 {
     return place > 0.0f ? (place < (float)count ? (int)place : count - 1) : 0; /* NaN: 0 */

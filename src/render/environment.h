@@ -43,6 +43,8 @@ hnbrdf_result render_environment_create(render_image *image, double rotation, co
 hnbrdf_result render_environment_open(const char *source, double rotation,
                                       render_environment *environment, hnbrdf_error *error);
 void render_environment_free(render_environment *environment);
+/* Multiplies all radiance by gain > 0; before the environment is shared. */
+void render_environment_scale(render_environment *environment, double gain);
 
 /* Radiance from a unit direction; returns the density with which sample() draws it, in 1/sr. */
 double render_environment_lookup(const render_environment *environment, const float direction[3],

@@ -29,8 +29,8 @@ static float guide_pdf(const render_surface *surface, const float wi[3], const f
     const render_guide *guide = &surface->guide;
     float pdf = 0.0f;
     for (int k = 0; k < guide->count; k++)
-        pdf += guide->lobes[k].share *
-               lobe_pdf(&guide->lobes[k].prepared, guide->lobes[k].retro, wi, wo);
+        pdf +=
+            guide->lobes[k].share * lobe_pdf(&guide->lobes[k].prepared, guide->lobes[k].retro, wi, wo);
     return pdf;
 }
 

@@ -123,16 +123,22 @@ static hnbrdf_result read_stream(FILE *file, const char *path, size_t limit, ren
     return HNBRDF_OK;
 }
 
-hnbrdf_result render_image_read(const char *path, const render_limits *limits, render_image *image,
-                                hnbrdf_error *error)
+hnbrdf_result render_file_read(const char *path, size_t limit, render_bytes *bytes, hnbrdf_error *error)
 {
     FILE *file = fopen(path, "rb");
     if (!file)
         return hnbrdf_fail(error, HNBRDF_ERROR_IO, "%s: cannot be opened: %s", path, strerror(errno));
+    hnbrdf_result result = read_stream(file, path, limit, bytes, error);
+    fclose(file);
+    return result;
+}
+
+hnbrdf_result render_image_read(const char *path, const render_limits *limits, render_image *image,
+                                hnbrdf_error *error)
+{
     render_bytes bytes = {0};
     hnbrdf_result result =
-        read_stream(file, path, render_limits_settle(limits).max_bytes, &bytes, error);
-    fclose(file);
+        render_file_read(path, render_limits_settle(limits).max_bytes, &bytes, error);
     if (result == HNBRDF_OK) {
         static const unsigned char exr_magic[4] = {0x76, 0x2f, 0x31, 0x01};
         if (bytes.size >= 4 && memcmp(bytes.data, exr_magic, 4) == 0)
@@ -148,15 +154,15 @@ hnbrdf_result render_image_read(const char *path, const render_limits *limits, r
 }
 
 /* An old file stays whole until the new one is complete. */
-static hnbrdf_result write_aside(const char *path, const render_bytes *bytes, hnbrdf_error *error)
+hnbrdf_result render_file_write(const char *path, const void *data, size_t size, hnbrdf_error *error)
 {
-    size_t size = strlen(path) + 32;
-    char *aside = malloc(size);
+    size_t length = strlen(path) + 32;
+    char *aside = malloc(length);
     if (!aside)
         return hnbrdf_fail(error, HNBRDF_ERROR_MEMORY, "%s: no memory for its name", path);
-    snprintf(aside, size, "%s.%ld.part", path, (long)getpid());
+    snprintf(aside, length, "%s.%ld.part", path, (long)getpid());
     FILE *file = fopen(aside, "wb");
-    int written = file && fwrite(bytes->data, 1, bytes->size, file) == bytes->size;
+    int written = file && fwrite(data, 1, size, file) == size;
     int closed = file && fclose(file) == 0;
     hnbrdf_result result = HNBRDF_OK;
     if (!written || !closed || rename(aside, path) != 0) {
@@ -184,7 +190,7 @@ hnbrdf_result render_image_write(const render_image *image, const char *path,
         result = hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT, "%s: expected a name ending in .exr or .png",
                              path);
     if (result == HNBRDF_OK)
-        result = write_aside(path, &bytes, error);
+        result = render_file_write(path, bytes.data, bytes.size, error);
     free(bytes.data);
     return result;
 }

@@ -18,7 +18,7 @@ typedef struct render_guide {
     struct {
         hnbrdf_material material;
         int retro;
-        float share; /* of the samples; all of them sum to 1 */
+        float share;              /* of the samples; all of them sum to 1 */
         hnbrdf_prepared prepared; /* the material's; made by render_surface_guide() */
     } lobes[RENDER_LOBES];
 } render_guide;
@@ -33,7 +33,6 @@ typedef struct render_surface {
     float (*sample)(const struct render_surface *surface, const float wo[3], const float u[3],
                     float wi[3]);
     float (*pdf)(const struct render_surface *surface, const float wi[3], const float wo[3]);
-
     /* What those below use; models and measurements are borrowed. Other surfaces leave them zero. */
     const hnbrdf_model *model;
     hnbrdf_material material;
@@ -86,6 +85,11 @@ typedef struct render_stream {
 void render_stream_begin(render_stream *stream, uint64_t seed, uint64_t pixel, uint32_t count);
 /* Sample `index` < count as two 32-bit fractions. */
 void render_stream_pair(const render_stream *stream, int pair, uint32_t index, uint32_t u[2]);
+
+/* The same for as many samples and dimensions as there will be: every aligned run of 2^k samples is
+ * stratified. One key a pixel. */
+uint64_t render_pixel_key(uint64_t seed, uint64_t pixel);
+void render_endless_pair(uint64_t key, uint32_t dimension, uint32_t index, uint32_t u[2]);
 
 /* A visible point: columns of the rotation to the world, and the local direction to the viewer. */
 typedef struct render_point {

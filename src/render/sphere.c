@@ -1,16 +1,12 @@
-/* sphere.c: the camera, the unit sphere and its shading frame, and the threads that fill the picture.
- */
+/* sphere.c: the camera, the unit sphere and its shading frame, and the pixels of the picture. */
 #include "render/render.h"
 
 #include "core/error.h"
+#include "render/tiles.h"
 
 #include <math.h>
-#include <pthread.h>
-#include <stdatomic.h>
-#include <stdlib.h>
-#include <unistd.h>
 
-enum { TILE = 16, MAX_THREADS = 256 };
+enum { TILE = 16 };
 
 /* Where the ray (X, Y, -1) from (0, 0, d) meets the unit sphere, written so that nothing cancels:
  *   D = sqrt(1 - (d^2 - 1) R^2), R^2 = X^2 + Y^2 = the outline's where D = 0;  t = (d - D) / (1 + R^2)
@@ -44,8 +40,7 @@ typedef struct render_job {
     const render_environment *environment;
     render_options options;
     render_image *image;
-    int tiles_across, tiles;
-    atomic_int next, done, stop;
+    int tiles_across;
 } render_job;
 
 /* In [0, 2): across a pixel, where the picture is 2 wide. */
@@ -92,49 +87,13 @@ static void render_pixel(const render_job *job, int column, int row)
 /* ---- All of them
  * ------------------------------------------------------------------------------------- */
 
-static void render_tile(const render_job *job, int tile)
+static void render_tile(void *user, int tile)
 {
+    const render_job *job = user;
     int x0 = tile % job->tiles_across * TILE, y0 = tile / job->tiles_across * TILE;
     for (int y = y0; y < y0 + TILE && y < job->options.size; y++)
         for (int x = x0; x < x0 + TILE && x < job->options.size; x++)
             render_pixel(job, x, y);
-}
-
-static void work(render_job *job, int is_caller)
-{
-    for (;;) {
-        int tile = atomic_fetch_add(&job->next, 1);
-        if (tile >= job->tiles || atomic_load(&job->stop))
-            return;
-        render_tile(job, tile);
-        double share = (double)(atomic_fetch_add(&job->done, 1) + 1) / job->tiles;
-        if (is_caller && job->options.progress &&
-            job->options.progress(job->options.progress_user, share))
-            atomic_store(&job->stop, 1);
-    }
-}
-
-static void *worker(void *argument)
-{
-    work(argument, 0);
-    return NULL;
-}
-
-static void run(render_job *job, int threads)
-{
-    pthread_t handles[MAX_THREADS];
-    int started = 0;
-    while (started < threads - 1 && pthread_create(&handles[started], NULL, worker, job) == 0)
-        started++;
-    work(job, 1);
-    for (int i = 0; i < started; i++)
-        pthread_join(handles[i], NULL);
-}
-
-static int thread_count(int wanted)
-{
-    long count = wanted > 0 ? wanted : sysconf(_SC_NPROCESSORS_ONLN);
-    return count < 1 ? 1 : count > MAX_THREADS ? MAX_THREADS : (int)count;
 }
 
 hnbrdf_result render_options_settle(const render_options *options, render_options *settled,
@@ -163,12 +122,13 @@ hnbrdf_result render_sphere(const render_surface *surface, const render_environm
     if (created != HNBRDF_OK)
         return created;
     job.tiles_across = (job.options.size + TILE - 1) / TILE;
-    job.tiles = job.tiles_across * job.tiles_across;
-    atomic_init(&job.next, 0);
-    atomic_init(&job.done, 0);
-    atomic_init(&job.stop, 0);
-    run(&job, thread_count(options->threads));
-    if (atomic_load(&job.stop)) {
+    const render_tiles tiles = {.count = job.tiles_across * job.tiles_across,
+                                .threads = options->threads,
+                                .work = render_tile,
+                                .user = &job,
+                                .progress = options->progress,
+                                .progress_user = options->progress_user};
+    if (render_tiles_run(&tiles)) {
         render_image_free(&result);
         return hnbrdf_fail(error, HNBRDF_ERROR_CANCELLED, "rendering was stopped");
     }

@@ -238,6 +238,32 @@ static void write_checkpoint(void)
     put("half_way", bytes, sizeof bytes);
 }
 
+/* ---- Scenes -------------------------------------------------------------------------------------- */
+
+static void write_scenes(void)
+{
+    /* As fuzz_film.c has it: 17 x 2 pixels, two tiles; after magic and fingerprint. */
+    unsigned char film[8 + 2 * 4 + 17 * 2 * 10 * 8] = {17, 0, 0, 0, 2, 0, 0, 0, 4, 0, 0, 0, 3};
+    target = "obj";
+    put_text("corners", "# all forms\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvt 0 0\nvt 1 0\nvn 0 0 1\n"
+                        "f 1 2 3\nf 1/1 2/2 3/1\nf 1//1 2//1 4//1\nf -1/1/1 -2/1/1 -3/2/1\n");
+    put_text("polygons", "o a\nv 0 0 0\nv 2 0 0\nv 2 2 0\nv 1 .5 0\nv 0 2 0\nusemtl b c\nf 1 2 3 4 5\n"
+                         "g d\nf 5 4 \\\r\n 3 2\n");
+    target = "scene";
+    put_text("room", "camera from 0 1 4 to 0 0 0 fov 40 up 0 1 0 lens 0.1 focus 4\nsize 64 48\n"
+                     "environment sky rotate 30 gain 2 hidden\nexposure 1\nbounces 4\n"
+                     "portal corner 0 0 0 edge 1 0 0 edge 0 1 0\nmaterial a diffuse 0.5 0.5 0.5\n"
+                     "material b ggx kd 0 0 0 eta 2 3 4 alpha 0.1 0.3\nmaterial c model \"m x\" y\n"
+                     "shape quad scale 4 material a\nshape lathe profile 0 0 1 0 1 0 0.5 1 material b move 1 0 0\n");
+    put_text("shapes", "camera from 0 0 4 to 0 0 0 fov 40\nmaterial a builtin rough-clay\n"
+                       "material b measured x.bsdf\nshape sphere emit 1 2 3\nshape box stretch 1 2 3\n"
+                       "shape torus tube 0.2 detail 12 turn 30\nshape knot turns 2 5 tube 0.1\n"
+                       "shape superellipsoid powers 0.2 1.5 rotate 1 1 0 40\nshape teapot material a\n"
+                       "shape obj a.obj use part a smooth material b\n");
+    target = "film";
+    put("film", film, sizeof film);
+}
+
 int main(int argc, char **argv)
 {
     FUZZ_CHECK(argc == 2);
@@ -250,5 +276,6 @@ int main(int argc, char **argv)
     write_pairs();
     write_texels();
     write_checkpoint();
+    write_scenes();
     return 0;
 }

@@ -1,0 +1,62 @@
+/* render_mesh.c: a scene of one mesh, with a camera that sees all of it. */
+#include "cli/render_mesh.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static const double radians = 3.14159265358979323846 / 180.0;
+
+/* At a distance from which the sphere about the mesh's box just fits. */
+static void aim(const mesh_view *view, const render_mesh *mesh, int size, render_camera *camera)
+{
+    float low[3], high[3];
+    double radius = 0.0, fov = 30.0;
+    render_mesh_bounds(mesh, low, high);
+    for (int k = 0; k < 3; k++) {
+        camera->to[k] = 0.5f * (low[k] + high[k]);
+        radius += 0.25 * pow((double)high[k] - (double)low[k], 2.0);
+    }
+    double distance = 1.02 * sqrt(radius) / sin(0.5 * fov * radians);
+    const double towards[3] = {cos(view->tilt * radians) * sin(view->turn * radians),
+                               sin(view->tilt * radians),
+                               cos(view->tilt * radians) * cos(view->turn * radians)};
+    for (int k = 0; k < 3; k++)
+        camera->from[k] = camera->to[k] + (float)(distance * towards[k]);
+    camera->up[1] = 1.0f;
+    camera->fov = (float)fov;
+    camera->width = camera->height = size;
+}
+
+static hnbrdf_result build(const mesh_view *view, const render_surface *surface, int size,
+                           render_scene *scene, hnbrdf_error *error)
+{
+    scene->surfaces = calloc(1, sizeof *scene->surfaces);
+    scene->shapes = calloc(1, sizeof *scene->shapes);
+    if (!scene->surfaces || !scene->shapes)
+        return HNBRDF_ERROR_MEMORY;
+    scene->surfaces[0].surface = *surface;
+    scene->surface_count = scene->shape_count = 1;
+    render_mesh *mesh = &scene->shapes[0].mesh;
+    hnbrdf_result result = render_obj_read(view->path, NULL, mesh, error);
+    if (result != HNBRDF_OK)
+        return result;
+    scene->shapes[0].surfaces = calloc(mesh->part_count, sizeof *scene->shapes[0].surfaces);
+    if (!scene->shapes[0].surfaces || (view->smooth && render_mesh_smooth(mesh)))
+        return HNBRDF_ERROR_MEMORY;
+    aim(view, mesh, size, &scene->camera);
+    return render_scene_build(scene, error);
+}
+
+int mesh_view_render(const mesh_view *view, const render_surface *surface,
+                     const render_environment *environment, int size, const scene_job *job,
+                     render_image *image)
+{
+    hnbrdf_error error = {"out of memory"};
+    scene_time time;
+    render_scene scene = {.environment = environment};
+    int code = build(view, surface, size, &scene, &error) == HNBRDF_OK
+                   ? scene_job_render(job, &scene, "rendering", image, &time)
+                   : cli_fail("%s", error.text);
+    render_scene_free(&scene);
+    return code;
+}
