@@ -127,7 +127,7 @@ static void compare_value(const gpu_place *place, int must_be_value, gpu_compari
     gpu_place here = *place;
     here.ulp = invalid || isnan(error) ? (double)INFINITY : error / spacing_of_floats(size);
     int outside = invalid || !(here.ulp == 0.0 || error <= here.bound);
-    double share = here.ulp == 0.0 ? 0.0 : error / here.bound;
+    double share = here.ulp == 0.0 ? 0.0 : here.bound > 0.0 ? error / here.bound : (double)INFINITY;
     if (worse(outside, here.ulp, comparison))
         comparison->worst = here;
     comparison->values++;
