@@ -46,8 +46,8 @@ static int read_sweep(const char *text, sweep *s)
     s->count = 1;
     if (n == 1)
         return -1;
-    double steps = (last - values[0]) / values[2];
-    if (!(values[2] > 0.0) || !(steps >= 0.0) || steps >= MAX_STEPS)
+    double steps = values[2] > 0.0 ? (last - values[0]) / values[2] : -1.0;
+    if (!(steps >= 0.0) || steps >= MAX_STEPS)
         return cli_usage(&command,
                          "--t: %s: expected LAST not below FIRST, STEP above 0, at most %d values",
                          text, (int)MAX_STEPS);
