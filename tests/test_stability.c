@@ -2,6 +2,7 @@
  * ways such code has been wrong, against the same cases, and the library itself in the short form. */
 #include "stability/stability.h"
 
+#include "core/math.h"
 #include "core_support.h"
 
 #include <math.h>
@@ -26,6 +27,7 @@ static void end(stability_backend *backend)
 }
 
 /* D with 1 - (n.h)^2, as viewers write it. */
+HNBRDF_DIVIDES_AS_IEEE
 static float naive_analytic(const hnbrdf_material *m, const float *wi, const float *wo, int c)
 {
     float s[3] = {wi[0] + wo[0], wi[1] + wo[1], wi[2] + wo[2]};

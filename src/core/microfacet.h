@@ -55,6 +55,7 @@ static inline float hnbrdf_ggx_d(float sx, float sy, float sz, float length2, fl
 
 /* Smith masking of one direction over its share of the denominator, V(w) = G1(w) / (2 w.z), so that
  * G1 G1 / (4 wi.z wo.z) = V V, finite at grazing (Heitz 2014 Eq. 43). */
+HNBRDF_DIVIDES_AS_IEEE
 static inline float hnbrdf_smith_v(float x, float y, float z, float ax, float ay)
 {
     return 1.0f / (z + sqrtf(hnbrdf_dot3(ax * x, ay * y, z)));
@@ -71,6 +72,7 @@ static inline float hnbrdf_cap_bound(float x, float y, float z, float ax, float 
     return ((1.0f - a2) * s2) / (s2 + a2 * (z * z));
 }
 
+HNBRDF_DIVIDES_AS_IEEE
 static inline float hnbrdf_visible_v(float x, float y, float z, float ax, float ay)
 {
     return 1.0f / (hnbrdf_cap_bound(x, y, z, ax, ay) * z + sqrtf(hnbrdf_dot3(ax * x, ay * y, z)));

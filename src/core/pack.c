@@ -16,6 +16,7 @@ enum { ROTATION_UNIT = 127, ROTATION_ZERO = 128 }; /* of a byte: 0 and 1 are met
 
 /* ---- Ranges ---------------------------------------------------------------------------------- */
 
+HNBRDF_DIVIDES_AS_IEEE /* eta = -1 is refused elsewhere; here the infinity is clamped */
 static float amplitude(float eta)
 {
     return hnbrdf_clamp((eta - 1.0f) / (eta + 1.0f), MIN_R, MAX_R);

@@ -166,6 +166,7 @@ static int draw_lobe(const hnbrdf_prepared *m, int k, const float wo[3], float u
 
 /* What is left of u0 once it has chosen its part [low, low + size) of [0, 1) turns the azimuth on: a pair (u0, u2)
  * that is stratified stays so in each lobe. */
+HNBRDF_DIVIDES_AS_IEEE /* with u0 no number and no share left */
 static float azimuth(float u0, float low, float size, float u1)
 {
     float turn = u1 + hnbrdf_clamp((u0 - low) / size, 0.0f, 0.99999994f);
