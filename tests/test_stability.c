@@ -45,6 +45,7 @@ static float naive_analytic(const hnbrdf_material *m, const float *wi, const flo
 
 enum { MISTAKE_NAIVE, MISTAKE_NAN, MISTAKE_NEGATIVE, MISTAKE_EPSILON, MISTAKE_PDF, MISTAKE_VALUE };
 
+HNBRDF_DIVIDES_AS_IEEE /* 0/0 is one of the mistakes */
 static hnbrdf_result run(stability_backend *backend, stability_stage stage,
                          const stability_block *block, float values[STABILITY_BLOCK][STABILITY_NUMBERS],
                          hnbrdf_error *error)
