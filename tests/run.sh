@@ -50,13 +50,13 @@ build/plain/hnbrdf --help > /dev/null || fail "hnbrdf --help without Vulkan and 
 
 announce "AddressSanitizer and UndefinedBehaviorSanitizer"
 build gcc build/sanitize -DCMAKE_BUILD_TYPE=RelWithDebInfo -DHNBRDF_SANITIZE=ON
-# Tests of what other programs make of our text or flags, and of a second driver, find nothing here that the release
-# tests do not.
-UBSAN_OPTIONS=print_stacktrace=1 ctest --test-dir build/sanitize -E '^test_(glsl_languages|minimal|.*_second_driver)' -j "$jobs" \
-    --output-on-failure ||
+# Tests of what other programs make of our text or flags, of a second driver, and of how good long fits end (test_fit
+# runs the same code) find nothing here that the release tests do not.
+elsewhere='^test_(glsl_languages|minimal|fit_divergence|fit_stiff|.*_second_driver)'
+UBSAN_OPTIONS=print_stacktrace=1 ctest --test-dir build/sanitize -E "$elsewhere" -j "$jobs" --output-on-failure ||
     fail "tests under sanitizers"
 
-seconds=${HNBRDF_FUZZ_SECONDS:-3}
+seconds=${HNBRDF_FUZZ_SECONDS:-10}
 announce "fuzzing every reader for $seconds s (HNBRDF_FUZZ_SECONDS)"
 HNBRDF_FUZZ_JOBS=$jobs sh tests/fuzz/run.sh "$seconds" || fail "fuzzing"
 
