@@ -43,10 +43,10 @@ ctest --test-dir build/clang -R '^test_(math|core_)' -j "$jobs" --output-on-fail
     fail "the core tests under clang"
 }
 
-announce "without Vulkan and OpenEXR"
-build gcc build/plain -DCMAKE_BUILD_TYPE=Debug -DHNBRDF_WITH_OPENEXR=OFF -DHNBRDF_WITH_VULKAN=OFF \
+announce "without Vulkan, OpenEXR and Embree"
+build gcc build/plain -DCMAKE_BUILD_TYPE=Debug -DHNBRDF_WITH_OPENEXR=OFF -DHNBRDF_WITH_VULKAN=OFF -DHNBRDF_WITH_EMBREE=OFF \
     -DHNBRDF_BUILD_TESTS=OFF
-build/plain/hnbrdf --help > /dev/null || fail "hnbrdf --help without Vulkan and OpenEXR"
+build/plain/hnbrdf --help > /dev/null || fail "hnbrdf --help without Vulkan, OpenEXR and Embree"
 
 announce "AddressSanitizer and UndefinedBehaviorSanitizer"
 build gcc build/sanitize -DCMAKE_BUILD_TYPE=RelWithDebInfo -DHNBRDF_SANITIZE=ON
