@@ -52,21 +52,10 @@ static void write_settings(const report *r, hnbrdf_model *const *models, FILE *f
     }
 }
 
-static char *path_of(const report *r, const char *name)
-{
-    size_t size = strlen(r->directory) + strlen(name) + 2;
-    char *path = malloc(size);
-    if (path)
-        snprintf(path, size, "%s/%s", r->directory, name);
-    else
-        cli_fail("out of memory");
-    return path;
-}
-
 /* 1 if DIR/images.txt is what write_settings() would write, 0 if not, -1 after a message. */
 static int same_settings(const report *r, hnbrdf_model *const *models)
 {
-    char *wanted = NULL, *path = path_of(r, "images.txt");
+    char *wanted = NULL, *path = report_path_in(r, "images.txt");
     size_t size = 0, count = 0;
     FILE *file = path ? fopen(path, "rb") : NULL, *memory = open_memstream(&wanted, &size);
     free(path);
@@ -86,7 +75,7 @@ static int same_settings(const report *r, hnbrdf_model *const *models)
 static int keep_settings(const report *r, hnbrdf_model *const *models)
 {
     cli_output output;
-    char *path = path_of(r, "images.txt");
+    char *path = report_path_in(r, "images.txt");
     int code = path ? cli_output_open(path, &output) : CLI_FAILURE;
     free(path);
     if (code != CLI_OK)
@@ -125,7 +114,7 @@ static void read_row(report *r, const csv_reader *reader)
 static int read_figures(report *r)
 {
     csv_reader *reader = malloc(sizeof *reader);
-    char *path = path_of(r, "images.csv");
+    char *path = report_path_in(r, "images.csv");
     FILE *file = path ? fopen(path, "r") : NULL;
     int found = 1;
     if (reader && file) {

@@ -90,6 +90,8 @@ int report_read_models(const cli_command *command, const char *list, report *r);
 /* The command as it was typed, before cli_parse() moves its arguments about; malloc'ed, NULL when
  * memory is short. */
 char *report_join(int argc, char **argv);
+/* The file NAME in the report's folder; malloc'ed, NULL after a message. */
+char *report_path_in(const report *r, const char *name);
 /* The report's folder and NAME in it. 0, or CLI_FAILURE after a message. */
 int report_make_folders(const report *r, const char *name);
 /* Writes the file NAME in the report's folder. Likewise. */

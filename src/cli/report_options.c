@@ -83,8 +83,7 @@ char *report_join(int argc, char **argv)
 
 /* ---- Output -------------------------------------------------------------------------------------- */
 
-/* DIR/NAME; malloc'ed, NULL after a message. */
-static char *path_in(const report *r, const char *name)
+char *report_path_in(const report *r, const char *name)
 {
     size_t size = strlen(r->directory) + strlen(name) + 2;
     char *path = malloc(size);
@@ -97,7 +96,7 @@ static char *path_in(const report *r, const char *name)
 
 int report_make_folders(const report *r, const char *name)
 {
-    char *path = path_in(r, name);
+    char *path = report_path_in(r, name);
     int result = path ? cli_make_folder(r->directory) : CLI_FAILURE;
     if (result == CLI_OK)
         result = cli_make_folder(path);
@@ -107,7 +106,7 @@ int report_make_folders(const report *r, const char *name)
 
 static int open_result(const report *r, const char *name, cli_output *output)
 {
-    char *path = path_in(r, name);
+    char *path = report_path_in(r, name);
     int result = path ? cli_output_open(path, output) : CLI_FAILURE;
     free(path);
     return result;
