@@ -1,4 +1,5 @@
-/* batch.c: evaluate many pairs of directions at once, and time it: nanoseconds per evaluation, one thread.
+/* batch.c: evaluate many pairs of directions at once, and time it: nanoseconds per evaluation,
+ * one thread.
  *
  *   build/examples/batch MODEL.safetensors
  *
@@ -36,8 +37,8 @@ static double shortest(const hnbrdf_model *model, const hnbrdf_material *materia
     for (int run = 0; run < TIMES; run++) {
         clock_t start = clock();
         if (batch)
-            hnbrdf_eval_batch(model, material, PAIRS, hits[0].wi, sizeof(hit), hits[0].wo, sizeof(hit),
-                              hits[0].f, sizeof(hit));
+            hnbrdf_eval_batch(model, material, PAIRS, hits[0].wi, sizeof(hit), hits[0].wo,
+                              sizeof(hit), hits[0].f, sizeof(hit));
         else
             for (int k = 0; k < PAIRS; k++)
                 hnbrdf_eval(model, material, hits[k].wi, hits[k].wo, hits[k].f);

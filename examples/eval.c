@@ -33,7 +33,8 @@ int main(int argc, char **argv)
     if (hnbrdf_material_check(&rougher, &error))
         fprintf(stderr, "%s\n", error.text);
 
-    /* n = +z; wi towards the light, wo towards the viewer: 30 degrees on either side of the normal. */
+    /* n = +z; wi towards the light, wo towards the viewer: 30 degrees on either side of the
+     * normal. */
     const float wi[3] = {0.5f, 0.0f, 0.8660254f}, wo[3] = {-0.5f, 0.0f, 0.8660254f};
     float f[3], f_a[3], f_rougher[3];
     hnbrdf_eval(model, &material, wi, wo, f);
@@ -43,7 +44,8 @@ int main(int argc, char **argv)
     printf("%s, mirror direction at 30 degrees, 1/sr without the cosine\n",
            hnbrdf_model_material_name(model, index));
     printf("  f                   %9.5f %9.5f %9.5f\n", (double)f[0], (double)f[1], (double)f[2]);
-    printf("  GGX part alone      %9.5f %9.5f %9.5f\n", (double)f_a[0], (double)f_a[1], (double)f_a[2]);
+    printf("  GGX part alone      %9.5f %9.5f %9.5f\n", (double)f_a[0], (double)f_a[1],
+           (double)f_a[2]);
     printf("  f, twice as rough   %9.5f %9.5f %9.5f\n", (double)f_rougher[0], (double)f_rougher[1],
            (double)f_rougher[2]);
     hnbrdf_model_free(model);

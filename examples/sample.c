@@ -1,9 +1,10 @@
-/* sample.c: importance sampling in a white furnace: how much of uniform light from everywhere comes back, by
- * the angle of view.
+/* sample.c: importance sampling in a white furnace: how much of uniform light from everywhere
+ * comes back, by the angle of view.
  *
  *   build/examples/sample MODEL.safetensors [MATERIAL]
  *
- * With wi drawn by hnbrdf_sample(), the mean of weight = f cos/pdf is the integral of f cos: the albedo. */
+ * With wi drawn by hnbrdf_sample(), the mean of weight = f cos/pdf is the integral of f cos: the
+ * albedo. */
 #include <hnbrdf/hnbrdf.h>
 
 #include <math.h>
@@ -42,8 +43,8 @@ int main(int argc, char **argv)
         return 1;
     }
 
-    printf("%s: albedo by the angle of view, %d samples each\n", hnbrdf_model_material_name(model, index),
-           DRAWS);
+    printf("%s: albedo by the angle of view, %d samples each\n",
+           hnbrdf_model_material_name(model, index), DRAWS);
     printf("degrees        R        G        B  standard error of G\n");
     for (size_t k = 0; k < sizeof degrees / sizeof degrees[0]; k++) {
         double theta = degrees[k] * 3.14159265358979 / 180, sum[3] = {0, 0, 0}, square = 0;

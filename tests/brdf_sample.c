@@ -48,16 +48,15 @@ print(bytes *to, const char *format, ...)
 static void print_parameters(bytes *to, const brdf_sample *s, const hnbrdf_material *m)
 {
     static const char LETTERS[] = "rgb";
-    print(
-        to,
-        "analytic\n\n# A made-up material in the syntax of the published files.\n::begin parameters\n");
+    print(to, "analytic\n\n# A made-up material in the syntax of the published files.\n::begin "
+              "parameters\n");
     for (int c = 0; c < 3; c++)
         print(to, "float diffuse_%c 0.0 1.0 %.9g\n", LETTERS[c], (double)m->kd[c]);
     for (int c = 0; c < 3; c++)
         print(to, "float eta_%c 1.0 10.0 %.9g\n", LETTERS[c], (double)m->eta[c]);
     if (s->anisotropic)
-        print(to, "float alpha_x 0.0001 1.0 %.9g\nfloat alpha_y 0.0001 1.0 %.9g\n", (double)m->alpha[0],
-              (double)m->alpha[1]);
+        print(to, "float alpha_x 0.0001 1.0 %.9g\nfloat alpha_y 0.0001 1.0 %.9g\n",
+              (double)m->alpha[0], (double)m->alpha[1]);
     else
         print(to, "float alpha 0.0001 1.0 %.9g\n", (double)m->alpha[0]);
     for (int i = 0; i < s->latent; i++)
@@ -74,7 +73,8 @@ static int group_size(int total, int group)
 static void print_block(bytes *to, const brdf_sample *s, int layer, int group, int part)
 {
     const int in = brdf_sample_inputs(s, layer);
-    const int rows = group_size(brdf_sample_outputs(s, layer), group), columns = group_size(in, part);
+    const int rows = group_size(brdf_sample_outputs(s, layer), group),
+              columns = group_size(in, part);
     const char *gap = s->dense ? "" : " ";
     if (columns == 1 && s->dense)
         print(to, "f%d_%d*", layer, part);

@@ -8,7 +8,8 @@
 typedef struct brdf_sample {
     int hidden, layers, latent;
     int anisotropic; /* alpha_x and alpha_y instead of alpha */
-    int dense; /* no spaces, comments and line breaks in odd places, columns written the other way */
+    /* no spaces, comments and line breaks in odd places, columns written the other way */
+    int dense;
     const char *exponent; /* what stands in exp(...) */
     float weights[HNBRDF_MAX_LAYERS + 1][64 * 64], biases[HNBRDF_MAX_LAYERS + 1][64];
 } brdf_sample;

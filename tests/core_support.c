@@ -91,8 +91,9 @@ hnbrdf_material random_material(rng *r, int isotropic)
         m.eta[c] = 1.0f + rng_log_range(r, 1e-3f, 9.0f);
     }
     m.alpha[0] = fmaxf(rng_log_range(r, HNBRDF_MIN_ALPHA, HNBRDF_MAX_ALPHA), HNBRDF_MIN_ALPHA);
-    m.alpha[1] = isotropic ? m.alpha[0]
-                           : fmaxf(rng_log_range(r, HNBRDF_MIN_ALPHA, HNBRDF_MAX_ALPHA), HNBRDF_MIN_ALPHA);
+    m.alpha[1] =
+        isotropic ? m.alpha[0]
+                  : fmaxf(rng_log_range(r, HNBRDF_MIN_ALPHA, HNBRDF_MAX_ALPHA), HNBRDF_MIN_ALPHA);
     m.rotation = isotropic ? 0.0f : rng_range(r, -4.0f, 4.0f);
     for (int i = 0; i < HNBRDF_MAX_LATENT; i++)
         m.latent[i] = rng_normal(r);
@@ -108,8 +109,8 @@ void random_lobes(rng *r, hnbrdf_lobes *lobes)
     }
 }
 
-hnbrdf_model *random_model(rng *r, hnbrdf_kind kind, hnbrdf_encoding encoding, int hidden, int layers,
-                           int latent)
+hnbrdf_model *random_model(rng *r, hnbrdf_kind kind, hnbrdf_encoding encoding, int hidden,
+                           int layers, int latent)
 {
     static float weights[HNBRDF_MAX_LAYERS + 1][HNBRDF_MAX_HIDDEN * HNBRDF_MAX_HIDDEN];
     static float biases[HNBRDF_MAX_LAYERS + 1][HNBRDF_MAX_HIDDEN];

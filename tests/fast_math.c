@@ -47,7 +47,8 @@ int main(int argc, char **argv)
         print_bits(sample.weight, 3);
         print_bits(f, 3);
         print_bits(&pdf, 1);
-        memcpy(&sample.wi[k % 3], &broken[k % 5], sizeof(float)); /* NaN, infinities, -0, the largest */
+        /* NaN, infinities, -0, the largest */
+        memcpy(&sample.wi[k % 3], &broken[k % 5], sizeof(float));
         hnbrdf_eval(model, material, sample.wi, wo, f);
         print_bits(f, 3);
         hnbrdf_sample(model, material, wo, u, &sample);

@@ -1,5 +1,5 @@
-/* glsl_scenes.c: writes scenes of many shapes into a directory, for the tests that are shell scripts:
- * NAME.glsl (include), NAME.alone.glsl (standalone), NAME.safetensors (the model). */
+/* glsl_scenes.c: writes scenes of many shapes into a directory, for the tests that are shell
+ * scripts: NAME.glsl (include), NAME.alone.glsl (standalone), NAME.safetensors (the model). */
 #include "gpu_support.h"
 
 #include <stdio.h>
@@ -7,9 +7,9 @@
 #include <string.h>
 
 /* Neither units nor latent code fill their vectors. */
-#define UNEVEN                                                                                         \
-    {                                                                                                  \
-        .encoding = HNBRDF_ENCODING_ANGLES, .hidden = 11, .layers = 2, .latent = 5, .shift = 0.5f      \
+#define UNEVEN                                                                                    \
+    {                                                                                             \
+        .encoding = HNBRDF_ENCODING_ANGLES, .hidden = 11, .layers = 2, .latent = 5, .shift = 0.5f \
     }
 
 static const struct {
@@ -43,11 +43,26 @@ static const struct {
                .latent = 12}},
     {.name = "ggx", .shape = {.kind = HNBRDF_KIND_GGX}},
     {.name = "ggx_rotated", .shape = {.kind = HNBRDF_KIND_GGX, .anisotropic = 1, .rotated = 1}},
-    {.name = "columns", .shape = UNEVEN, .weights = HNBRDF_GLSL_COLUMNS, .precision = HNBRDF_GLSL_FLOAT},
-    {.name = "uniform", .shape = UNEVEN, .weights = HNBRDF_GLSL_UNIFORM, .precision = HNBRDF_GLSL_FLOAT},
-    {.name = "half", .shape = UNEVEN, .weights = HNBRDF_GLSL_CONSTANTS, .precision = HNBRDF_GLSL_HALF},
-    {.name = "half_columns", .shape = UNEVEN, .weights = HNBRDF_GLSL_COLUMNS, .precision = HNBRDF_GLSL_HALF},
-    {.name = "half_uniform", .shape = UNEVEN, .weights = HNBRDF_GLSL_UNIFORM, .precision = HNBRDF_GLSL_HALF},
+    {.name = "columns",
+     .shape = UNEVEN,
+     .weights = HNBRDF_GLSL_COLUMNS,
+     .precision = HNBRDF_GLSL_FLOAT},
+    {.name = "uniform",
+     .shape = UNEVEN,
+     .weights = HNBRDF_GLSL_UNIFORM,
+     .precision = HNBRDF_GLSL_FLOAT},
+    {.name = "half",
+     .shape = UNEVEN,
+     .weights = HNBRDF_GLSL_CONSTANTS,
+     .precision = HNBRDF_GLSL_HALF},
+    {.name = "half_columns",
+     .shape = UNEVEN,
+     .weights = HNBRDF_GLSL_COLUMNS,
+     .precision = HNBRDF_GLSL_HALF},
+    {.name = "half_uniform",
+     .shape = UNEVEN,
+     .weights = HNBRDF_GLSL_UNIFORM,
+     .precision = HNBRDF_GLSL_HALF},
     {.name = "stripped", .shape = UNEVEN, .only = HNBRDF_GLSL_EVAL, .fixed = 1},
     {.name = "fixed_columns", .shape = UNEVEN, .weights = HNBRDF_GLSL_COLUMNS, .fixed = 1},
     {.name = "packed", .shape = UNEVEN, .only = HNBRDF_GLSL_EVAL_SAMPLE, .packed = 1},

@@ -34,7 +34,8 @@ static const char SHADER[] =
     "layout(push_constant) uniform Push { uint count; int material; };\n"
     "float in_float(uint at) { return uintBitsToFloat(in_words[at]); }\n"
     "vec3 in_vec3(uint at) { return vec3(in_float(at), in_float(at + 1), in_float(at + 2)); }\n"
-    "void store3(uint at, vec3 v) { results[at] = v.x; results[at + 1] = v.y; results[at + 2] = v.z; "
+    "void store3(uint at, vec3 v) { results[at] = v.x; results[at + 1] = v.y; results[at + 2] = "
+    "v.z; "
     "}\n"
     "#include \"body.glsl\"\n";
 
@@ -96,8 +97,8 @@ uint32_t *gpu_run_compile(const char *scene, const char *body, int exact, size_t
     return spirv;
 }
 
-void gpu_run_compiled(const uint32_t *spirv, size_t bytes, int material, uint32_t count, const void *in,
-                      size_t in_words, float *results, size_t result_words)
+void gpu_run_compiled(const uint32_t *spirv, size_t bytes, int material, uint32_t count,
+                      const void *in, size_t in_words, float *results, size_t result_words)
 {
     const struct {
         uint32_t count;
@@ -111,7 +112,8 @@ void gpu_run_compiled(const uint32_t *spirv, size_t bytes, int material, uint32_
     check(gpu_buffer_open(&device, in_words * 4, &input, &error), &error);
     check(gpu_buffer_open(&device, result_words * 4, &output, &error), &error);
     check(gpu_upload(&device, &input, in, in_words * 4, &error), &error);
-    check(gpu_program_open(&device, spirv, bytes, buffers, 2, sizeof push, &program, &error), &error);
+    check(gpu_program_open(&device, spirv, bytes, buffers, 2, sizeof push, &program, &error),
+          &error);
     check(gpu_pipeline_open(&device, &program, 0, &pipeline, &error), &error);
     check(gpu_dispatch(&device, &program, pipeline, &push, count, 1, NULL, &error), &error);
     check(gpu_download(&device, &output, results, result_words * 4, &error), &error);
@@ -151,12 +153,14 @@ char *gpu_run_export(const hnbrdf_model *model, const hnbrdf_glsl_options *optio
     return text.bytes;
 }
 
-void gpu_run_assert_same(const char *what, const float *on_device, const float *reference, size_t count)
+void gpu_run_assert_same(const char *what, const float *on_device, const float *reference,
+                         size_t count)
 {
     for (size_t i = 0; i < count; i++)
-        if (memcmp(&on_device[i], &reference[i], sizeof(float)) != 0 && on_device[i] != reference[i])
-            fail_msg("%s: number %zu is %.9g on the device, %.9g in C", what, i, (double)on_device[i],
-                     (double)reference[i]);
+        if (memcmp(&on_device[i], &reference[i], sizeof(float)) != 0 &&
+            on_device[i] != reference[i])
+            fail_msg("%s: number %zu is %.9g on the device, %.9g in C", what, i,
+                     (double)on_device[i], (double)reference[i]);
 }
 
 /* ---- Devices --------------------------------------------------------------------------------- */
@@ -169,12 +173,14 @@ void gpu_run_assert_same(const char *what, const float *on_device, const float *
 #define HAS_LEAK_CHECK 0
 #endif
 
-static int run_on(const gpu_instance *instance, int index, const struct CMUnitTest *tests, size_t count)
+static int run_on(const gpu_instance *instance, int index, const struct CMUnitTest *tests,
+                  size_t count)
 {
     hnbrdf_error error = {""};
     const char *name = instance->properties[index].deviceName;
     printf("device %d: %s\n", index, name);
-    if (gpu_device_open(instance, index, &device, &error) || gpu_probe(&device, &arithmetic, &error)) {
+    if (gpu_device_open(instance, index, &device, &error) ||
+        gpu_probe(&device, &arithmetic, &error)) {
         printf("%s\n", error.text);
         return 1;
     }

@@ -53,7 +53,8 @@ static void fill_materials(hnbrdf_rng *rng, const scene_shape *shape, hnbrdf_mat
             materials[m].latent[i] = spread(rng, 1.0f);
     }
     /* Sampling in every way there is: guessed, two lobes that change with the view, the paper's. */
-    materials[1].lobes = (hnbrdf_lobes){{0.6f, 4.0f}, {{0.1f, 0.5f, 0.3f, 0.6f}, {0.8f, 0.25f, 0.6f, 0.02f}}};
+    materials[1].lobes =
+        (hnbrdf_lobes){{0.6f, 4.0f}, {{0.1f, 0.5f, 0.3f, 0.6f}, {0.8f, 0.25f, 0.6f, 0.02f}}};
     hnbrdf_lobes_paper(&materials[2].lobes);
 }
 

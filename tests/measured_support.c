@@ -23,7 +23,8 @@ void put_double(unsigned char *p, double value)
     put_le(p, bits, 8);
 }
 
-/* ---- Tensor files -------------------------------------------------------------------------------- */
+/* ---- Tensor files
+ * -------------------------------------------------------------------------------- */
 
 enum { MAX_ELEMENTS = 2048, TYPE_U8 = 1, TYPE_U32 = 5, TYPE_F32 = 10 };
 
@@ -72,7 +73,8 @@ static double formula(const char *name, const uint64_t *index, test_circle circl
     if (strcmp(name, "wavelengths") == 0)
         return 400.0 + 100.0 * (double)index[0];
     if (strcmp(name, "rgb") == 0 || strcmp(name, "spectra") == 0)
-        return 0.05 * (double)(1 + (p + 2 * t + 3 * index[2] + 5 * index[4] + 7 * index[3]) % 13) - 0.1;
+        return 0.05 * (double)(1 + (p + 2 * t + 3 * index[2] + 5 * index[4] + 7 * index[3]) % 13) -
+               0.1;
     return 1.0; /* jacobian and the fields that are not read */
 }
 
@@ -185,7 +187,8 @@ size_t test_data_at(const test_bytes *file, const char *field)
     return (size_t)(p[0] | p[1] << 8 | p[2] << 16);
 }
 
-/* ---- Outcomes ------------------------------------------------------------------------------------ */
+/* ---- Outcomes
+ * ------------------------------------------------------------------------------------ */
 
 static const char PATH[] = "folder/broken_rgb.bsdf";
 
@@ -269,7 +272,8 @@ void expect_sane_with(const void *data, size_t size, const char *path,
     hnbrdf_measured_close(measured);
 }
 
-/* ---- Directions ---------------------------------------------------------------------------------- */
+/* ---- Directions
+ * ---------------------------------------------------------------------------------- */
 
 static void direction(double theta, double phi, float w[3])
 {

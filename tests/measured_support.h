@@ -1,5 +1,5 @@
-/* measured_support.h: files in memory for the tests of measured data: tensor files made from formulas,
- * and what every refusal must look like. */
+/* measured_support.h: files in memory for the tests of measured data: tensor files made from
+ * formulas, and what every refusal must look like. */
 #ifndef MEASURED_SUPPORT_H
 #define MEASURED_SUPPORT_H
 
@@ -30,7 +30,8 @@ typedef enum test_circle { TEST_ISOTROPIC, TEST_WHOLE, TEST_HALF, TEST_QUARTER }
 
 /* A complete small RGL file; free() its data. */
 test_bytes test_rgl(test_circle circle);
-/* The spectral one: 400, 500, 600 and 700 nm, the whole circle; on request with a field "rgb" too. */
+/* The spectral one: 400, 500, 600 and 700 nm, the whole circle; on request with a field "rgb"
+ * too. */
 test_bytes test_rgl_spectral(int with_rgb);
 /* Offset of the record of a field, and of its type byte, offset, shape and data. */
 size_t test_record(const test_bytes *file, const char *field);
@@ -44,9 +45,11 @@ void expect_refusal(const void *data, size_t size, hnbrdf_result result, const c
 hnbrdf_measured *expect_opens(const void *data, size_t size, const char *path);
 hnbrdf_measured *expect_opens_with(const void *data, size_t size, const char *path,
                                    const hnbrdf_measured_options *options);
-/* Any outcome but a crash: refused with a message, or opened with values that are finite and >= 0. */
+/* Any outcome but a crash: refused with a message, or opened with values that are finite and >=
+ * 0. */
 void expect_sane(const void *data, size_t size);
-/* The same for a file of another name, read with options: values are then within +-HNBRDF_MAX_VALUE. */
+/* The same for a file of another name, read with options: values are then within
+ * +-HNBRDF_MAX_VALUE. */
 void expect_sane_with(const void *data, size_t size, const char *path,
                       const hnbrdf_measured_options *options);
 

@@ -1,5 +1,5 @@
-/* model_support.h: what the tests of model files share: example models, bytes in memory, an allocator
- * that counts and fails on demand. */
+/* model_support.h: what the tests of model files share: example models, bytes in memory, an
+ * allocator that counts and fails on demand. */
 #ifndef HNBRDF_TESTS_MODEL_SUPPORT_H
 #define HNBRDF_TESTS_MODEL_SUPPORT_H
 
@@ -26,12 +26,12 @@ bytes model_bytes(const hnbrdf_model *model);
 /* A safetensors file with this header, as it stands, and data_size bytes of zero. */
 bytes file_with_header(const char *header, size_t data_size);
 void free_bytes(bytes *b);
-/* Replaces the first occurrence of `old` by `new` in the header and corrects the header's length. Fails
- * the test if there is none. */
+/* Replaces the first occurrence of `old` by `new` in the header and corrects the header's length.
+ * Fails the test if there is none. */
 bytes with_replaced(const bytes *file, const char *old, const char *new_text);
 
-/* Counts what is alive; fails the allocation number `fail_at` (from 0; -1 none). Checks that only its
- * own pointers come back. */
+/* Counts what is alive; fails the allocation number `fail_at` (from 0; -1 none). Checks that only
+ * its own pointers come back. */
 typedef struct counting {
     long calls, alive, fail_at;
     size_t largest;

@@ -28,7 +28,8 @@ static void need(int holds, const char *what, const hnbrdf_error *error)
         stop(what, error && error->text[0] ? error->text : "does not hold");
 }
 
-/* ---- Checksums ----------------------------------------------------------------------------------- */
+/* ---- Checksums
+ * ----------------------------------------------------------------------------------- */
 
 /* FNV-1a; a hnbrdf_write_fn. */
 static int add_bytes(void *user, const void *data, size_t size)
@@ -73,7 +74,8 @@ static void show(const char *what, const char *detail, uint64_t checksum)
            (unsigned long)(checksum & 0xffffffffu));
 }
 
-/* ---- Files --------------------------------------------------------------------------------------- */
+/* ---- Files
+ * --------------------------------------------------------------------------------------- */
 
 static char *read_file(const char *directory, const char *name, size_t *size)
 {
@@ -98,7 +100,8 @@ static uint64_t file_checksum(const char *directory, const char *name)
     return checksum;
 }
 
-/* ---- Models -------------------------------------------------------------------------------------- */
+/* ---- Models
+ * -------------------------------------------------------------------------------------- */
 
 /* Values, samples and densities of every material; single calls here, test_core_variants has the
  * batches. */
@@ -166,7 +169,8 @@ static void pack(const hnbrdf_model *model, const char *name, hnbrdf_texel_forma
     show("unpacked", name, unpacked_sum);
 }
 
-static void export_as(const hnbrdf_model *model, const char *name, const hnbrdf_glsl_options *options)
+static void export_as(const hnbrdf_model *model, const char *name,
+                      const hnbrdf_glsl_options *options)
 {
     uint64_t text = EMPTY;
     hnbrdf_error error = {""};
@@ -204,7 +208,8 @@ static void check_model(const char *name, const hnbrdf_model *model)
 
 static void check_models(const char *seeds, const char *shipped)
 {
-    static const char *const files[] = {"safetensors/hybrid", "safetensors/neural", "safetensors/ggx"};
+    static const char *const files[] = {"safetensors/hybrid", "safetensors/neural",
+                                        "safetensors/ggx"};
     static const char *const shaders[] = {"brdf/plain", "brdf/brushed"};
     hnbrdf_model *model = NULL;
     hnbrdf_error error = {""};
@@ -223,15 +228,16 @@ static void check_models(const char *seeds, const char *shipped)
         static const char *const material = "imported";
         char *data = read_file(seeds, shaders[k], &size);
         const char *text = data;
-        need(!hnbrdf_model_import_brdf(&text, &size, &material, 1, NULL, &model, &error), shaders[k],
-             &error);
+        need(!hnbrdf_model_import_brdf(&text, &size, &material, 1, NULL, &model, &error),
+             shaders[k], &error);
         check_model(shaders[k], model);
         hnbrdf_model_free(model);
         free(data);
     }
 }
 
-/* ---- Messages ------------------------------------------------------------------------------------ */
+/* ---- Messages
+ * ------------------------------------------------------------------------------------ */
 
 /* Every message with a number in it that has a fraction. */
 static void check_messages(const char *shipped)
@@ -253,23 +259,27 @@ static void check_messages(const char *shipped)
     need(!hnbrdf_model_load(shipped, NULL, &model, &error), shipped, &error);
     hnbrdf_model_describe(model, &desc);
     desc.floor = -0.5f;
-    need(hnbrdf_model_create(&desc, NULL, &(hnbrdf_model *){NULL}, &error) != HNBRDF_OK, "floor", NULL);
-    puts(error.text);
-    const hnbrdf_glsl_options options = {.materials = &first, .material_count = 1, .energy = &energy};
-    need(hnbrdf_export_glsl(model, &options, add_bytes, &(uint64_t){0}, &error) != HNBRDF_OK, "energy",
+    need(hnbrdf_model_create(&desc, NULL, &(hnbrdf_model *){NULL}, &error) != HNBRDF_OK, "floor",
          NULL);
     puts(error.text);
-    need(!hnbrdf_packing_init(model, NULL, 0, HNBRDF_TEXEL_RGBA8, &packing, &error), "packing", &error);
+    const hnbrdf_glsl_options options = {
+        .materials = &first, .material_count = 1, .energy = &energy};
+    need(hnbrdf_export_glsl(model, &options, add_bytes, &(uint64_t){0}, &error) != HNBRDF_OK,
+         "energy", NULL);
+    puts(error.text);
+    need(!hnbrdf_packing_init(model, NULL, 0, HNBRDF_TEXEL_RGBA8, &packing, &error), "packing",
+         &error);
     packing.kd[1] = 1.75f;
     need(hnbrdf_packing_check(&packing, &error) != HNBRDF_OK, "packing range", NULL);
     puts(error.text);
     hnbrdf_model_free(model);
 }
 
-/* ---- Measurements -------------------------------------------------------------------------------- */
+/* ---- Measurements
+ * -------------------------------------------------------------------------------- */
 
-/* The C library's atan2() and pow() may differ by an ulp of double from machine to machine. f, rounded
- * to float, does not for these directions and tables. */
+/* The C library's atan2() and pow() may differ by an ulp of double from machine to machine. f,
+ * rounded to float, does not for these directions and tables. */
 static void ask(const char *name, const hnbrdf_measured *measured)
 {
     sweep s = {7};

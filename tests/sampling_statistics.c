@@ -71,9 +71,9 @@ int sampling_chart_cell(const sampling_chart *c, const float wi[3])
 
 /* ---- Statistics ------------------------------------------------------------------------------ */
 
-/* Pearson's statistic as a standard normal deviate (Wilson and Hilferty 1931). Cells that expect fewer
- * than 10 draws are pooled with the rejected ones; what is expected of those, 1 less an integral, is
- * known to its error. */
+/* Pearson's statistic as a standard normal deviate (Wilson and Hilferty 1931). Cells that expect
+ * fewer than 10 draws are pooled with the rejected ones; what is expected of those, 1 less an
+ * integral, is known to its error. */
 static double chi_squared(const double *share, const double *counts, int count, double total,
                           double rejected)
 {
@@ -91,8 +91,8 @@ static double chi_squared(const double *share, const double *counts, int count, 
         cells++;
     }
     if (pooled_expected >= 10.0) {
-        statistic +=
-            (pooled - pooled_expected) * (pooled - pooled_expected) / (pooled_expected + error * error);
+        statistic += (pooled - pooled_expected) * (pooled - pooled_expected) /
+                     (pooled_expected + error * error);
         cells++;
     }
     if (cells < 4)
@@ -106,10 +106,10 @@ int sampling_cell_in_order(int place, int by_y)
     return by_y ? place % SAMPLING_SIDE * SAMPLING_SIDE + place / SAMPLING_SIDE : place;
 }
 
-/* Cells joined along x, or along y, into 16 groups that expect as many draws each: they see a few per
- * cent that many cells have in common. */
-static double chi_squared_of_groups(const sampling_expected *expected, const sampling_counted *counted,
-                                    int by_y)
+/* Cells joined along x, or along y, into 16 groups that expect as many draws each: they see a few
+ * per cent that many cells have in common. */
+static double chi_squared_of_groups(const sampling_expected *expected,
+                                    const sampling_counted *counted, int by_y)
 {
     enum { GROUPS = 16 };
     double share[GROUPS] = {0}, counts[GROUPS] = {0}, so_far = 0.0;

@@ -1,6 +1,6 @@
-/* test_bench_peer.c: what `hnbrdf bench` times is what it says: the peer's shader gives the values of
- * the peer's model, an exported one those of its model. Skipped where there is no Vulkan device or no
- * glslangValidator. */
+/* test_bench_peer.c: what `hnbrdf bench` times is what it says: the peer's shader gives the
+ * values of the peer's model, an exported one those of its model. Skipped where there is no
+ * Vulkan device or no glslangValidator. */
 #include "gpu_support.h"
 
 #include "cli/bench.h"
@@ -57,16 +57,16 @@ static double worst_error(const hnbrdf_model *model)
         float f[3];
         hnbrdf_eval(model, hnbrdf_model_material(model, 0), pairs[k], pairs[k] + 3, f);
         for (int c = 0; c < 3; c++)
-            worst =
-                fmax(worst, fabs((double)values[k][c] - (double)f[c]) / (fabs((double)f[c]) + 0.01));
+            worst = fmax(worst,
+                         fabs((double)values[k][c] - (double)f[c]) / (fabs((double)f[c]) + 0.01));
     }
     return worst;
 }
 
-/* alpha is 0.35. The tangent of an angle loses digits near the normal: 1 - cos^2 has an error of 1e-7,
- * 1e-6 of alpha^2. g - c loses as many where eta is near 1. exp and pow are within 35 ulp, 4e-6, on the
- * one device known; sums are in another order. 1e-4 has room for all of that and none for a wrong
- * weight, factor or channel, nor for weights that were not rounded. */
+/* alpha is 0.35. The tangent of an angle loses digits near the normal: 1 - cos^2 has an error of
+ * 1e-7, 1e-6 of alpha^2. g - c loses as many where eta is near 1. exp and pow are within 35 ulp,
+ * 4e-6, on the one device known; sums are in another order. 1e-4 has room for all of that and
+ * none for a wrong weight, factor or channel, nor for weights that were not rounded. */
 static void peer_shader_gives_the_values_of_the_rounded_model(void **state)
 {
     (void)state;

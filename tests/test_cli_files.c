@@ -1,7 +1,8 @@
 /* test_cli_files.c: writes the small files that the tests of the command line read and then spoil:
  *     test_cli_files DIRECTORY
- * hybrid.safetensors, ggx.safetensors (the built-in materials, untrained), one.safetensors (a name that
- * JSON and CSV must quote), lambert_rgb.bsdf, lambert.binary, a.brdf, b.brdf and sky.hdr. */
+ * hybrid.safetensors, ggx.safetensors (the built-in materials, untrained), one.safetensors (a
+ * name that JSON and CSV must quote), lambert_rgb.bsdf, lambert.binary, a.brdf, b.brdf and
+ * sky.hdr. */
 #include "hnbrdf/hnbrdf.h"
 #include "hnbrdf/measured.h"
 
@@ -34,7 +35,8 @@ static void finish(FILE *file)
     check(fclose(file) == 0, "cannot write");
 }
 
-/* ---- Models -------------------------------------------------------------------------------------- */
+/* ---- Models
+ * -------------------------------------------------------------------------------------- */
 
 /* Any finite numbers will do: k-th of a network whose weights are all near 0. */
 static float weight(int k)
@@ -94,7 +96,8 @@ static void write_models(const char *directory)
     write_model(directory, "one.safetensors", HNBRDF_KIND_HYBRID, &odd, 1);
 }
 
-/* ---- Published shaders --------------------------------------------------------------------------- */
+/* ---- Published shaders
+ * --------------------------------------------------------------------------- */
 
 static void put_numbers(FILE *file, const char *type, int count, int *next)
 {
@@ -104,7 +107,8 @@ static void put_numbers(FILE *file, const char *type, int count, int *next)
     fputs(")", file);
 }
 
-/* One line of a layer: four rows, or two, of a matrix over the parts of `in` inputs, and their bias. */
+/* One line of a layer: four rows, or two, of a matrix over the parts of `in` inputs, and their
+ * bias. */
 static void put_rows(FILE *file, int layer, int block, int rows, int in, int activated, int *next)
 {
     static const char *const matrices[2][2] = {{"mat4x2", "mat2"}, {"mat4", "mat2x4"}};
@@ -153,7 +157,8 @@ static void write_brdf(const char *directory, const char *name, float alpha)
     finish(file);
 }
 
-/* ---- Measured files ------------------------------------------------------------------------------ */
+/* ---- Measured files
+ * ------------------------------------------------------------------------------ */
 
 static void put_integer(FILE *file, unsigned long long value, int bytes)
 {
@@ -242,7 +247,8 @@ static void write_merl(const char *directory)
     finish(file);
 }
 
-/* ---- Environments -------------------------------------------------------------------------------- */
+/* ---- Environments
+ * -------------------------------------------------------------------------------- */
 
 /* A grey Radiance map of 4 x 2 pixels; lines shorter than 8 pixels are never packed. */
 static void write_hdr(const char *directory)

@@ -1,5 +1,5 @@
-/* test_core_analytic.c: the analytic part, compared with DESIGN section 2 written out in long double,
- * and what must hold for any direction: conventions, symmetry, the horizon, bad numbers. */
+/* test_core_analytic.c: the analytic part, compared with DESIGN section 2 written out in long
+ * double, and what must hold for any direction: conventions, symmetry, the horizon, bad numbers. */
 #include "core_support.h"
 
 #include "core/microfacet.h"
@@ -16,9 +16,9 @@ typedef long double real;
 
 static const real pi = 3.14159265358979323846264338327950288L;
 
-/* f_a of one channel by the formulas as they are printed (Walter 2007; Heitz 2014), without a rewrite.
- * The difference angle is taken as c = |wi + wo|/2, which is wi.h for unit vectors: float vectors are
- * not quite unit, and this is the definition the library documents. */
+/* f_a of one channel by the formulas as they are printed (Walter 2007; Heitz 2014), without a
+ * rewrite. The difference angle is taken as c = |wi + wo|/2, which is wi.h for unit vectors:
+ * float vectors are not quite unit, and this is the definition the library documents. */
 static real g1(const real w[3], real ax, real ay)
 {
     return 2 * w[2] / (w[2] + sqrtl(w[2] * w[2] + ax * ax * w[0] * w[0] + ay * ay * w[1] * w[1]));
@@ -48,15 +48,16 @@ static real analytic(const hnbrdf_material *m, int channel, const float wi[3], c
                                      g1(i, ax, ay) * g1(o, ax, ay) / (4 * i[2] * o[2]);
 }
 
-/* Worst-case relative error of hnbrdf_eval_analytic(), in units u = 2^-24, first order, every sum being
- * one of positive terms (k.5: a constant that is itself rounded counts half):
+/* Worst-case relative error of hnbrdf_eval_analytic(), in units u = 2^-24, first order, every sum
+ * being one of positive terms (k.5: a constant that is itself rounded counts half):
  *   s: 1    s.s: 1+1+1+2 = 5    c = |s|/2: 5/2+1 = 3.5    t = dot(s/a)/(s.s): (2*2+1+2)+5+1 = 13
  *   D = 1/(pi ax ay t^2): 0.5+2 + 2*13+1 + 1+1 = 31.5         V: 1/(z + sqrt(5/2+1)+1)+1: 5.5 each
  *   D V V: 31.5 + 2*5.5+1 + 1 = 44.5
  *   e = eta^2-1: 3    g: (max(3, 2*3.5+1)+1)/2+1 = 5.5    g+c: 6.5    g-c: 3+6.5+1 = 10.5
  *   a = (g-c)/(g+c): 10.5+6.5+1 = 18, a^2: 37
  *   b: |b| <= 1, so c(g+c) <= 2 (c(g-c)+1) and the cancelling numerator adds at most 2*(3.5+6.5+1);
- *      with the denominator's 3.5+10.5+1+1 and two roundings: 40 absolute; 1+b^2: (2*40+1)/2+1 = 41.5
+ *      with the denominator's 3.5+10.5+1+1 and two roundings: 40 absolute; 1+b^2: (2*40+1)/2+1 =
+ *      41.5
  *   F = a^2/2 (1+b^2): 37+41.5+1 = 79.5;  F D V V: 79.5+44.5+1 = 125;  + kd/pi: 126.
  * 128 leaves room for the second order. */
 static const double worst_case = 128 * UNIT;
@@ -73,11 +74,12 @@ static void compare_pair(const hnbrdf_model *model, const hnbrdf_material *m, co
         double relative = fabs((double)f[c] - reference) / reference;
         worst = fmax(worst, relative);
         if (!(relative <= worst_case))
-            fail_msg("relative error %.3g, bound %.3g; got %.9g, expected %.9g; alpha %g %g, eta %.9g\n"
-                     "wi %.9g %.9g %.9g wo %.9g %.9g %.9g",
-                     relative, worst_case, (double)f[c], reference, (double)m->alpha[0],
-                     (double)m->alpha[1], (double)m->eta[c], (double)wi[0], (double)wi[1], (double)wi[2],
-                     (double)wo[0], (double)wo[1], (double)wo[2]);
+            fail_msg(
+                "relative error %.3g, bound %.3g; got %.9g, expected %.9g; alpha %g %g, eta %.9g\n"
+                "wi %.9g %.9g %.9g wo %.9g %.9g %.9g",
+                relative, worst_case, (double)f[c], reference, (double)m->alpha[0],
+                (double)m->alpha[1], (double)m->eta[c], (double)wi[0], (double)wi[1], (double)wi[2],
+                (double)wo[0], (double)wo[1], (double)wo[2]);
     }
 }
 
@@ -116,7 +118,8 @@ static void analytic_equals_the_printed_formulas(void **state)
     worst = 0.0;
     for (int k = 0; k < 400; k++)
         compare_material(model, random_material(&r, k & 1), &r, 100);
-    print_message("    random materials: worst relative error %.3g, bound %.3g\n", worst, worst_case);
+    print_message("    random materials: worst relative error %.3g, bound %.3g\n", worst,
+                  worst_case);
     hnbrdf_model_free(model);
 }
 
@@ -165,8 +168,9 @@ static void normal_incidence_has_its_closed_form(void **state)
     hnbrdf_model_free(model);
 }
 
-/* c = |s|/2 stands for wi.h. With float directions, off unit length by up to 2^-24 each, the two differ by
- * (|wi|^2 - |wo|^2) / (2 |s|), at most 4 * 2^-24 / (2 |s|); float rounding of c adds 3.5 * 2^-24. */
+/* c = |s|/2 stands for wi.h. With float directions, off unit length by up to 2^-24 each, the two
+ * differ by (|wi|^2 - |wo|^2) / (2 |s|), at most 4 * 2^-24 / (2 |s|); float rounding of c adds
+ * 3.5 * 2^-24. */
 static void cosine_of_the_difference_angle_is_wi_dot_h(void **state)
 {
     (void)state;
@@ -207,10 +211,11 @@ static void analytic_is_reciprocal_to_the_bit(void **state)
     hnbrdf_model_free(model);
 }
 
-/* A material turned by r, seen from directions turned by r, is the material itself. The turned directions
- * are rounded (3 u each component: product, sum, and the input of unit size), h moves by 2*3u/|s|, and
- * ln f by 4 |d ln t^(1/2)/dh| |dh| <= 4/(2 alpha) |dh| for D and less than 2/alpha' for the rest:
- * 4/alpha * 6u/|s| covers both, |s| >= 0.2, next to twice the evaluation error itself. */
+/* A material turned by r, seen from directions turned by r, is the material itself. The turned
+ * directions are rounded (3 u each component: product, sum, and the input of unit size), h moves
+ * by 2*3u/|s|, and ln f by 4 |d ln t^(1/2)/dh| |dh| <= 4/(2 alpha) |dh| for D and less than
+ * 2/alpha' for the rest: 4/alpha * 6u/|s| covers both, |s| >= 0.2, next to twice the evaluation
+ * error itself. */
 static void rotation_turns_the_tangent_frame_counter_clockwise(void **state)
 {
     (void)state;
@@ -239,8 +244,8 @@ static void rotation_turns_the_tangent_frame_counter_clockwise(void **state)
     hnbrdf_model_free(model);
 }
 
-/* alpha_x is the roughness along the tangent: a half vector tilted along x sees it, along y it does not;
- * a quarter turn counter-clockwise brings the tangent to +y. */
+/* alpha_x is the roughness along the tangent: a half vector tilted along x sees it, along y it
+ * does not; a quarter turn counter-clockwise brings the tangent to +y. */
 static void alpha_x_acts_along_the_tangent(void **state)
 {
     (void)state;
@@ -338,9 +343,15 @@ static void materials_out_of_range_are_refused(void **state)
         {offsetof(hnbrdf_material, alpha[1]), {-0.5f, 9.9e-5f, INFINITY, NAN}, "alpha[1]"},
         {offsetof(hnbrdf_material, rotation), {INFINITY, -INFINITY, NAN, NAN}, "rotation"},
         {offsetof(hnbrdf_material, latent[0]), {INFINITY, -INFINITY, NAN, NAN}, "latent[0]"},
-        {offsetof(hnbrdf_material, lobes.scale[0]), {9.9e-5f, -1.1e4f, INFINITY, NAN}, "lobes.scale[0]"},
-        {offsetof(hnbrdf_material, lobes.share[0][3]), {-1e-6f, 1.0001f, INFINITY, NAN}, "lobes.share[0][3]"},
-        {offsetof(hnbrdf_material, lobes.share[1][0]), {-1e-6f, 1.0001f, INFINITY, NAN}, "lobes.share[1][0]"},
+        {offsetof(hnbrdf_material, lobes.scale[0]),
+         {9.9e-5f, -1.1e4f, INFINITY, NAN},
+         "lobes.scale[0]"},
+        {offsetof(hnbrdf_material, lobes.share[0][3]),
+         {-1e-6f, 1.0001f, INFINITY, NAN},
+         "lobes.share[0][3]"},
+        {offsetof(hnbrdf_material, lobes.share[1][0]),
+         {-1e-6f, 1.0001f, INFINITY, NAN},
+         "lobes.share[1][0]"},
         {offsetof(hnbrdf_material, latent[15]), {INFINITY, -INFINITY, NAN, NAN}, "latent[15]"},
     };
     for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++)

@@ -1,5 +1,5 @@
-/* test_core_eval.c: f(wi, wo) of whole models: composition, batches, reciprocity, frames, and what comes out
- * of directions and materials that nobody should pass. */
+/* test_core_eval.c: f(wi, wo) of whole models: composition, batches, reciprocity, frames, and
+ * what comes out of directions and materials that nobody should pass. */
 #include "core_support.h"
 
 #include "core/compose.h"
@@ -29,8 +29,8 @@ static void for_each_model(uint64_t seed, visit *visitor)
     for (size_t k = 0; k < 3; k++)
         for (size_t e = 0; e < sizeof encodings / sizeof encodings[0]; e++)
             for (size_t s = 0; s < sizeof shapes / sizeof shapes[0]; s++) {
-                hnbrdf_model *model =
-                    random_model(&r, kinds[k], encodings[e], shapes[s][0], shapes[s][1], shapes[s][2]);
+                hnbrdf_model *model = random_model(&r, kinds[k], encodings[e], shapes[s][0],
+                                                   shapes[s][1], shapes[s][2]);
                 visitor(&r, model);
                 hnbrdf_model_free(model);
             }
@@ -43,8 +43,9 @@ static hnbrdf_model_desc describe(const hnbrdf_model *model)
     return desc;
 }
 
-/* max(0, exp(s c + m) + sigmoid(g) f_a - b) in double, from the network's own outputs. Errors: exp 1 ulp
- * = 2 u, its argument u |s c + m| twice; the gate 4 u and u |g|; their product and two sums u each. */
+/* max(0, exp(s c + m) + sigmoid(g) f_a - b) in double, from the network's own outputs. Errors:
+ * exp 1 ulp = 2 u, its argument u |s c + m| twice; the gate 4 u and u |g|; their product and two
+ * sums u each. */
 static void check_composition(rng *r, const hnbrdf_model *model)
 {
     hnbrdf_model_desc desc = describe(model);
@@ -103,7 +104,8 @@ static void scale_and_shift_act_on_the_correction(void **state)
         hnbrdf_eval(scaled, &m, wi, wo, f);
         for (int c = 0; c < 3; c++) {
             double argument = 0.5 * (double)out[c] - 1.25, expected = exp(argument);
-            assert_true(fabs((double)f[c] - expected) <= (3 + 2 * fabs(argument)) * UNIT * expected);
+            assert_true(fabs((double)f[c] - expected) <=
+                        (3 + 2 * fabs(argument)) * UNIT * expected);
         }
     }
     hnbrdf_model_free(scaled);
@@ -145,7 +147,8 @@ static void check_batch(rng *r, const hnbrdf_model *model)
     for (size_t n = 0; n < sizeof counts / sizeof counts[0]; n++)
         for (size_t s = 0; s < sizeof strides / sizeof strides[0]; s++) {
             hnbrdf_material m = random_material(r, s & 1);
-            size_t step_i = strides[s], step_o = strides[(s + 1) % 5], step_f = strides[(s + 2) % 5];
+            size_t step_i = strides[s], step_o = strides[(s + 1) % 5],
+                   step_f = strides[(s + 2) % 5];
             size_t i = (step_i ? step_i : 12) / 4, o = (step_o ? step_o : 12) / 4;
             size_t v = (step_f ? step_f : 12) / 4;
             float wi[BATCH * 7], wo[BATCH * 7], f[BATCH * 7 + 7], single[3];
@@ -158,7 +161,8 @@ static void check_batch(rng *r, const hnbrdf_model *model)
                 hnbrdf_eval(model, &m, wi + k * i, wo + k * o, single);
                 assert_same_bits(f + k * v, single, 3);
                 for (size_t gap = 3; gap < v; gap++)
-                    assert_true(f[k * v + gap] == -77.0f); /* nothing between the values is touched */
+                    /* nothing between the values is touched */
+                    assert_true(f[k * v + gap] == -77.0f);
             }
             for (size_t k = counts[n] * v; k < BATCH * 7 + 7; k++)
                 assert_true(f[k] == -77.0f);
@@ -174,8 +178,9 @@ static void batch_has_the_bits_of_single_evaluations(void **state)
 static void check_reciprocity(rng *r, const hnbrdf_model *model)
 {
     hnbrdf_model_desc desc = describe(model);
-    int reciprocal = desc.kind == HNBRDF_KIND_GGX || (desc.encoding != HNBRDF_ENCODING_DIRECTIONS &&
-                                                      desc.encoding != HNBRDF_ENCODING_ANGLES_DIRECTED);
+    int reciprocal =
+        desc.kind == HNBRDF_KIND_GGX || (desc.encoding != HNBRDF_ENCODING_DIRECTIONS &&
+                                         desc.encoding != HNBRDF_ENCODING_ANGLES_DIRECTED);
     int differences = 0;
     for (int k = 0; k < 1000; k++) {
         hnbrdf_material m = random_material(r, k & 1);
@@ -197,8 +202,8 @@ static void reciprocity_is_exact_for_ggx_and_every_encoding_that_says_so(void **
     for_each_model(24, check_reciprocity);
 }
 
-/* A quarter turn moves components without rounding. Only `directions` and `angles-anisotropic` may see
- * the azimuth. */
+/* A quarter turn moves components without rounding. Only `directions` and `angles-anisotropic`
+ * may see the azimuth. */
 static void check_quarter_turn(rng *r, const hnbrdf_model *model)
 {
     hnbrdf_model_desc desc = describe(model);
@@ -223,8 +228,9 @@ static void isotropic_materials_do_not_see_the_azimuth(void **state)
     for_each_model(25, check_quarter_turn);
 }
 
-/* Turning the material by its rotation equals turning both directions back, to the bit when the turned
- * directions are made the same way. The angle's own sign and sense is tested with the analytic part. */
+/* Turning the material by its rotation equals turning both directions back, to the bit when the
+ * turned directions are made the same way. The angle's own sign and sense is tested with the
+ * analytic part. */
 static void check_rotation(rng *r, const hnbrdf_model *model)
 {
     for (int k = 0; k < 1000; k++) {
@@ -287,9 +293,8 @@ static void assert_value(const float f[3])
 
 static void check_bad_numbers(rng *r, const hnbrdf_model *model)
 {
-    static const float bad[] = {0.0f,   -0.0f, 1e-45f,  -1e-38f, 1e-20f,   1.0f,
-                                -1.0f,  1e18f, -3e38f,  3e38f,   INFINITY, -INFINITY,
-                                NAN,    1e-6f, 0.99999f};
+    static const float bad[] = {0.0f,   -0.0f, 1e-45f,   -1e-38f,   1e-20f, 1.0f,  -1.0f,   1e18f,
+                                -3e38f, 3e38f, INFINITY, -INFINITY, NAN,    1e-6f, 0.99999f};
     const uint32_t n = sizeof bad / sizeof bad[0];
     for (int k = 0; k < 2000; k++) {
         hnbrdf_material m = random_material(r, 0);
@@ -317,8 +322,8 @@ static void value_is_finite_and_not_negative_whatever_is_passed(void **state)
     for_each_model(28, check_bad_numbers);
 }
 
-/* Float normals of a renderer are off unit length by a few ulp. ln f moves by less than 8/alpha times the
- * change of h where the network is left out. */
+/* Float normals of a renderer are off unit length by a few ulp. ln f moves by less than 8/alpha
+ * times the change of h where the network is left out. */
 static void value_is_stable_for_directions_that_are_nearly_unit(void **state)
 {
     (void)state;
@@ -362,7 +367,8 @@ static void latent_code_changes_the_value(void **state)
 {
     (void)state;
     rng r = rng_make(31);
-    hnbrdf_model *model = random_model(&r, HNBRDF_KIND_HYBRID, HNBRDF_ENCODING_HALF_DIFFERENCE, 16, 2, 4);
+    hnbrdf_model *model =
+        random_model(&r, HNBRDF_KIND_HYBRID, HNBRDF_ENCODING_HALF_DIFFERENCE, 16, 2, 4);
     const float w[3] = {0.0f, 0.6f, 0.8f};
     for (int i = 0; i < HNBRDF_MAX_LATENT; i++) {
         hnbrdf_material m = random_material(&r, 1), edited = m;
@@ -370,7 +376,8 @@ static void latent_code_changes_the_value(void **state)
         edited.latent[i] += 1.0f;
         hnbrdf_eval(model, &m, w, w, f);
         hnbrdf_eval(model, &edited, w, w, g);
-        assert_int_equal(memcmp(f, g, sizeof f) != 0, i < 4); /* the first l count, the rest do not */
+        /* the first l count, the rest do not */
+        assert_int_equal(memcmp(f, g, sizeof f) != 0, i < 4);
     }
     hnbrdf_model_free(model);
 }

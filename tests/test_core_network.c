@@ -1,5 +1,5 @@
-/* test_core_network.c: encodings and network against their definitions in double and long double, and
- * the one canonical order of summation. */
+/* test_core_network.c: encodings and network against their definitions in double and long double,
+ * and the one canonical order of summation. */
 #include "core_support.h"
 
 #include "core/encoding.h"
@@ -13,11 +13,13 @@
 
 #include <cmocka.h>
 
-/* Every shape that is special to the code: rows that are no multiple of four, the limits, no latent. */
+/* Every shape that is special to the code: rows that are no multiple of four, the limits, no
+ * latent. */
 static const struct {
     int hidden, layers, latent;
-} shapes[] = {{1, 1, 1},  {2, 1, 0},  {3, 2, 4},  {5, 4, 7},   {8, 2, 4},  {13, 3, 16}, {16, 3, 8},
-              {17, 1, 4}, {31, 2, 5}, {32, 2, 4}, {32, 3, 12}, {33, 2, 4}, {63, 4, 15}, {64, 4, 16}};
+} shapes[] = {{1, 1, 1},   {2, 1, 0},  {3, 2, 4},   {5, 4, 7},  {8, 2, 4},
+              {13, 3, 16}, {16, 3, 8}, {17, 1, 4},  {31, 2, 5}, {32, 2, 4},
+              {32, 3, 12}, {33, 2, 4}, {63, 4, 15}, {64, 4, 16}};
 enum { SHAPES = sizeof shapes / sizeof shapes[0] };
 
 /* A value and a bound on how far a float evaluation may be from it. */
@@ -32,10 +34,10 @@ static double hard_gelu(double x)
     return x >= 1.5 ? x : x / 3.0 * (x + 1.5); /* the paper's three branches */
 }
 
-/* sums[r] = bias[r] + W x in double. Running error bound, u = 2^-24: what the inputs bring, |W| e, and
- * (n + 1) u (|bias| + |W| |x|) for n products and n additions, 1 % for the second order. */
-static void layer(const float *weights, const float *biases, int rows, int columns, const bounded *x,
-                  bounded *sums)
+/* sums[r] = bias[r] + W x in double. Running error bound, u = 2^-24: what the inputs bring, |W|
+ * e, and (n + 1) u (|bias| + |W| |x|) for n products and n additions, 1 % for the second order. */
+static void layer(const float *weights, const float *biases, int rows, int columns,
+                  const bounded *x, bounded *sums)
 {
     for (int r = 0; r < rows; r++) {
         double sum = (double)biases[r], size = fabs(sum), brought = 0.0;
@@ -50,9 +52,8 @@ static void layer(const float *weights, const float *biases, int rows, int colum
     }
 }
 
-/* |HardGELU'| <= 1.5. Its own rounding: x/3 2u, + 1/2 another u, of size at most 1 where the clamp is
- * open
- * (|x| <= 1.5): 2u, times |x| <= 1.5, and the product's u: 4 u + u |y|. */
+/* |HardGELU'| <= 1.5. Its own rounding: x/3 2u, + 1/2 another u, of size at most 1 where the
+ * clamp is open (|x| <= 1.5): 2u, times |x| <= 1.5, and the product's u: 4 u + u |y|. */
 static bounded activate(bounded x)
 {
     bounded y;
@@ -92,8 +93,9 @@ static void network_equals_its_definition_in_double(void **state)
     double worst = 0.0, share = 0.0;
     for (int s = 0; s < SHAPES; s++)
         for (int kind = HNBRDF_KIND_HYBRID; kind <= HNBRDF_KIND_NEURAL; kind++) {
-            hnbrdf_model *model = random_model(&r, (hnbrdf_kind)kind, HNBRDF_ENCODING_DIRECTIONS,
-                                               shapes[s].hidden, shapes[s].layers, shapes[s].latent);
+            hnbrdf_model *model =
+                random_model(&r, (hnbrdf_kind)kind, HNBRDF_ENCODING_DIRECTIONS, shapes[s].hidden,
+                             shapes[s].layers, shapes[s].latent);
             hnbrdf_model_desc desc;
             hnbrdf_model_describe(model, &desc);
             for (int k = 0; k < 50; k++) {
@@ -108,9 +110,9 @@ static void network_equals_its_definition_in_double(void **state)
                     worst = fmax(worst, error);
                     share = fmax(share, error / expected[i].error);
                     if (!(error <= expected[i].error))
-                        fail_msg("%dx%d l=%d output %d: %.9g, expected %.9g +- %.3g", shapes[s].hidden,
-                                 shapes[s].layers, shapes[s].latent, i, (double)out[i],
-                                 expected[i].value, expected[i].error);
+                        fail_msg("%dx%d l=%d output %d: %.9g, expected %.9g +- %.3g",
+                                 shapes[s].hidden, shapes[s].layers, shapes[s].latent, i,
+                                 (double)out[i], expected[i].value, expected[i].error);
                 }
             }
             hnbrdf_model_free(model);
@@ -210,11 +212,13 @@ static void directions_are_encoded_as_they_are(void **state)
     assert_same_bits(x, expected, 6);
 }
 
-/* The half-difference inputs from angles, in long double. Errors in u = 2^-24, first order, from the
- * operations (sums of positive terms): r2 = sx^2+sy^2 4, s.s 5, c 3.5, d.d 5;
- *   ln: argument r2/sz^2 4+3+1 and + 1e-5 rounded, + 1: at most 9; log itself 1.05 ulp = 2.1 u of at
+/* The half-difference inputs from angles, in long double. Errors in u = 2^-24, first order, from
+ * the operations (sums of positive terms): r2 = sx^2+sy^2 4, s.s 5, c 3.5, d.d 5;
+ *   ln: argument r2/sz^2 4+3+1 and + 1e-5 rounded, + 1: at most 9; log itself 1.05 ulp = 2.1 u of
+ *   at
  * most |ln| and 5e-8 < 1 u; times 1/4, + 1: (9 + 2.1 |ln| + 1)/4 + |1/4 ln| + |x0| sqrt(sin th):
- * (4+5+1)/4+1/2+1 = 4;  c: 3.5;  sqrt(1-c) = sqrt(d.d/4/(1+c)): (5+(3.5+1)+1)/2+1 = 6.25 wi.z wo.z: 1;
+ * (4+5+1)/4+1/2+1 = 4;  c: 3.5;  sqrt(1-c) = sqrt(d.d/4/(1+c)): (5+(3.5+1)+1)/2+1 = 6.25 wi.z
+ *                       wo.z: 1;
  * wi.z + wo.z: 1.  Inputs 1, 3, 4, 5 are at most 2. Rounded up. */
 static void half_difference_encoding_has_its_definition(void **state)
 {
@@ -262,18 +266,20 @@ static void half_difference_encoding_has_its_definition(void **state)
             double error = fabs((double)(x[i] - expected[i]));
             worst[i] = fmax(worst[i], error);
             if (!(error <= bound[i] * (1 + 1e-6)))
-                fail_msg("input %d: %.9g, expected %.9g +- %.3g", i, (double)x[i], (double)expected[i],
-                         bound[i]);
+                fail_msg("input %d: %.9g, expected %.9g +- %.3g", i, (double)x[i],
+                         (double)expected[i], bound[i]);
         }
     }
     print_message("    half-difference: worst absolute %.2g %.2g %.2g %.2g %.2g %.2g\n", worst[0],
                   worst[1], worst[2], worst[3], worst[4], worst[5]);
 }
 
-/* The inputs by angles in long double. Errors in u = 2^-24 as above: q = 1 - c from d.d/4/(1+c) 11.5;
- *   ln(1e-5 + tan^2): as above;  sin th: (4+5+1)/2+1 = 6;  ln(1e-3 + q)/4: the argument 12.5 + 1, log
- * itself 2.1 u of |ln| and 1 u, all by 1/4, + 1 u of the result;  |h.x|: 1 + (5/2+1) + 1 = 5.5. Rounded
- * up. */
+/* The inputs by angles in long double. Errors in u = 2^-24 as above: q = 1 - c from d.d/4/(1+c)
+ *   11.5;
+ *   ln(1e-5 + tan^2): as above;  sin th: (4+5+1)/2+1 = 6;  ln(1e-3 + q)/4: the argument 12.5 + 1,
+ *                                log
+ * itself 2.1 u of |ln| and 1 u, all by 1/4, + 1 u of the result;  |h.x|: 1 + (5/2+1) + 1 = 5.5.
+ * Rounded up. */
 static void angle_encodings_have_their_definition(void **state)
 {
     (void)state;
@@ -302,7 +308,8 @@ static void angle_encodings_have_their_definition(void **state)
         long double ln_h = logl(1e-5L + tanl(theta_h) * tanl(theta_h)), ln_d = logl(1e-3L + q);
         const long double expected[6] = {1 + ln_h / 4,        sinl(theta_h),      ln_d / 4, q,
                                          fminf(wi[2], wo[2]), fmaxf(wi[2], wo[2])};
-        const double bound[6] = {(2.5 + 0.78 * fabs((double)ln_h) + fabs((double)expected[0])) * UNIT,
+        const double bound[6] = {(2.5 + 0.78 * fabs((double)ln_h) + fabs((double)expected[0])) *
+                                     UNIT,
                                  6 * (double)expected[1] * UNIT,
                                  (3.7 + 0.78 * fabs((double)ln_d)) * UNIT,
                                  12 * (double)q * UNIT,
@@ -310,15 +317,16 @@ static void angle_encodings_have_their_definition(void **state)
                                  0};
         for (int i = 0; i < 6; i++)
             if (!(fabs((double)(x[i] - expected[i])) <= bound[i] * (1 + 1e-6)))
-                fail_msg("input %d: %.9g, expected %.9g +- %.3g", i, (double)x[i], (double)expected[i],
-                         bound[i]);
+                fail_msg("input %d: %.9g, expected %.9g +- %.3g", i, (double)x[i],
+                         (double)expected[i], bound[i]);
         assert_memory_equal(x, directed, 4 * sizeof(float));
         assert_true(directed[4] == wi[2] && directed[5] == wo[2]);
         for (int i = 0; i < 2; i++) {
             double h = fabs((double)(s[i] / sqrtl(s2)));
             assert_true(fabs((double)turned[1 + 2 * i] - h) <= 6 * h * UNIT);
         }
-        assert_true(turned[0] == x[0] && turned[2] == x[2] && turned[4] == x[4] && turned[5] == x[5]);
+        assert_true(turned[0] == x[0] && turned[2] == x[2] && turned[4] == x[4] &&
+                    turned[5] == x[5]);
     }
 }
 

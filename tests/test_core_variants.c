@@ -31,8 +31,8 @@ typedef struct scene {
 static const char *what;
 static int failures;
 
-static void same(const char *call, const scene *s, int pair, const float *found, const float *expected,
-                 int count)
+static void same(const char *call, const scene *s, int pair, const float *found,
+                 const float *expected, int count)
 {
     if (memcmp(found, expected, (size_t)count * sizeof *found) == 0)
         return;
@@ -113,7 +113,8 @@ static void check_singles(const hnbrdf_model *model, const scene *s, uint64_t *c
         same("prepared_eval", s, k, f, expected, 3);
         hnbrdf_eval_analytic(model, m, wi, wo, f);
         same("eval_analytic", s, k, f, expected_a, 3);
-        float pdf = hnbrdf_pdf(model, m, wi, wo), prepared_pdf = hnbrdf_prepared_pdf(&prepared, wi, wo);
+        float pdf = hnbrdf_pdf(model, m, wi, wo),
+              prepared_pdf = hnbrdf_prepared_pdf(&prepared, wi, wo);
         same("prepared_pdf", s, k, &prepared_pdf, &pdf, 1);
         add_to(checksum, &pdf, 1);
         hnbrdf_sample(model, m, wo, s->u[k], &sample);
@@ -127,7 +128,8 @@ static void check_singles(const hnbrdf_model *model, const scene *s, uint64_t *c
     }
 }
 
-/* Every call for `count` pairs, whose values lie `step` floats apart: nothing between them is touched.
+/* Every call for `count` pairs, whose values lie `step` floats apart: nothing between them is
+ * touched.
  */
 static void check_batches(const hnbrdf_model *model, const scene *s, int count, size_t step)
 {
@@ -171,7 +173,8 @@ static void fill_scene(sweep *s, scene *made)
         for (int i = 0; i < 3; i++)
             made->u[k][i] = sweep_unit(s);
         sweep_material(s, k >= MATERIALS, &made->materials[k]);
-        made->index[k] = k % 3 ? (int)(sweep_u32(s) % MATERIALS) : k / 8; /* some runs, some disorder */
+        /* some runs, some disorder */
+        made->index[k] = k % 3 ? (int)(sweep_u32(s) % MATERIALS) : k / 8;
     }
 }
 
@@ -187,8 +190,8 @@ static uint64_t check_variant(hnbrdf_variant variant)
             for (int shape = 0; shape < (kind == HNBRDF_KIND_GGX ? 1 : SHAPES); shape++) {
                 int first = (encoding * SHAPES + shape) % 10;
                 hnbrdf_model *plain =
-                    sweep_model(&s, (hnbrdf_kind)kind, (hnbrdf_encoding)encoding, shapes[shape].hidden,
-                                shapes[shape].layers, shapes[shape].latent);
+                    sweep_model(&s, (hnbrdf_kind)kind, (hnbrdf_encoding)encoding,
+                                shapes[shape].hidden, shapes[shape].layers, shapes[shape].latent);
                 hnbrdf_model *model = plain ? sweep_variant(plain, variant) : NULL;
                 if (!model) {
                     fprintf(stderr, "%s: no model\n", what);

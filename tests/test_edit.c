@@ -47,7 +47,8 @@ static int free_model(void **state)
     return 0;
 }
 
-/* ---- Looking ------------------------------------------------------------------------------------- */
+/* ---- Looking
+ * ------------------------------------------------------------------------------------- */
 
 typedef void (*eval_fn)(const hnbrdf_model *, const hnbrdf_material *, const float *, const float *,
                         float *);
@@ -92,10 +93,11 @@ static void set_alpha(hnbrdf_material *material, float x, float y)
     material->alpha[1] = y;
 }
 
-/* ---- Editing ------------------------------------------------------------------------------------- */
+/* ---- Editing
+ * ------------------------------------------------------------------------------------- */
 
-/* What the gate lets through of the analytic part at the normal, as a share of the whole: an edit of kd
- * shows the gate. */
+/* What the gate lets through of the analytic part at the normal, as a share of the whole: an edit
+ * of kd shows the gate. */
 static double analytic_share(const hnbrdf_material *material)
 {
     hnbrdf_material brighter = *material;
@@ -117,8 +119,9 @@ static double mean_angle(eval_fn eval, const hnbrdf_material *material)
     return weighted / sum;
 }
 
-/* The network's own correction keeps its shape, so the half width can only follow alpha while GGX makes
- * most of the peak; the mean angle follows it always. Past 0.3 a lobe has no half height to speak of.
+/* The network's own correction keeps its shape, so the half width can only follow alpha while GGX
+ * makes most of the peak; the mean angle follows it always. Past 0.3 a lobe has no half height to
+ * speak of.
  */
 static void larger_alpha_widens_the_highlight(void **state)
 {
@@ -147,9 +150,9 @@ static void larger_alpha_widens_the_highlight(void **state)
     assert_true(tried >= 12);
 }
 
-/* f = max(0, exp(c) + gate f_a - b): kd enters f_a as kd/pi, so each step of kd adds gate dkd/pi, the
- * gate of an edit of eta too. Rounding: a few ulp of f and of the exponential, below 16 ulp of their
- * sum. */
+/* f = max(0, exp(c) + gate f_a - b): kd enters f_a as kd/pi, so each step of kd adds gate dkd/pi,
+ * the gate of an edit of eta too. Rounding: a few ulp of f and of the exponential, below 16 ulp
+ * of their sum. */
 static void kd_shifts_the_diffuse_level_linearly(void **state)
 {
     float wi[DIRECTIONS][3], wo[DIRECTIONS][3];
@@ -175,7 +178,8 @@ static void kd_shifts_the_diffuse_level_linearly(void **state)
             material.kd[1] = 3.0f * step;
             hnbrdf_eval(hybrid, &material, wi[k], wo[k], f[2]);
             double rounding = 16.0 * FLT_EPSILON * ((double)f[2][1] + (double)f[3][1] + 1.0);
-            double once = (double)f[1][1] - (double)f[0][1], thrice = (double)f[2][1] - (double)f[0][1];
+            double once = (double)f[1][1] - (double)f[0][1],
+                   thrice = (double)f[2][1] - (double)f[0][1];
             double gate = once * 3.14159265358979 / (double)step;
             assert_true(gate > 0.0 && gate < 1.0 + rounding * 13.0);
             assert_true(fabs(thrice - 3.0 * once) <= 4.0 * rounding);
@@ -190,8 +194,8 @@ static void kd_shifts_the_diffuse_level_linearly(void **state)
     assert_true(tried > DIRECTIONS / 2);
 }
 
-/* Up to 45 degrees of incidence on the facet; towards grazing the reflectances of all dielectrics meet
- * at 1 and cross. */
+/* Up to 45 degrees of incidence on the facet; towards grazing the reflectances of all dielectrics
+ * meet at 1 and cross. */
 static void larger_eta_reflects_more(void **state)
 {
     static const float sweep[] = {1.05f, 1.3f, 1.5f, 2.0f, 4.0f, 20.0f, 1000.0f};
@@ -240,7 +244,8 @@ static void isotropic_made_anisotropic_has_both_lobes(void **state)
                                 retro(hnbrdf_eval_analytic, &round, 0.0, phi);
                 double found = retro(hnbrdf_eval_analytic, &both, theta, phi) /
                                retro(hnbrdf_eval_analytic, &both, 0.0, phi);
-                /* The axis is known to an ulp of a direction, 1e-7, and alpha_y/alpha_x magnifies it.
+                /* The axis is known to an ulp of a direction, 1e-7, and alpha_y/alpha_x magnifies
+                 * it.
                  */
                 assert_true(fabs(found - wanted) <= 1e-5 * wanted);
                 /* A half turn changes nothing. */
@@ -256,7 +261,8 @@ static void isotropic_made_anisotropic_has_both_lobes(void **state)
     }
 }
 
-/* ---- Mixing -------------------------------------------------------------------------------------- */
+/* ---- Mixing
+ * -------------------------------------------------------------------------------------- */
 
 static double reflectance(float eta)
 {
@@ -271,7 +277,8 @@ static void both_ends_are_reached_to_the_bit(void **state)
         for (int b = 0; b < FITTED; b++) {
             const hnbrdf_material *from = hnbrdf_model_material(hybrid, a),
                                   *to = hnbrdf_model_material(hybrid, b);
-            const float low[] = {0.0f, -0.0f, -3.0f, -INFINITY, NAN}, high[] = {1.0f, 7.0f, INFINITY};
+            const float low[] = {0.0f, -0.0f, -3.0f, -INFINITY, NAN},
+                        high[] = {1.0f, 7.0f, INFINITY};
             hnbrdf_material mixed;
             for (int k = 0; k < 5; k++) {
                 hnbrdf_material_mix(from, to, low[k], &mixed);
@@ -376,8 +383,8 @@ static void mixtures_are_finite_and_never_negative(void **state)
         for (int b = 0; b < FITTED; b++)
             for (int n = 0; n <= 8; n++) {
                 hnbrdf_material mixed;
-                hnbrdf_material_mix(hnbrdf_model_material(hybrid, a), hnbrdf_model_material(hybrid, b),
-                                    (float)n / 8.0f, &mixed);
+                hnbrdf_material_mix(hnbrdf_model_material(hybrid, a),
+                                    hnbrdf_model_material(hybrid, b), (float)n / 8.0f, &mixed);
                 assert_int_equal(hnbrdf_material_check(&mixed, NULL), HNBRDF_OK);
                 hnbrdf_eval_batch(hybrid, &mixed, DIRECTIONS, wi[0], 0, wo[0], 0, f[0], 0);
                 for (int k = 0; k < DIRECTIONS; k++)

@@ -111,7 +111,8 @@ static void hybrid_is_closer_than_ggx_and_keeps_its_analytic_part(void **state)
     hnbrdf_model *hybrid = fit(&o, &report);
     assert_int_equal(report.steps, 600);
     for (int i = 0; i < COUNT; i++) {
-        const hnbrdf_material *a = hnbrdf_model_material(ggx, i), *b = hnbrdf_model_material(hybrid, i);
+        const hnbrdf_material *a = hnbrdf_model_material(ggx, i),
+                              *b = hnbrdf_model_material(hybrid, i);
         assert_true(smape(hybrid, i) < 0.9 * smape(ggx, i));
         assert_memory_equal(a->kd, b->kd, sizeof a->kd);
         assert_memory_equal(a->eta, b->eta, sizeof a->eta);
@@ -147,7 +148,8 @@ static void every_kind_and_encoding_fits(void **state)
     }
 }
 
-/* A MERL table filled with Lambert + GGX of known parameters; the bins' centres are what is stored. */
+/* A MERL table filled with Lambert + GGX of known parameters; the bins' centres are what is
+ * stored. */
 static hnbrdf_measured *known_table(const hnbrdf_material *material)
 {
     enum { N = 90 * 90 * 180 };
@@ -169,10 +171,12 @@ static hnbrdf_measured *known_table(const hnbrdf_material *material)
     for (int i = 0; i < 90; i++)
         for (int j = 0; j < 90; j++)
             for (int k = 0; k < 180; k++) {
-                double th = (i + 0.5) / 90 * (i + 0.5) / 90 * half_pi, td = (j + 0.5) / 90 * half_pi;
+                double th = (i + 0.5) / 90 * (i + 0.5) / 90 * half_pi,
+                       td = (j + 0.5) / 90 * half_pi;
                 double pd = (k + 0.5) / 180 * 2 * half_pi;
                 double a = cos(th) * cos(td), b = sin(th) * sin(td) * cos(pd);
-                double c = sin(th) * cos(td), d = cos(th) * sin(td) * cos(pd), y = sin(td) * sin(pd);
+                double c = sin(th) * cos(td), d = cos(th) * sin(td) * cos(pd),
+                       y = sin(td) * sin(pd);
                 float wi[3] = {(float)(c + d), (float)y, (float)(a - b)}, f[3];
                 float wo[3] = {(float)(c - d), (float)-y, (float)(a + b)};
                 hnbrdf_eval(model, material, wi, wo, f);
@@ -194,8 +198,8 @@ static hnbrdf_measured *known_table(const hnbrdf_material *material)
     return measured;
 }
 
-/* Nearest-bin lookup quantises theta_h: near the peak a bin is about 2 sqrt(theta_h) / 90 wide, up to
- * 10 % of a lobe of alpha 0.1; the parameters come back within that. */
+/* Nearest-bin lookup quantises theta_h: near the peak a bin is about 2 sqrt(theta_h) / 90 wide,
+ * up to 10 % of a lobe of alpha 0.1; the parameters come back within that. */
 static void ggx_fit_recovers_known_parameters(void **state)
 {
     (void)state;
@@ -213,8 +217,9 @@ static void ggx_fit_recovers_known_parameters(void **state)
         hnbrdf_fit_search search = {0};
         hnbrdf_model *model;
         o.search = &search;
-        assert_int_equal(hnbrdf_fit((const hnbrdf_measured *const *)&table, 1, &o, &model, NULL, NULL),
-                         HNBRDF_OK);
+        assert_int_equal(
+            hnbrdf_fit((const hnbrdf_measured *const *)&table, 1, &o, &model, NULL, NULL),
+            HNBRDF_OK);
         assert_int_equal(search.starts, 8);
         assert_true(search.best >= 0.0 && search.best <= search.second);
         const hnbrdf_material *m = hnbrdf_model_material(model, 0);
@@ -229,8 +234,8 @@ static void ggx_fit_recovers_known_parameters(void **state)
     }
 }
 
-/* The parts are processor time and the elapsed time is a wall clock's: processor time never exceeds it
- * but for the clocks' grain, for which a hundredth is plenty. */
+/* The parts are processor time and the elapsed time is a wall clock's: processor time never
+ * exceeds it but for the clocks' grain, for which a hundredth is plenty. */
 static void times_of_a_fit_add_up_to_its_threads(void **state)
 {
     (void)state;
@@ -248,8 +253,8 @@ static void times_of_a_fit_add_up_to_its_threads(void **state)
     assert_true(fabs(work + t->waiting - report.threads * report.seconds) <=
                 0.01 * report.threads * report.seconds);
     assert_true(report.pairs == 100.0 * 2048.0);
-    /* 16x2, 6 inputs, 6 outputs: forward 6 16 + 16 16 + 16 6 multiply-adds; backward the gradient of
-     * every weight as many, and of the hidden units 16 16 + 16 6. */
+    /* 16x2, 6 inputs, 6 outputs: forward 6 16 + 16 16 + 16 6 multiply-adds; backward the gradient
+     * of every weight as many, and of the hidden units 16 16 + 16 6. */
     assert_true(report.flops == report.pairs * 2.0 * (2.0 * (96 + 256 + 96) + 256 + 96));
 }
 
@@ -328,8 +333,9 @@ static void resumed_fit_gives_the_same_model(void **state)
     hnbrdf_model *none = NULL;
     hnbrdf_error error;
     o.seed++;
-    assert_int_equal(hnbrdf_fit((const hnbrdf_measured *const *)data, COUNT, &o, &none, NULL, &error),
-                     HNBRDF_ERROR_ARGUMENT);
+    assert_int_equal(
+        hnbrdf_fit((const hnbrdf_measured *const *)data, COUNT, &o, &none, NULL, &error),
+        HNBRDF_ERROR_ARGUMENT);
     assert_non_null(strstr(error.text, path));
     o.seed--;
     FILE *file = fopen(path, "rb");
@@ -339,16 +345,18 @@ static void resumed_fit_gives_the_same_model(void **state)
     file = fopen(path, "wb");
     fwrite(cut, 1, sizeof cut, file);
     fclose(file);
-    assert_int_equal(hnbrdf_fit((const hnbrdf_measured *const *)data, COUNT, &o, &none, NULL, &error),
-                     HNBRDF_ERROR_FORMAT);
+    assert_int_equal(
+        hnbrdf_fit((const hnbrdf_measured *const *)data, COUNT, &o, &none, NULL, &error),
+        HNBRDF_ERROR_FORMAT);
     remove(path);
-    assert_int_equal(hnbrdf_fit((const hnbrdf_measured *const *)data, COUNT, &o, &none, NULL, &error),
-                     HNBRDF_ERROR_IO);
+    assert_int_equal(
+        hnbrdf_fit((const hnbrdf_measured *const *)data, COUNT, &o, &none, NULL, &error),
+        HNBRDF_ERROR_IO);
     assert_null(none);
 }
 
-/* A network trained on two materials, a third fitted on it: the network's bits stay, the third gains on
- * GGX, and the two that were there stay as they are. */
+/* A network trained on two materials, a third fitted on it: the network's bits stay, the third
+ * gains on GGX, and the two that were there stay as they are. */
 static void frozen_network_takes_a_new_material(void **state)
 {
     (void)state;
@@ -358,8 +366,8 @@ static void frozen_network_takes_a_new_material(void **state)
                      HNBRDF_OK);
     o.freeze = two;
     o.hidden = 64; /* the frozen model's sizes count */
-    assert_int_equal(hnbrdf_fit((const hnbrdf_measured *const *)&data[2], 1, &o, &three, NULL, NULL),
-                     HNBRDF_OK);
+    assert_int_equal(
+        hnbrdf_fit((const hnbrdf_measured *const *)&data[2], 1, &o, &three, NULL, NULL), HNBRDF_OK);
     hnbrdf_model_desc a, b;
     hnbrdf_model_describe(two, &a);
     hnbrdf_model_describe(three, &b);
@@ -377,8 +385,8 @@ static void frozen_network_takes_a_new_material(void **state)
     assert_true(c.smape < c.smape_analytic);
     hnbrdf_model_free(three);
     three = NULL; /* fitted again, a material of the same name is replaced */
-    assert_int_equal(hnbrdf_fit((const hnbrdf_measured *const *)&data[1], 1, &o, &three, NULL, NULL),
-                     HNBRDF_OK);
+    assert_int_equal(
+        hnbrdf_fit((const hnbrdf_measured *const *)&data[1], 1, &o, &three, NULL, NULL), HNBRDF_OK);
     assert_int_equal(hnbrdf_model_material_count(three), 2);
     hnbrdf_model_free(two);
     hnbrdf_model_free(three);
@@ -399,8 +407,9 @@ static void stopped_before_the_first_step_there_is_no_model(void **state)
     o.progress = stop_at_once;
     hnbrdf_model *model = NULL;
     hnbrdf_error error = {{0}};
-    assert_int_equal(hnbrdf_fit((const hnbrdf_measured *const *)data, COUNT, &o, &model, NULL, &error),
-                     HNBRDF_ERROR_CANCELLED);
+    assert_int_equal(
+        hnbrdf_fit((const hnbrdf_measured *const *)data, COUNT, &o, &model, NULL, &error),
+        HNBRDF_ERROR_CANCELLED);
     assert_null(model);
     assert_true(error.text[0] != '\0');
 }

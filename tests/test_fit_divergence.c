@@ -1,5 +1,5 @@
-/* test_fit_divergence.c: a training that diverges is set back and reported, and the best state is never
- * lost. */
+/* test_fit_divergence.c: a training that diverges is set back and reported, and the best state is
+ * never lost. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -147,8 +147,8 @@ static void a_rate_100_times_too_large_is_survived_and_reported(void **state)
     }
 }
 
-/* Weights overflow at the first step and are finite ever after; too few steps to come down to a rate
- * that trains. GGX alone is what is left, and a neural model is its untrained start. */
+/* Weights overflow at the first step and are finite ever after; too few steps to come down to a
+ * rate that trains. GGX alone is what is left, and a neural model is its untrained start. */
 static void when_all_training_was_in_vain_ggx_is_left(void **state)
 {
     (void)state;
@@ -164,7 +164,8 @@ static void when_all_training_was_in_vain_ggx_is_left(void **state)
         assert_int_equal(report.ggx_alone, 1);
         assert_int_equal(report.best_step, 0);
         assert_true(report.best_loss == report.ggx_loss);
-        /* exp(ln b) - b and a gate of 1 leave f_a but for rounding, 2^-24 of the largest term each. */
+        /* exp(ln b) - b and a gate of 1 leave f_a but for rounding, 2^-24 of the largest term
+         * each. */
         double error = smape(model, &analytic);
         assert_true(fabs(error - analytic) < 1e-5);
         hnbrdf_model_free(model);
@@ -195,7 +196,8 @@ static void a_fit_that_is_stopped_early_is_no_worse_than_ggx(void **state)
     o.seconds = 0.0;
     o.progress = stop_at_step;
     o.progress_user = &stop;
-    o.batch = 1 << 16; /* slow enough to be shown, which is ten times a second, at its first steps */
+    /* slow enough to be shown, which is ten times a second, at its first steps */
+    o.batch = 1 << 16;
     hnbrdf_model *model = fit(&o, COUNT, &report);
     assert_int_equal(report.stopped, 1);
     double error = smape(model, &analytic);
@@ -205,7 +207,8 @@ static void a_fit_that_is_stopped_early_is_no_worse_than_ggx(void **state)
     hnbrdf_model_free(model);
 }
 
-/* Set back before the checkpoint and after it: the state that training may go back to is part of it. */
+/* Set back before the checkpoint and after it: the state that training may go back to is part of
+ * it. */
 static void set_back_or_not_the_bits_depend_on_neither_threads_nor_resume(void **state)
 {
     (void)state;
@@ -243,8 +246,8 @@ static void set_back_or_not_the_bits_depend_on_neither_threads_nor_resume(void *
     }
 }
 
-/* On a frozen network only codes move: the network's bits stay, and the code returned is no worse than
- * the one it started from, that of a known material. */
+/* On a frozen network only codes move: the network's bits stay, and the code returned is no worse
+ * than the one it started from, that of a known material. */
 static void codes_on_a_frozen_network_are_set_back_too(void **state)
 {
     (void)state;
@@ -253,7 +256,8 @@ static void codes_on_a_frozen_network_are_set_back_too(void **state)
     hnbrdf_model *two = fit(&o, 2, NULL), *model = NULL;
     static const float rates[] = {6.0f, 1e30f};
     for (int k = 0; k < 2; k++) {
-        hnbrdf_fit_options frozen = {.freeze = two, .pool = 4096, .steps = 1, .learning_rate = 1e-7f};
+        hnbrdf_fit_options frozen = {
+            .freeze = two, .pool = 4096, .steps = 1, .learning_rate = 1e-7f};
         hnbrdf_fit_report start, report;
         hnbrdf_error error;
         const hnbrdf_measured *const third = data[2];

@@ -1,5 +1,6 @@
-/* test_fit_gradients.c: the hand-written gradients against finite differences in double precision, for
- * every kind of parameter, and the float kernels of every instruction set against the double one. */
+/* test_fit_gradients.c: the hand-written gradients against finite differences in double
+ * precision, for every kind of parameter, and the float kernels of every instruction set against
+ * the double one. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -86,9 +87,10 @@ static double loss_at(problem *p, double *gradient, double mix)
                                             p->scratch, gradient);
 }
 
-/* Central differences with h = 1e-6: truncation h^2 f''' and rounding 1e-16 |f|/h leave about 1e-8 of
- * the loss. The loss has kinks (HardGELU, |.|, the floor); a parameter whose two one-sided slopes
- * differ sits on one within h, and is counted instead of compared: at most 1 in 50. */
+/* Central differences with h = 1e-6: truncation h^2 f''' and rounding 1e-16 |f|/h leave about
+ * 1e-8 of the loss. The loss has kinks (HardGELU, |.|, the floor); a parameter whose two
+ * one-sided slopes differ sits on one within h, and is counted instead of compared: at most 1 in
+ * 50. */
 static void check_all(problem *p, double mix)
 {
     /* A large network repeats itself: every 23rd of its numbers will do. */
@@ -131,9 +133,10 @@ static void gradient_matches_finite_differences(void **state)
         hnbrdf_kind kind;
         int hidden, layers, latent, train_analytic;
         float floor;
-    } cases[] = {{HNBRDF_KIND_HYBRID, 16, 2, 4, 1, 0.003f},  {HNBRDF_KIND_HYBRID, 20, 3, 8, 0, 0.0f},
-                 {HNBRDF_KIND_HYBRID, 8, 1, 2, 1, 0.05f},    {HNBRDF_KIND_HYBRID, 33, 4, 16, 1, 0.0f},
-                 {HNBRDF_KIND_NEURAL, 16, 2, 12, 0, 0.003f}, {HNBRDF_KIND_GGX, 0, 0, 0, 0, 0.0f}};
+    } cases[] = {
+        {HNBRDF_KIND_HYBRID, 16, 2, 4, 1, 0.003f},  {HNBRDF_KIND_HYBRID, 20, 3, 8, 0, 0.0f},
+        {HNBRDF_KIND_HYBRID, 8, 1, 2, 1, 0.05f},    {HNBRDF_KIND_HYBRID, 33, 4, 16, 1, 0.0f},
+        {HNBRDF_KIND_NEURAL, 16, 2, 12, 0, 0.003f}, {HNBRDF_KIND_GGX, 0, 0, 0, 0, 0.0f}};
     for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++)
         for (int m = 0; m <= 2; m++) {
             problem p;
@@ -178,8 +181,8 @@ static const fit_kernel *kernel_number(int k)
 }
 
 /* Float against double: sums of at most 64 products and a chain of at most 4 layers; 1e-4 of the
- * largest entry is some 800 ulp of it, what cancellation in 64-term sums of mixed sign may take. Among
- * themselves the float kernels must agree to the bit. */
+ * largest entry is some 800 ulp of it, what cancellation in 64-term sums of mixed sign may take.
+ * Among themselves the float kernels must agree to the bit. */
 static void instruction_sets_agree_to_the_bit(void **state)
 {
     (void)state;
@@ -204,8 +207,8 @@ static void instruction_sets_agree_to_the_bit(void **state)
                 continue;
             memset(gradient, 0, sizeof(float) * count);
             kernel->derive(&p.layout, parameters, derived);
-            double loss =
-                kernel->network(&p.layout, parameters, derived, &p.tile, 1, 0.4f, scratch, gradient);
+            double loss = kernel->network(&p.layout, parameters, derived, &p.tile, 1, 0.4f, scratch,
+                                          gradient);
             if (k == 0) {
                 first_loss = loss;
                 memcpy(first, gradient, sizeof(float) * count);
@@ -254,22 +257,26 @@ static void gradients_stay_finite_at_the_limits(void **state)
     problem_free(&p);
 }
 
-/* Bounds of the gradient over one tile of N pairs, whatever the target. |dL/df| f is at most 1 in both
- * losses, and the lobe is a part of f. d ln(D V V)/d ln alpha lies in [-3, 3]: 4t - 1 with t in [0, 1]
- * from D, at most 1 from each V. d ln F/d ln(eta - 1) is at most 2, as F goes with (eta - 1)^2 near 1.
- * d ln(D V V)/d rotation is at most 3 times the ratio of the alphas: 2 from D, 1/2 from each V. dL/dkd
- * is |dL/df|/pi, largest for SMAPE at f = t = 0: 2/1e-4; the logarithm has 1/1e-3. Rounding may add a
- * thousandth: floats of 24 bits through at most a few dozen operations, and sums of 64. */
+/* Bounds of the gradient over one tile of N pairs, whatever the target. |dL/df| f is at most 1 in
+ * both losses, and the lobe is a part of f. d ln(D V V)/d ln alpha lies in [-3, 3]: 4t - 1 with t
+ * in [0, 1] from D, at most 1 from each V. d ln F/d ln(eta - 1) is at most 2, as F goes with (eta
+ * - 1)^2 near 1. d ln(D V V)/d rotation is at most 3 times the ratio of the alphas: 2 from D, 1/2
+ * from each V. dL/dkd is |dL/df|/pi, largest for SMAPE at f = t = 0: 2/1e-4; the logarithm has
+ * 1/1e-3. Rounding may add a thousandth: floats of 24 bits through at most a few dozen
+ * operations, and sums of 64. */
 static void gradients_are_bounded_near_the_alpha_floor_and_eta_1(void **state)
 {
     (void)state;
-    static const float ln_alphas[] = {-9.2103f, -6.9f, -2.3f, 0.0f};        /* 1e-4, the floor, to 1 */
-    static const float ln_aboves[] = {-20.0f, -15.9f, -6.9f, 0.0f, 4.595f}; /* eta - 1: 2e-9 to 99 */
+    /* 1e-4, the floor, to 1 */
+    static const float ln_alphas[] = {-9.2103f, -6.9f, -2.3f, 0.0f};
+    /* eta - 1: 2e-9 to 99 */
+    static const float ln_aboves[] = {-20.0f, -15.9f, -6.9f, 0.0f, 4.595f};
     static const float targets[] = {0.0f, 1e-6f, 0.3f, 1e6f, 1e15f};
     const double slack = 1.001, pairs = FIT_TILE;
     problem p;
     problem_make(&p, HNBRDF_KIND_GGX, 0, 0, 0, 0, 0.0f);
-    for (int b = 0; b < FIT_TILE; b += 4) { /* mirror pairs, one of them off by the width of the lobe */
+    /* mirror pairs, one of them off by the width of the lobe */
+    for (int b = 0; b < FIT_TILE; b += 4) {
         for (int c = 0; c < 3; c++)
             p.wo[c * FIT_TILE + b] = c < 2 ? -p.wi[c * FIT_TILE + b] : p.wi[c * FIT_TILE + b];
         p.wo[b] += b % 8 ? 0.0f : 2e-4f;
@@ -288,7 +295,8 @@ static void gradients_are_bounded_near_the_alpha_floor_and_eta_1(void **state)
                 continue;
             assert_true(isfinite(kernel->analytic(a, &p.tile, mix, NULL, g)));
             for (int c = 0; c < 3; c++) {
-                assert_true(fabs((double)g[FIT_KD + c]) <= slack * pairs * 2.0e4 / 3.14159265358979);
+                assert_true(fabs((double)g[FIT_KD + c]) <=
+                            slack * pairs * 2.0e4 / 3.14159265358979);
                 assert_true(fabs((double)g[FIT_ETA + c]) <= slack * pairs * 2.0);
             }
             for (int axis = 0; axis < 2; axis++)

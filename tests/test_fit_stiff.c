@@ -1,5 +1,5 @@
-/* test_fit_stiff.c: data that are hard to fit or hardly data: mirrors, black, gaps, outliers, numbers
- * that are none. Each converges to the error stated beside it, or the fit says why not. */
+/* test_fit_stiff.c: data that are hard to fit or hardly data: mirrors, black, gaps, outliers,
+ * numbers that are none. Each converges to the error stated beside it, or the fit says why not. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -33,7 +33,8 @@ static int free_plain_model(void **state)
     return 0;
 }
 
-/* ---- Sources ----------------------------------------------------------------------------------------
+/* ---- Sources
+ * ----------------------------------------------------------------------------------------
  */
 
 typedef enum trouble {
@@ -152,7 +153,8 @@ static hnbrdf_measured *measured_of(source *s, const char *name)
     return measured;
 }
 
-/* ---- Fits -------------------------------------------------------------------------------------------
+/* ---- Fits
+ * -------------------------------------------------------------------------------------------
  */
 
 static hnbrdf_fit_options small(hnbrdf_kind kind)
@@ -241,12 +243,13 @@ static void fit_all_kinds(source *s, source *truth, double ggx, double hybrid, d
     }
 }
 
-/* ---- What converges ---------------------------------------------------------------------------------
+/* ---- What converges
+ * ---------------------------------------------------------------------------------
  */
 
 /* The last steps of the GGX fit move ln alpha, kd and ln(eta - 1) by 0.03 * 0.02 = 6e-4 each, which
- * moves f by at most 3, 1/kd and 2 times that: under 5e-3 in all for kd 0.5; kd 0.01 is searched more
- * finely, see the results. */
+ * moves f by at most 3, 1/kd and 2 times that: under 5e-3 in all for kd 0.5; kd 0.01 is searched
+ * more finely, see the results. */
 #define GGX_BOUND 5e-3
 /* A hybrid keeps that or leaves it by at most 5 % and 1e-3, judged by other pairs: */
 #define HYBRID_BOUND 1e-2
@@ -254,11 +257,11 @@ static void fit_all_kinds(source *s, source *truth, double ggx, double hybrid, d
 /* Peaks of 1e4 to 1e8 1/sr in a thousandth of the directions. The neural model has to find the peak
  * alone, in 600 steps; 0.2 is what a mirror may cost it, a tenth of the worst.
  *
- * The Gaussian peak leaves the ground of 0.01 below tan th = 4.3e-3, 5.2 % of the grid sampler's pairs.
- * To ignore it costs a SMAPE of 0.105 there; as training sees it, half of the pairs being uniform, a
- * loss of 0.026 (0.7 * 2 + 0.3 * 12), the last the mean logarithm. GGX, whose tail is another, must not
- * cost more: 0.13 in all, if all were SMAPE 0.13/0.7, twice that on the grid. A network is held to
- * twice 0.105. */
+ * The Gaussian peak leaves the ground of 0.01 below tan th = 4.3e-3, 5.2 % of the grid sampler's
+ * pairs. To ignore it costs a SMAPE of 0.105 there; as training sees it, half of the pairs being
+ * uniform, a loss of 0.026 (0.7 * 2 + 0.3 * 12), the last the mean logarithm. GGX, whose tail is
+ * another, must not cost more: 0.13 in all, if all were SMAPE 0.13/0.7, twice that on the grid. A
+ * network is held to twice 0.105. */
 static void mirrors_are_found(void **state)
 {
     (void)state;
@@ -289,8 +292,9 @@ static void zero_black_and_constant_data_converge(void **state)
     fit_all_kinds(&s, &s, 2.0, 0.0, 0.0);
 }
 
-/* Values below the offsets of the losses are matched to about 1e-4. With a mean of 2 |f - t|/(f + t +
- * 1e-4) of at most 0.1, all of it from the dark channel, that channel is off by 1.5e-5 on average. */
+/* Values below the offsets of the losses are matched to about 1e-4. With a mean of 2 |f - t|/(f +
+ * t + 1e-4) of at most 0.1, all of it from the dark channel, that channel is off by 1.5e-5 on
+ * average. */
 static void what_is_nearly_black_is_matched_to_1e_4(void **state)
 {
     (void)state;
@@ -348,7 +352,8 @@ static void values_beyond_any_brdf_are_cut_and_told(void **state)
     }
 }
 
-/* ---- What is refused, and several at once -----------------------------------------------------------
+/* ---- What is refused, and several at once
+ * -----------------------------------------------------------
  */
 
 static void too_few_samples_are_refused_by_name_and_share(void **state)
@@ -401,9 +406,9 @@ static void names_and_missing_materials_are_checked_before_training(void **state
     hnbrdf_measured_close(two);
 }
 
-/* Two identical materials beside hard ones share a network with them; both come out alike, though their
- * pairs and first codes are different: within 0.05, a fifth of what GGX data cost so small a network in
- * so few steps. */
+/* Two identical materials beside hard ones share a network with them; both come out alike, though
+ * their pairs and first codes are different: within 0.05, a fifth of what GGX data cost so small
+ * a network in so few steps. */
 static void identical_and_hard_materials_share_a_network(void **state)
 {
     (void)state;
@@ -438,9 +443,9 @@ static void identical_and_hard_materials_share_a_network(void **state)
             /* And the hard ones again, alone on the network that they shaped. */
             hnbrdf_fit_options frozen = {
                 .freeze = model, .steps = 60, .pool = 2048, .analytic = o.analytic};
-            assert_int_equal(
-                hnbrdf_fit((const hnbrdf_measured *const *)data + 2, 3, &frozen, &more, NULL, &error),
-                HNBRDF_OK);
+            assert_int_equal(hnbrdf_fit((const hnbrdf_measured *const *)data + 2, 3, &frozen, &more,
+                                        NULL, &error),
+                             HNBRDF_OK);
             expect_sound(more);
             assert_int_equal(hnbrdf_model_material_count(more), COUNT);
             hnbrdf_model_free(more);

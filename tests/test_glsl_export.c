@@ -139,8 +139,8 @@ static void what_the_scene_does_not_need_is_left_out(void **state)
     assert_false(contains(ggx, "latent"));
     assert_false(contains(ggx, "hnbrdf_network"));
     free(ggx);
-    char *neural =
-        export_shape(&(scene_shape){.kind = HNBRDF_KIND_NEURAL, .hidden = 4, .layers = 1, .latent = 5});
+    char *neural = export_shape(
+        &(scene_shape){.kind = HNBRDF_KIND_NEURAL, .hidden = 4, .layers = 1, .latent = 5});
     assert_false(contains(neural, " kd;"));
     assert_true(contains(neural, "vec4 latent1;"));
     assert_false(contains(neural, "vec4 latent2;"));

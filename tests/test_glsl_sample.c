@@ -9,19 +9,21 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { DRAWS = 4096, IN = 9, OUT = 8 }; /* in: wo, u, some wi; out: wi, pdf, weight, pdf of that wi */
+/* in: wo, u, some wi; out: wi, pdf, weight, pdf of that wi */
+enum { DRAWS = 4096, IN = 9, OUT = 8 };
 
-static const char BODY[] = "void main() {\n"
-                           "    uint k = gl_GlobalInvocationID.x;\n"
-                           "    if (k >= count)\n        return;\n"
-                           "    hnbrdf_material m = hnbrdf_scene_material(material);\n"
-                           "    vec3 wo = in_vec3(9 * k);\n"
-                           "    hnbrdf_sample_result r = hnbrdf_sample(m, wo, in_vec3(9 * k + 3));\n"
-                           "    store3(8 * k, r.wi);\n"
-                           "    results[8 * k + 3] = r.pdf;\n"
-                           "    store3(8 * k + 4, r.weight);\n"
-                           "    results[8 * k + 7] = hnbrdf_pdf(m, in_vec3(9 * k + 6), wo);\n"
-                           "}\n";
+static const char BODY[] =
+    "void main() {\n"
+    "    uint k = gl_GlobalInvocationID.x;\n"
+    "    if (k >= count)\n        return;\n"
+    "    hnbrdf_material m = hnbrdf_scene_material(material);\n"
+    "    vec3 wo = in_vec3(9 * k);\n"
+    "    hnbrdf_sample_result r = hnbrdf_sample(m, wo, in_vec3(9 * k + 3));\n"
+    "    store3(8 * k, r.wi);\n"
+    "    results[8 * k + 3] = r.pdf;\n"
+    "    store3(8 * k + 4, r.weight);\n"
+    "    results[8 * k + 7] = hnbrdf_pdf(m, in_vec3(9 * k + 6), wo);\n"
+    "}\n";
 
 /* u = 0, the largest u, 1/4 and 3/4 where a quadrant ends; wo along n, grazing, on and below the
  * horizon, not finite. */

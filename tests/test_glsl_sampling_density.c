@@ -1,6 +1,6 @@
-/* test_glsl_sampling_density.c: draws of an exported scene's hnbrdf_sample() follow its hnbrdf_pdf() on
- * every Vulkan device, for every material of the shipped model: the build that renderers use, whose
- * exp, log and order of operations are the driver's. */
+/* test_glsl_sampling_density.c: draws of an exported scene's hnbrdf_sample() follow its
+ * hnbrdf_pdf() on every Vulkan device, for every material of the shipped model: the build that
+ * renderers use, whose exp, log and order of operations are the driver's. */
 #include "gpu_run.h"
 #include "sampling_statistics.h"
 
@@ -29,7 +29,8 @@ static const char BODY[] = "void main() {\n"
                            "    }\n"
                            "}\n";
 
-/* One material seen from one direction; what it is to the device begins at its part of the buffers. */
+/* One material seen from one direction; what it is to the device begins at its part of the
+ * buffers. */
 typedef struct experiment {
     int material;
     float wo[3];

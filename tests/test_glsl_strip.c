@@ -52,8 +52,10 @@ static void draw_pairs(float *pairs)
     }
 }
 
-/* Every chosen material has, in the exact build, the bits that C has of the model it was taken from. */
-static void same_values(const scene_shape *shape, const hnbrdf_glsl_options *options, const char *body)
+/* Every chosen material has, in the exact build, the bits that C has of the model it was taken
+ * from. */
+static void same_values(const scene_shape *shape, const hnbrdf_glsl_options *options,
+                        const char *body)
 {
     hnbrdf_model *model = scene_model(shape);
     static float pairs[PAIRS * 6], device[PAIRS * 3], c[PAIRS * 3];
@@ -63,8 +65,8 @@ static void same_values(const scene_shape *shape, const hnbrdf_glsl_options *opt
         int index = options->materials ? options->materials[m] : m;
         gpu_run(scene, body, 1, m, PAIRS, pairs, PAIRS * 6, device, PAIRS * 3);
         gpu_run_c_begin();
-        hnbrdf_eval_batch(model, hnbrdf_model_material(model, index), PAIRS, pairs, 24, pairs + 3, 24,
-                          c, 0);
+        hnbrdf_eval_batch(model, hnbrdf_model_material(model, index), PAIRS, pairs, 24, pairs + 3,
+                          24, c, 0);
         gpu_run_c_end();
         if (gpu_run_exact())
             gpu_run_assert_same("f", device, c, PAIRS * 3);
@@ -102,8 +104,8 @@ static void one_fixed_material_has_the_values_of_c(void **state)
         .materials = &first, .material_count = 1, .only = HNBRDF_GLSL_EVAL_SAMPLE, .fixed = 1};
     same_values(&PLAIN, &one, EVAL);
     same_values(&ROTATED, &other, EVAL);
-    same_values(&(scene_shape){.kind = HNBRDF_KIND_NEURAL, .hidden = 6, .layers = 1, .latent = 5}, &one,
-                EVAL);
+    same_values(&(scene_shape){.kind = HNBRDF_KIND_NEURAL, .hidden = 6, .layers = 1, .latent = 5},
+                &one, EVAL);
 }
 
 /* ---- Size ------------------------------------------------------------------------------------ */
@@ -181,7 +183,8 @@ static void an_isotropic_scene_that_only_evaluates_is_smaller(void **state)
     size_t all = outside_the_network(full, EVAL_AND_SAMPLE, &full_bytes);
     size_t eval = outside_the_network(full, EVAL, &eval_bytes);
     size_t least = outside_the_network(stripped, EVAL, &stripped_bytes);
-    printf("SPIR-V outside of the network: full shader %zu instructions (%zu bytes in all), evaluation "
+    printf("SPIR-V outside of the network: full shader %zu instructions (%zu bytes in all), "
+           "evaluation "
            "with the "
            "full shader %zu (%zu), stripped %zu (%zu)\n",
            all, full_bytes, eval, eval_bytes, least, stripped_bytes);

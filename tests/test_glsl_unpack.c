@@ -1,5 +1,5 @@
-/* test_glsl_unpack.c: a material that the shader unpacks from texels is the one that C unpacks, and so
- * are the values of the BRDF with it. */
+/* test_glsl_unpack.c: a material that the shader unpacks from texels is the one that C unpacks,
+ * and so are the values of the BRDF with it. */
 #include "gpu_run.h"
 #include "gpu_support.h"
 
@@ -50,9 +50,9 @@ static char *body_for(const hnbrdf_packing *packing)
     char texels[256] = "";
     for (int t = 0; t < hnbrdf_packing_texels(packing); t++)
         snprintf(texels + strlen(texels), 32, "%stexel(k, %du)", t ? ", " : "", t);
-    int length = snprintf(text, 8192,
-                          "#define RESULTS %d\n#define TEXELS %s\n#define ROTATION %s\n#define LATENT",
-                          RESULTS, texels, packing->rotated ? "m.rotation" : "vec2(1.0, 0.0)");
+    int length = snprintf(
+        text, 8192, "#define RESULTS %d\n#define TEXELS %s\n#define ROTATION %s\n#define LATENT",
+        RESULTS, texels, packing->rotated ? "m.rotation" : "vec2(1.0, 0.0)");
     for (int i = 0; i < packing->latent; i++)
         length += snprintf(text + length, 64, " results[at + %d] = m.latent%d.%c;", 10 + i, i / 4,
                            "xyzw"[i % 4]);
@@ -72,8 +72,9 @@ static void draw_channels(const hnbrdf_packing *packing, const hnbrdf_model *mod
             for (int c = 0; c < width; c++) {
                 uint16_t half;
                 memcpy(&half, texels + 2 * c, sizeof half);
-                channels[k + c] = packing->format == HNBRDF_TEXEL_RGBA16F ? hnbrdf_float_of_half(half)
-                                                                          : (float)texels[c] / 255.0f;
+                channels[k + c] = packing->format == HNBRDF_TEXEL_RGBA16F
+                                      ? hnbrdf_float_of_half(half)
+                                      : (float)texels[c] / 255.0f;
             }
         }
         if (k >= SCENE_MATERIALS * width) /* then anything, also out of range */
@@ -97,8 +98,8 @@ static void expect(const hnbrdf_packing *packing, const hnbrdf_model *model, con
     hnbrdf_eval(model, &m, wi, wo, e + 26);
 }
 
-/* An angle between -pi and pi is known to half an ulp of pi, 1.2e-7; cosine and sine in the shader are
- * within three roundings of numbers below 1 of their true values, 1.8e-7. */
+/* An angle between -pi and pi is known to half an ulp of pi, 1.2e-7; cosine and sine in the
+ * shader are within three roundings of numbers below 1 of their true values, 1.8e-7. */
 static const double ROTATION_BOUND = 3.2e-7;
 
 static void compare(const hnbrdf_packing *packing, const float *device, const float *c)
@@ -124,7 +125,8 @@ static void unpacks_as_in_c(const scene_shape *shape, hnbrdf_texel_format format
     draw_channels(&packing, model, channels);
     char *scene = gpu_run_export(model, &(hnbrdf_glsl_options){.packing = &packing}),
          *body = body_for(&packing);
-    gpu_run(scene, body, 1, 0, MATERIALS, channels, MATERIALS * width, results, MATERIALS * RESULTS);
+    gpu_run(scene, body, 1, 0, MATERIALS, channels, MATERIALS * width, results,
+            MATERIALS * RESULTS);
     for (int k = 0; k < MATERIALS && gpu_run_exact(); k++) {
         gpu_run_c_begin();
         expect(&packing, model, channels + (size_t)k * width, expected);

@@ -1,4 +1,5 @@
-/* test_gpu_bounds.c: the bounds that verify holds devices to, against a device that rounds nothing. */
+/* test_gpu_bounds.c: the bounds that verify holds devices to, against a device that rounds
+ * nothing. */
 #include "gpu_support.h"
 
 #include "core/frame.h"
@@ -44,7 +45,8 @@ static double fresnel(double eta, double c)
     return 0.5 * a * a * (1.0 + b * b);
 }
 
-static void network(const hnbrdf_model_desc *desc, const float *latent, const double *x, double *out)
+static void network(const hnbrdf_model_desc *desc, const float *latent, const double *x,
+                    double *out)
 {
     double a[64], b[64];
     for (int layer = 0; layer <= desc->layers; layer++) {
@@ -56,8 +58,8 @@ static void network(const hnbrdf_model_desc *desc, const float *latent, const do
                 sum += (double)desc->weights[layer][r * in + i] * (layer   ? a[i]
                                                                    : i < 6 ? x[i]
                                                                            : (double)latent[i - 6]);
-            b[r] =
-                layer < desc->layers ? sum * clamp_to(sum * (double)0.333333333f + 0.5, 0.0, 1.0) : sum;
+            b[r] = layer < desc->layers ? sum * clamp_to(sum * (double)0.333333333f + 0.5, 0.0, 1.0)
+                                        : sum;
         }
         memcpy(layer < desc->layers ? a : out, b, (size_t)rows * sizeof *b);
     }
@@ -127,8 +129,8 @@ static void covered(const char *what, const gpu_tracked *bound, const double *ex
                      bound[i].e);
 }
 
-/* Real arithmetic is a device whose every error is below its limit, so it must lie within the bounds,
- * of Vulkan's rules and of those of a device that rounds correctly but not where C does. */
+/* Real arithmetic is a device whose every error is below its limit, so it must lie within the
+ * bounds, of Vulkan's rules and of those of a device that rounds correctly but not where C does. */
 static void bounds_cover_a_device_without_rounding(void **state)
 {
     (void)state;
@@ -190,8 +192,8 @@ static void bounds_are_zero_where_every_operation_is_exact(void **state)
         gpu_bounds bounds;
         if (!is_usual(gpu_pair_draw(&rng, k, pair)))
             continue;
-        gpu_bounds_make(&rules, &model->desc, HNBRDF_GLSL_FLOAT, hnbrdf_model_material(model, 0), pair,
-                        pair + 3, &bounds);
+        gpu_bounds_make(&rules, &model->desc, HNBRDF_GLSL_FLOAT, hnbrdf_model_material(model, 0),
+                        pair, pair + 3, &bounds);
         for (int c = 0; c < 3; c++)
             assert_true(bounds.value[c].e == 0.0 && bounds.analytic[c].e == 0.0);
         for (int c = 0; c < 6; c++)
@@ -209,8 +211,8 @@ static void the_network_alone_is_exact_without_division(void **state)
     gpu_rules rules = gpu_rules_exact(&usual_gpu);
     const float wi[3] = {0.6f, 0.0f, 0.8f}, wo[3] = {-0.36f, 0.48f, 0.8f};
     gpu_bounds bounds;
-    gpu_bounds_make(&rules, &model->desc, HNBRDF_GLSL_FLOAT, hnbrdf_model_material(model, 0), wi, wo,
-                    &bounds);
+    gpu_bounds_make(&rules, &model->desc, HNBRDF_GLSL_FLOAT, hnbrdf_model_material(model, 0), wi,
+                    wo, &bounds);
     for (int c = 0; c < 6; c++)
         assert_true(bounds.fed[c].e == 0.0);
     for (int c = 0; c < 3; c++)
@@ -232,8 +234,8 @@ static void bounds_say_something(void **state)
         float wi[3], wo[3];
         gpu_bounds bounds;
         hnbrdf_sampler_draw(HNBRDF_SAMPLER_UNIFORM, &rng, wi, wo);
-        gpu_bounds_make(&rules, &model->desc, HNBRDF_GLSL_FLOAT, hnbrdf_model_material(model, 0), wi,
-                        wo, &bounds);
+        gpu_bounds_make(&rules, &model->desc, HNBRDF_GLSL_FLOAT, hnbrdf_model_material(model, 0),
+                        wi, wo, &bounds);
         tight_values += bounds.value[0].e <= 0.02 * (double)bounds.value[0].v;
         tight_analytic += bounds.analytic[0].e <= 1e-4 * (double)bounds.analytic[0].v;
     }

@@ -1,5 +1,5 @@
-/* test_gpu_half.c: the half-precision variant of the exported network, in C: its rounding, its limits,
- * what it costs. That devices compute the same is test_gpu_verify.c's. */
+/* test_gpu_half.c: the half-precision variant of the exported network, in C: its rounding, its
+ * limits, what it costs. That devices compute the same is test_gpu_verify.c's. */
 #include "gpu_support.h"
 
 #include "core/network.h"
@@ -47,10 +47,12 @@ static hnbrdf_model *scaled(const hnbrdf_model *model, float factor)
     return made;
 }
 
-/* ---- Nothing overflows --------------------------------------------------------------------------- */
+/* ---- Nothing overflows
+ * --------------------------------------------------------------------------- */
 
 /* Inputs at the limit with the sign of each weight make the largest sum there can be: it is still
- * finite, and so is every sum on the way, here with every rounding upwards, which hardware may do. */
+ * finite, and so is every sum on the way, here with every rounding upwards, which hardware may
+ * do. */
 static void no_sum_of_a_layer_passes_the_largest_half(void **state)
 {
     (void)state;
@@ -66,8 +68,8 @@ static void no_sum_of_a_layer_passes_the_largest_half(void **state)
             for (int row = 0; row < desc->hidden; row++) {
                 double sum = fabs((double)hnbrdf_half_bias(desc, k, desc->biases[k][row]));
                 for (int i = 0; i < columns; i++) {
-                    double w =
-                        fabs((double)hnbrdf_half_weight(desc, k, desc->weights[k][row * columns + i]));
+                    double w = fabs(
+                        (double)hnbrdf_half_weight(desc, k, desc->weights[k][row * columns + i]));
                     sum = (sum + w * limit * (1.0 + 0x1p-10)) * (1.0 + 0x1p-10);
                 }
                 assert_true(sum <= 65504.0);
@@ -101,10 +103,12 @@ static void every_value_is_finite_whatever_weights_and_directions(void **state)
     hnbrdf_model_free(model);
 }
 
-/* ---- Bounds ----------------------------------------------------------------------------------------
+/* ---- Bounds
+ * ----------------------------------------------------------------------------------------
  */
 
-/* A device that does not round as half.h does: single precision everywhere, with the same weights. */
+/* A device that does not round as half.h does: single precision everywhere, with the same
+ * weights. */
 static void other_device(const hnbrdf_model_desc *desc, const float *latent, const float x[6],
                          float out[6])
 {
@@ -163,8 +167,8 @@ static float rounded_towards(int up, float x)
 }
 
 /* A unit of the first layer with every rounding on the way making it larger, or smaller. */
-static float pushed_unit(const hnbrdf_model_desc *desc, const float *latent, const float x[6], int row,
-                         int up)
+static float pushed_unit(const hnbrdf_model_desc *desc, const float *latent, const float x[6],
+                         int row, int up)
 {
     int columns = hnbrdf_layer_inputs(desc, 0);
     float first = hnbrdf_half_limit(desc, 0), sum = hnbrdf_half_bias(desc, 0, desc->biases[0][row]);
@@ -181,8 +185,9 @@ static float pushed_unit(const hnbrdf_model_desc *desc, const float *latent, con
     return fminf(unit, hnbrdf_half_limit(desc, 1));
 }
 
-/* One hidden layer, each of its units pushed to where an output grows: every rounding adds up, and the
- * bounds hold. Errors reach a twentieth of them, so bounds twenty times too small would not. */
+/* One hidden layer, each of its units pushed to where an output grows: every rounding adds up,
+ * and the bounds hold. Errors reach a twentieth of them, so bounds twenty times too small would
+ * not. */
 static void bounds_hold_where_every_rounding_pushes_one_way(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* test_gpu_sphere.c: the sphere rendered by a Vulkan device against the CPU's: the same directions, BRDF values and
- * pictures, to the bit where the device's operations are exact. */
+/* test_gpu_sphere.c: the sphere rendered by a Vulkan device against the CPU's: the same
+ * directions, BRDF values and pictures, to the bit where the device's operations are exact. */
 #include "gpu_run.h"
 #include "gpu_support.h"
 
@@ -12,12 +12,19 @@
 #include <string.h>
 
 static const scene_shape GGX = {.kind = HNBRDF_KIND_GGX, .anisotropic = 1};
-static const scene_shape NEURAL = {.kind = HNBRDF_KIND_NEURAL, .hidden = 6, .layers = 1, .latent = 3, .rotated = 1};
-static const scene_shape HYBRID = {.encoding = HNBRDF_ENCODING_ANGLES, .hidden = 9, .layers = 2, .latent = 4};
-static const scene_shape ROTATED = {
-    .encoding = HNBRDF_ENCODING_ANGLES_ANISOTROPIC, .hidden = 8, .layers = 3, .latent = 5, .anisotropic = 1, .rotated = 1};
+static const scene_shape NEURAL = {
+    .kind = HNBRDF_KIND_NEURAL, .hidden = 6, .layers = 1, .latent = 3, .rotated = 1};
+static const scene_shape HYBRID = {
+    .encoding = HNBRDF_ENCODING_ANGLES, .hidden = 9, .layers = 2, .latent = 4};
+static const scene_shape ROTATED = {.encoding = HNBRDF_ENCODING_ANGLES_ANISOTROPIC,
+                                    .hidden = 8,
+                                    .layers = 3,
+                                    .latent = 5,
+                                    .anisotropic = 1,
+                                    .rotated = 1};
 
-/* Three decades of light, texels and a whole row without any; an odd height has a row across the equator. */
+/* Three decades of light, texels and a whole row without any; an odd height has a row across the
+ * equator. */
 static render_environment make_light(int width, int height, double rotation)
 {
     render_image image;
@@ -27,14 +34,17 @@ static render_environment make_light(int width, int height, double rotation)
     assert_int_equal(render_image_create(width, height, 0, &image, NULL), HNBRDF_OK);
     for (int i = 0; i < width * height; i++)
         for (int k = 0; k < 3; k++)
-            image.rgb[3 * i + k] =
-                i % 5 == 4 || i / width == 2 ? 0.0f : powf(10.0f, 3.0f * hnbrdf_rng_float(&rng) - 2.0f);
-    assert_int_equal(render_environment_create(&image, rotation, "light", &environment, NULL), HNBRDF_OK);
+            image.rgb[3 * i + k] = i % 5 == 4 || i / width == 2
+                                       ? 0.0f
+                                       : powf(10.0f, 3.0f * hnbrdf_rng_float(&rng) - 2.0f);
+    assert_int_equal(render_environment_create(&image, rotation, "light", &environment, NULL),
+                     HNBRDF_OK);
     return environment;
 }
 
-static gpu_sphere open_sphere(const hnbrdf_model *model, int material, const render_environment *light,
-                              render_strategy strategy, int exact, gpu_sphere_mode mode)
+static gpu_sphere open_sphere(const hnbrdf_model *model, int material,
+                              const render_environment *light, render_strategy strategy, int exact,
+                              gpu_sphere_mode mode)
 {
     gpu_sphere sphere;
     hnbrdf_error error = {""};
@@ -48,7 +58,8 @@ static gpu_sphere open_sphere(const hnbrdf_model *model, int material, const ren
 
 /* 80 samples: one block and a part of the next, so that hits are counted anew in between. */
 enum { SIDE = 16, SPP = 80, DRAWS = SIDE * SIDE * SPP * 2 };
-static const render_options recorded = {.size = SIDE, .spp = SPP, .seed = UINT64_C(0x123456789abcdef), .threads = 1};
+static const render_options recorded = {
+    .size = SIDE, .spp = SPP, .seed = UINT64_C(0x123456789abcdef), .threads = 1};
 
 /* What render_shade() evaluates, in its order. */
 static struct {
@@ -56,8 +67,8 @@ static struct {
     size_t count;
 } seen;
 
-static void eval_and_keep(const render_surface *surface, size_t count, const float *wi, const float *wo,
-                          float *f)
+static void eval_and_keep(const render_surface *surface, size_t count, const float *wi,
+                          const float *wo, float *f)
 {
     render_surface plain = render_surface_model(surface->model, &surface->material);
     plain.eval(&plain, count, wi, wo, f);
@@ -70,7 +81,8 @@ static void eval_and_keep(const render_surface *surface, size_t count, const flo
     }
 }
 
-/* One pixel's samples as the CPU draws them: of each block those of the environment, then those of the BRDF. */
+/* One pixel's samples as the CPU draws them: of each block those of the environment, then those
+ * of the BRDF. */
 static void shade_pixel(const render_surface *surface, const render_environment *light,
                         render_strategy strategy, uint32_t pixel)
 {
@@ -124,7 +136,8 @@ static void compare_bits(const hnbrdf_model *model, int material, const render_e
 }
 
 /* On every device and in both builds: what the device says of its own directions against C. */
-static void compare_values(const hnbrdf_model *model, int material, int exact, const gpu_sphere_draw *draws)
+static void compare_values(const hnbrdf_model *model, int material, int exact,
+                           const gpu_sphere_draw *draws)
 {
     const hnbrdf_material *m = hnbrdf_model_material(model, material);
     const gpu_rules rules = gpu_run_rules(exact);
@@ -151,7 +164,8 @@ static void draws_as_on_the_cpu(const scene_shape *shape, int material, render_s
     assert_non_null(draws);
     for (int exact = 0; exact < 2; exact++) {
         hnbrdf_error error = {""};
-        gpu_sphere sphere = open_sphere(model, material, &light, strategy, exact, GPU_SPHERE_RECORD);
+        gpu_sphere sphere =
+            open_sphere(model, material, &light, strategy, exact, GPU_SPHERE_RECORD);
         if (gpu_sphere_record(&sphere, &recorded, 0, SIDE * SIDE, draws, &error))
             fail_msg("%s", error.text);
         gpu_sphere_close(&sphere);
@@ -207,16 +221,19 @@ static render_image on_device(const hnbrdf_model *model, const render_environmen
     return image;
 }
 
-/* What every sample adds has the bits of the CPU's, and is not negative. The CPU sums N of them in a double and
- * loses at most N 2^-53 of the sum, the device in two floats and loses at most N 2^-47. For 2^21 directions that is
- * at most a quarter of the distance between floats, so the rounded means are the same float or neighbours. */
+/* What every sample adds has the bits of the CPU's, and is not negative. The CPU sums N of them
+ * in a double and loses at most N 2^-53 of the sum, the device in two floats and loses at most N
+ * 2^-47. For 2^21 directions that is at most a quarter of the distance between floats, so the
+ * rounded means are the same float or neighbours. */
 static void picture_is_the_cpus(void **state)
 {
     (void)state;
     const render_options options = {.size = 33, .spp = 150, .seed = 5, .threads = 1};
     hnbrdf_model *model = scene_model(&ROTATED);
-    render_environment light = make_light(1023, 511, -2.0); /* small texels: the last bits of angles tell */
-    render_image cpu = on_cpu(model, &light, &options), device = on_device(model, &light, 1, &options);
+    /* small texels: the last bits of angles tell */
+    render_environment light = make_light(1023, 511, -2.0);
+    render_image cpu = on_cpu(model, &light, &options),
+                 device = on_device(model, &light, 1, &options);
     int differ = 0;
     for (int i = 0; i < 33 * 33 && gpu_run_exact(); i++) {
         assert_true(cpu.alpha[i] == device.alpha[i]);
@@ -233,8 +250,8 @@ static void picture_is_the_cpus(void **state)
     hnbrdf_model_free(model);
 }
 
-/* Mean difference of two pictures of other seeds over its standard error, which the differences give: pixels are
- * independent. */
+/* Mean difference of two pictures of other seeds over its standard error, which the differences
+ * give: pixels are independent. */
 static void assert_within_noise(const render_image *a, const render_image *b, int pixels)
 {
     for (int k = 0; k < 3; k++) {
@@ -280,8 +297,8 @@ static int note(void *user, double share)
     return told.count == told.most;
 }
 
-/* However fast the device: the first dispatch is 256 pixels by 64 samples, the second at most the other 66, the third
- * begins on other pixels. */
+/* However fast the device: the first dispatch is 256 pixels by 64 samples, the second at most the
+ * other 66, the third begins on other pixels. */
 static void progress_rises_to_one_and_can_stop(void **state)
 {
     (void)state;
@@ -320,14 +337,15 @@ static void what_does_not_fit_is_refused(void **state)
     gpu_sphere sphere;
     hnbrdf_error error = {""};
     small.properties.limits.maxStorageBufferRange = 64 * 32 * 16 - 1;
-    assert_int_equal(gpu_sphere_open(&small, model, 0, &light, RENDER_MIS, GPU_BUILD_EXACT, GPU_SPHERE_PICTURE,
-                                     &sphere, &error),
+    assert_int_equal(gpu_sphere_open(&small, model, 0, &light, RENDER_MIS, GPU_BUILD_EXACT,
+                                     GPU_SPHERE_PICTURE, &sphere, &error),
                      HNBRDF_ERROR_UNSUPPORTED);
     assert_non_null(strstr(error.text, "64 x 32"));
     sphere = open_sphere(model, 0, &light, RENDER_MIS, 1, GPU_SPHERE_RECORD);
     gpu_sphere_draw draw;
     const render_options options = {.size = 1024, .spp = 1};
-    assert_int_equal(gpu_sphere_record(&sphere, &options, 0, GPU_SPHERE_DRAWS, &draw, &error), HNBRDF_ERROR_LIMIT);
+    assert_int_equal(gpu_sphere_record(&sphere, &options, 0, GPU_SPHERE_DRAWS, &draw, &error),
+                     HNBRDF_ERROR_LIMIT);
     gpu_sphere_close(&sphere);
     render_environment_free(&light);
     hnbrdf_model_free(model);

@@ -81,12 +81,13 @@ static void check_stage(const gpu_report *report, int build, int stage)
     if (!sum.applies)
         return;
     if (sum.outside)
-        fail_msg("%s %s: %zu of %zu outside: %.9g, C %.9g, bound %g, %s pair (%.9g %.9g %.9g) (%.9g "
-                 "%.9g %.9g)",
-                 gpu_build_name((gpu_build)build), gpu_stage_name((gpu_stage)stage), sum.outside,
-                 sum.values, (double)at->device, (double)at->reference, at->bound,
-                 gpu_pair_class_name(at->class_of_pair), (double)at->pair[0], (double)at->pair[1],
-                 (double)at->pair[2], (double)at->pair[3], (double)at->pair[4], (double)at->pair[5]);
+        fail_msg(
+            "%s %s: %zu of %zu outside: %.9g, C %.9g, bound %g, %s pair (%.9g %.9g %.9g) (%.9g "
+            "%.9g %.9g)",
+            gpu_build_name((gpu_build)build), gpu_stage_name((gpu_stage)stage), sum.outside,
+            sum.values, (double)at->device, (double)at->reference, at->bound,
+            gpu_pair_class_name(at->class_of_pair), (double)at->pair[0], (double)at->pair[1],
+            (double)at->pair[2], (double)at->pair[3], (double)at->pair[4], (double)at->pair[5]);
     if (build == GPU_BUILD_EXACT && stage == GPU_STAGE_NETWORK && report->arithmetic.exact_basic &&
         report->arithmetic.keeps_denormals && !report->arithmetic.has_half)
         assert_int_equal(sum.identical, sum.values);
@@ -97,8 +98,8 @@ static void check_stage(const gpu_report *report, int build, int stage)
     assert_true(sum.unbounded * 16 < sum.values);
 }
 
-/* The shader of this scene is within the derived bounds at every stage; where the device's operations
- * are exact, the exact build has the bits of C from end to end. */
+/* The shader of this scene is within the derived bounds at every stage; where the device's
+ * operations are exact, the exact build has the bits of C from end to end. */
 static void model_holds_as(const hnbrdf_model *model, hnbrdf_glsl_weights weights,
                            hnbrdf_glsl_precision precision)
 {
@@ -138,7 +139,8 @@ static void holds(const scene_shape *shape)
     holds_as(shape, HNBRDF_GLSL_CONSTANTS, HNBRDF_GLSL_FLOAT);
 }
 
-/* The first material alone: its numbers are constants that the device's compiler may fold into others.
+/* The first material alone: its numbers are constants that the device's compiler may fold into
+ * others.
  */
 static void holds_alone(const scene_shape *shape)
 {
@@ -157,22 +159,27 @@ static void one_material_alone_equals_c(void **state)
     (void)state;
     holds_alone(
         &(scene_shape){.encoding = HALF, .hidden = 16, .layers = 2, .latent = 4, .floor = 0.003f});
-    holds_alone(
-        &(scene_shape){.encoding = DIRECTIONS, .hidden = 8, .layers = 2, .latent = 4, .scale = 2.3f});
+    holds_alone(&(scene_shape){
+        .encoding = DIRECTIONS, .hidden = 8, .layers = 2, .latent = 4, .scale = 2.3f});
     holds_alone(&(scene_shape){.kind = HNBRDF_KIND_GGX, .anisotropic = 1, .rotated = 1});
 }
 
 static void isotropic_hybrid_equals_c(void **state)
 {
     (void)state;
-    holds(&(scene_shape){.encoding = HALF, .hidden = 32, .layers = 2, .latent = 4, .floor = 0.003f});
+    holds(
+        &(scene_shape){.encoding = HALF, .hidden = 32, .layers = 2, .latent = 4, .floor = 0.003f});
 }
 
 static void published_form_equals_c(void **state)
 {
     (void)state;
-    holds(&(scene_shape){
-        .encoding = DIRECTIONS, .hidden = 32, .layers = 2, .latent = 4, .scale = 2.3f, .shift = -1.7f});
+    holds(&(scene_shape){.encoding = DIRECTIONS,
+                         .hidden = 32,
+                         .layers = 2,
+                         .latent = 4,
+                         .scale = 2.3f,
+                         .shift = -1.7f});
 }
 
 static void anisotropic_rotated_hybrid_equals_c(void **state)
@@ -186,15 +193,22 @@ static void anisotropic_rotated_hybrid_equals_c(void **state)
                          .rotated = 1,
                          .scale = 1.5f,
                          .floor = 0.002f});
-    holds(&(scene_shape){
-        .encoding = DIRECTIONS, .hidden = 8, .layers = 2, .latent = 5, .rotated = 1, .shift = 0.25f});
+    holds(&(scene_shape){.encoding = DIRECTIONS,
+                         .hidden = 8,
+                         .layers = 2,
+                         .latent = 5,
+                         .rotated = 1,
+                         .shift = 0.25f});
 }
 
 static void encodings_by_angles_equal_c(void **state)
 {
     (void)state;
-    holds(&(scene_shape){
-        .encoding = HNBRDF_ENCODING_ANGLES, .hidden = 16, .layers = 2, .latent = 4, .floor = 0.003f});
+    holds(&(scene_shape){.encoding = HNBRDF_ENCODING_ANGLES,
+                         .hidden = 16,
+                         .layers = 2,
+                         .latent = 4,
+                         .floor = 0.003f});
     holds(&(scene_shape){
         .encoding = HNBRDF_ENCODING_ANGLES_DIRECTED, .hidden = 16, .layers = 1, .latent = 4});
     holds(&(scene_shape){.encoding = HNBRDF_ENCODING_ANGLES_ANISOTROPIC,
@@ -237,7 +251,8 @@ static void smallest_and_deepest_networks_equal_c(void **state)
     holds(&(scene_shape){.encoding = HALF, .hidden = 8, .layers = 4, .latent = 4});
 }
 
-/* Units and latent codes that do not fill their vectors; s, m and b that are read from the buffer. */
+/* Units and latent codes that do not fill their vectors; s, m and b that are read from the
+ * buffer. */
 static const scene_shape UNEVEN = {.encoding = HNBRDF_ENCODING_ANGLES,
                                    .hidden = 11,
                                    .layers = 2,
@@ -330,7 +345,8 @@ static void is_found(const char *marker, int one_ulp, int stage)
     char *scene = scene_text(model, 0), *changed = plant(scene, marker, one_ulp);
     gpu_report report = verify(model, changed);
     gpu_comparison found = all_of(&report, GPU_BUILD_EXACT, stage);
-    /* A device that divides inexactly may hide an ulp of the analytic part; the network never does. */
+    /* A device that divides inexactly may hide an ulp of the analytic part; the network never
+     * does. */
     if (exact_device(&report.arithmetic) || stage == GPU_STAGE_NETWORK) {
         assert_false(report.within);
         assert_true(found.outside > 0);
@@ -408,7 +424,8 @@ static int run_on(int index)
         printf("%s\n", error.text);
         return 1;
     }
-    int failed = cmocka_run_group_tests_name(instance.properties[index].deviceName, tests, NULL, NULL);
+    int failed =
+        cmocka_run_group_tests_name(instance.properties[index].deviceName, tests, NULL, NULL);
     gpu_device_close(&device);
     return failed;
 }

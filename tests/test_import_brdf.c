@@ -1,6 +1,6 @@
-/* test_import_brdf.c: published .brdf shaders become the model they write out, in any layout of their
- * text, and anything else is refused with its file and line.
- * `test_import_brdf --write DIRECTORY` writes the sample files of tests/data anew. */
+/* test_import_brdf.c: published .brdf shaders become the model they write out, in any layout of
+ * their text, and anything else is refused with its file and line. `test_import_brdf --write
+ * DIRECTORY` writes the sample files of tests/data anew. */
 #include "brdf_sample.h"
 
 #include "core/network.h"
@@ -48,7 +48,8 @@ static hnbrdf_result import(const bytes *texts, int count, const hnbrdf_allocato
     return result;
 }
 
-/* ---- What is imported -------------------------------------------------------------------------- */
+/* ---- What is imported
+ * -------------------------------------------------------------------------- */
 
 static const struct {
     int hidden, layers, latent, anisotropic, dense, materials;
@@ -226,7 +227,8 @@ static void roughness_below_the_floor_is_raised_to_it(void **state)
     hnbrdf_model_free(model);
 }
 
-/* ---- Files of one dataset ---------------------------------------------------------------------- */
+/* ---- Files of one dataset
+ * ---------------------------------------------------------------------- */
 
 static void expect_pair(const brdf_sample *a, const brdf_sample *b, const char *part)
 {
@@ -290,7 +292,8 @@ static void two_materials_need_two_names(void **state)
     free_bytes(&text);
 }
 
-/* ---- Refusals ---------------------------------------------------------------------------------- */
+/* ---- Refusals
+ * ---------------------------------------------------------------------------------- */
 
 static bytes replaced(const bytes *text, const char *old, const char *new_text)
 {
@@ -354,7 +357,8 @@ static void wrong_parameters_are_named(void **state)
     refuses("float alpha ", "float roughness ", format, "no alpha, expected alpha");
     refuses("latent_0", "latent_2", format, "no parameter line for latent_0, but a later one");
     refuses("float latent_1", "float gamma2", format, "mlp_eval has 8 inputs, expected 7");
-    refuses("latent_1", "latent_16", HNBRDF_ERROR_LIMIT, "found latent_16, expected at most latent_15");
+    refuses("latent_1", "latent_16", HNBRDF_ERROR_LIMIT,
+            "found latent_16, expected at most latent_15");
 }
 
 static void wrong_networks_are_named(void **state)
@@ -363,7 +367,8 @@ static void wrong_networks_are_named(void **state)
     (void)state;
     refuses("mlp_eval(vec3 wi, vec3 wo, out vec3 c, out vec3 g)\n{", "mlp(vec3 wi)\n{", format,
             "no function mlp_eval");
-    refuses("vec3 BRDF(", "void mlp_eval() {} vec3 BRDF(", format, "expected one function mlp_eval");
+    refuses("vec3 BRDF(", "void mlp_eval() {} vec3 BRDF(", format,
+            "expected one function mlp_eval");
     refuses("hardGeLU(mat", "sin(mat", format, "found sin, expected hardGeLU as the activation");
     refuses("vec4 f1_1 = hardGeLU(mat", "vec4 f1_1 = (mat", format,
             "found (, expected the name of a vector");
@@ -379,13 +384,15 @@ static void wrong_networks_are_named(void **state)
     refuses("+ vec4(0.25, 0.25, 0.25, 0.25)", "+ vec2(0.25,0.25)", format, "more or fewer rows");
     refuses("vec4 f2_1 = hardGeLU(mat4", "vec4 f2_1 = mat4", format, "expected '+', '-' or ';'");
     refuses("vec2 f3_1",
-            "vec2 unused; vec2 f3_1 = mat4x2(0,0,0,0,0,0,0,0) * f2_0 + vec2(0,0); vec2 f3_2", format,
-            "f3_1 multiplies 4 inputs, expected all 8");
-    refuses("vec2 f3_1 = mat4x2",
-            "vec3 f3_1 = mat4x3(0,0,0,0,0,0,0,0,0,0,0,0) * f2_0 + mat4x3(0,0,0,0,0,0,0,0,0,0,0,0) * "
-            "f2_1; vec2 f3_2 = mat4x2",
-            HNBRDF_ERROR_UNSUPPORTED, "9 outputs, expected at least 2 layers and 6 outputs");
-    refuses("neural_output = exp(", "neural_output = sin(", format, "has no line neural_output = exp(");
+            "vec2 unused; vec2 f3_1 = mat4x2(0,0,0,0,0,0,0,0) * f2_0 + vec2(0,0); vec2 f3_2",
+            format, "f3_1 multiplies 4 inputs, expected all 8");
+    refuses(
+        "vec2 f3_1 = mat4x2",
+        "vec3 f3_1 = mat4x3(0,0,0,0,0,0,0,0,0,0,0,0) * f2_0 + mat4x3(0,0,0,0,0,0,0,0,0,0,0,0) * "
+        "f2_1; vec2 f3_2 = mat4x2",
+        HNBRDF_ERROR_UNSUPPORTED, "9 outputs, expected at least 2 layers and 6 outputs");
+    refuses("neural_output = exp(", "neural_output = sin(", format,
+            "has no line neural_output = exp(");
     refuses("exp(0.75*(neural_output)", "exp(0.75*(other)", format,
             "found other, expected a number, or neural_output once");
     refuses("exp(0.75*(neural_output)", "exp(0.75", format, "expected exp(S*(neural_output) + M)");
@@ -411,10 +418,11 @@ static void layers_beyond_the_limits_are_refused(void **state)
     free_bytes(&wide);
     free_bytes(&text);
 
-    const char *deep = "float diffuse_r 0 1 0\nvoid mlp_eval(vec3 x) {\n"
-                       "vec2 a = hardgelu(mat2(0,0,0,0) * x); vec2 b = hardgelu(mat2(0,0,0,0) * a);\n"
-                       "vec2 c = hardgelu(mat2(0,0,0,0) * b); vec2 d = hardgelu(mat2(0,0,0,0) * c);\n"
-                       "vec2 e = hardgelu(mat2(0,0,0,0) * d); vec2 f = mat2(0,0,0,0) * e; }";
+    const char *deep =
+        "float diffuse_r 0 1 0\nvoid mlp_eval(vec3 x) {\n"
+        "vec2 a = hardgelu(mat2(0,0,0,0) * x); vec2 b = hardgelu(mat2(0,0,0,0) * a);\n"
+        "vec2 c = hardgelu(mat2(0,0,0,0) * b); vec2 d = hardgelu(mat2(0,0,0,0) * c);\n"
+        "vec2 e = hardgelu(mat2(0,0,0,0) * d); vec2 f = mat2(0,0,0,0) * e; }";
     write_bytes(&text, deep, strlen(deep));
     assert_int_equal(import(&text, 1, NULL, &model, &error), HNBRDF_ERROR_LIMIT);
     assert_non_null(strstr(error.text, "line 5: found one more layer, expected at most 4 hidden"));
@@ -481,7 +489,8 @@ static void every_failed_allocation_is_reported_without_a_leak(void **state)
     free_bytes(&text);
 }
 
-/* ---- tests/data -------------------------------------------------------------------------------- */
+/* ---- tests/data
+ * -------------------------------------------------------------------------------- */
 
 /* Two materials of one dataset, small enough to be read. */
 static const char *const DATA_FILES[] = {"sample_brushed.brdf", "sample_plain.brdf"};

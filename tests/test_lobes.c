@@ -1,5 +1,5 @@
-/* test_lobes.c: hnbrdf_lobes_fit() makes lobes that sample with less variance, and nothing else of a material
- * changes; what it does with materials that are black, extreme or neural. */
+/* test_lobes.c: hnbrdf_lobes_fit() makes lobes that sample with less variance, and nothing else
+ * of a material changes; what it does with materials that are black, extreme or neural. */
 #include "core_support.h"
 
 #include <math.h>
@@ -11,7 +11,8 @@
 
 #include <cmocka.h>
 
-/* Relative variance of one sample under even light, mean over views, from draws of the sampler itself. */
+/* Relative variance of one sample under even light, mean over views, from draws of the sampler
+ * itself. */
 static double variance(const hnbrdf_model *model, const hnbrdf_material *m, uint64_t seed)
 {
     enum { VIEWS = 16, DRAWS = 4000 };
@@ -80,24 +81,33 @@ static void fitted_lobes_sample_better_than_the_guess(void **state)
         double before = variance(model, &m, 61);
         m.lobes = fit(model, &m);
         double after = variance(model, &m, 61);
-        print_message("    alpha %g %g: %.3g, guessed %.3g\n", (double)m.alpha[0], (double)m.alpha[1], after, before);
+        print_message("    alpha %g %g: %.3g, guessed %.3g\n", (double)m.alpha[0],
+                      (double)m.alpha[1], after, before);
         assert_true(after <= cases[k].most * before);
     }
     hnbrdf_model_free(model);
 }
 
-/* A network whose correction glares where GGX is dark: f = exp(c), c falling with the angle between normal and
- * half vector. The material's own lobe is a mirror and misses it. */
+/* A network whose correction glares where GGX is dark: f = exp(c), c falling with the angle
+ * between normal and half vector. The material's own lobe is a mirror and misses it. */
 static void lobes_follow_the_correction(void **state)
 {
     (void)state;
     float weights0[1][10] = {{-6.0f, 0, 0, 0, 0, 0, 0, 0, 0, 0}}, bias0[1] = {6.0f};
-    float weights1[6][1] = {{1.0f}, {1.0f}, {1.0f}, {0}, {0}, {0}}, bias1[6] = {-5.0f, -5.0f, -5.0f, 0, 0, 0};
+    float weights1[6][1] = {{1.0f}, {1.0f}, {1.0f}, {0}, {0}, {0}},
+          bias1[6] = {-5.0f, -5.0f, -5.0f, 0, 0, 0};
     hnbrdf_material m = ggx(0.002f, 0.002f, 0.05f, 1.5f);
     const char *name = "glare";
-    hnbrdf_model_desc desc = {.kind = HNBRDF_KIND_HYBRID, .encoding = HNBRDF_ENCODING_ANGLES, .hidden = 1, .layers = 1,
-                              .latent = 4, .material_count = 1, .materials = &m, .names = &name,
-                              .weights = {weights0[0], weights1[0]}, .biases = {bias0, bias1}};
+    hnbrdf_model_desc desc = {.kind = HNBRDF_KIND_HYBRID,
+                              .encoding = HNBRDF_ENCODING_ANGLES,
+                              .hidden = 1,
+                              .layers = 1,
+                              .latent = 4,
+                              .material_count = 1,
+                              .materials = &m,
+                              .names = &name,
+                              .weights = {weights0[0], weights1[0]},
+                              .biases = {bias0, bias1}};
     hnbrdf_model *model = NULL;
     hnbrdf_error error = {""};
     if (hnbrdf_model_create(&desc, NULL, &model, &error))
@@ -116,8 +126,9 @@ static void lobes_depend_on_the_material_alone(void **state)
     (void)state;
     rng r = rng_make(63);
     for (int n = 0; n < 3; n++) {
-        hnbrdf_model *model = random_model(&r, n == 0 ? HNBRDF_KIND_NEURAL : HNBRDF_KIND_HYBRID,
-                                           n == 2 ? HNBRDF_ENCODING_ANGLES_ANISOTROPIC : HNBRDF_ENCODING_ANGLES, 8, 2, 4);
+        hnbrdf_model *model = random_model(
+            &r, n == 0 ? HNBRDF_KIND_NEURAL : HNBRDF_KIND_HYBRID,
+            n == 2 ? HNBRDF_ENCODING_ANGLES_ANISOTROPIC : HNBRDF_ENCODING_ANGLES, 8, 2, 4);
         hnbrdf_material m = random_material(&r, n != 2), turned = m;
         turned.rotation = 1.0f;
         random_lobes(&r, &turned.lobes);
@@ -125,8 +136,10 @@ static void lobes_depend_on_the_material_alone(void **state)
         assert_memory_equal(&a, &b, sizeof a);
         assert_memory_equal(&a, &c, sizeof a);
         for (int k = 0; k < HNBRDF_LOBES; k++)
-            for (int j = 0; j < HNBRDF_LOBE_KNOTS; j++) /* promised, but for the rounding to float */
-                assert_true(a.share[k][j] >= 0x1p-6f && a.share[0][j] + a.share[1][j] <= 1.0f - 0.99f * 0x1p-6f);
+            /* promised, but for the rounding to float */
+            for (int j = 0; j < HNBRDF_LOBE_KNOTS; j++)
+                assert_true(a.share[k][j] >= 0x1p-6f &&
+                            a.share[0][j] + a.share[1][j] <= 1.0f - 0.99f * 0x1p-6f);
         hnbrdf_model_free(model);
     }
 }
@@ -135,12 +148,20 @@ static void a_black_material_gets_no_lobes(void **state)
 {
     (void)state;
     static const hnbrdf_lobes none = {{0.0f, 0.0f}, {{0.0f}}};
-    float weights0[1][6] = {{0}}, bias0[1] = {0}, weights1[3][1] = {{0}}, bias1[3] = {-60.0f, -60.0f, -60.0f};
+    float weights0[1][6] = {{0}}, bias0[1] = {0}, weights1[3][1] = {{0}},
+          bias1[3] = {-60.0f, -60.0f, -60.0f};
     hnbrdf_material m = ggx(0.5f, 0.5f, 0.0f, 1.5f);
     const char *name = "black";
-    hnbrdf_model_desc desc = {.kind = HNBRDF_KIND_NEURAL, .encoding = HNBRDF_ENCODING_ANGLES, .hidden = 1, .layers = 1,
-                              .material_count = 1, .materials = &m, .names = &name, .floor = 0.003f,
-                              .weights = {weights0[0], weights1[0]}, .biases = {bias0, bias1}};
+    hnbrdf_model_desc desc = {.kind = HNBRDF_KIND_NEURAL,
+                              .encoding = HNBRDF_ENCODING_ANGLES,
+                              .hidden = 1,
+                              .layers = 1,
+                              .material_count = 1,
+                              .materials = &m,
+                              .names = &name,
+                              .floor = 0.003f,
+                              .weights = {weights0[0], weights1[0]},
+                              .biases = {bias0, bias1}};
     hnbrdf_model *model = NULL;
     assert_int_equal(hnbrdf_model_create(&desc, NULL, &model, NULL), HNBRDF_OK);
     hnbrdf_lobes lobes = fit(model, &m);
@@ -151,7 +172,8 @@ static void a_black_material_gets_no_lobes(void **state)
 static void extreme_materials_get_legal_lobes(void **state)
 {
     (void)state;
-    static const float alphas[] = {HNBRDF_MIN_ALPHA, 1e-3f, 1.0f}, etas[] = {1.0f + 0x1p-23f, 1.5f, HNBRDF_MAX_ETA};
+    static const float alphas[] = {HNBRDF_MIN_ALPHA, 1e-3f, 1.0f},
+                       etas[] = {1.0f + 0x1p-23f, 1.5f, HNBRDF_MAX_ETA};
     rng r = rng_make(64);
     hnbrdf_model *model = random_model(&r, HNBRDF_KIND_HYBRID, HNBRDF_ENCODING_ANGLES, 8, 1, 4);
     for (int k = 0; k < 27; k++) {
@@ -194,7 +216,8 @@ static void mixed_lobes_stay_legal(void **state)
         hnbrdf_material_mix(&a, &b, rng_float(&r), &m);
         if (hnbrdf_material_check(&m, &error))
             fail_msg("%s", error.text);
-        int same = (a.lobes.scale[0] < 0) == (b.lobes.scale[0] < 0) && (a.lobes.scale[1] < 0) == (b.lobes.scale[1] < 0);
+        int same = (a.lobes.scale[0] < 0) == (b.lobes.scale[0] < 0) &&
+                   (a.lobes.scale[1] < 0) == (b.lobes.scale[1] < 0);
         assert_int_equal(same, m.lobes.scale[0] != 0.0f);
     }
 }

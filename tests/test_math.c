@@ -1,6 +1,6 @@
-/* test_math.c: exp, log, sin and cos of core/math.h against libm in double, over dense sweeps of the bit
- * patterns of their arguments. The stated errors were found by trying every float once; the sweeps take a
- * stride that is prime, so that they meet every exponent and all low bits. */
+/* test_math.c: exp, log, sin and cos of core/math.h against libm in double, over dense sweeps of
+ * the bit patterns of their arguments. The stated errors were found by trying every float once;
+ * the sweeps take a stride that is prime, so that they meet every exponent and all low bits. */
 #include "core/compose.h"
 #include "core/math.h"
 
@@ -93,8 +93,8 @@ static void sine_and_cosine_are_within_their_stated_error(void **state)
         hnbrdf_sincos_turn(u, &sine, &cosine);
         worst = fmax(worst, fabs((double)sine - sin(angle)));
         worst = fmax(worst, fabs((double)cosine - cos(angle)));
-        off_circle = fmax(off_circle,
-                          fabs((double)sine * (double)sine + (double)cosine * (double)cosine - 1.0));
+        off_circle = fmax(
+            off_circle, fabs((double)sine * (double)sine + (double)cosine * (double)cosine - 1.0));
     }
     print_message("    sin, cos: worst %.3g absolute, %.3g off the circle\n", worst, off_circle);
     assert_true(worst <= 1.1e-7);
@@ -123,8 +123,8 @@ static void clamp_returns_its_low_end_for_nan(void **state)
     assert_true(hnbrdf_finish(INFINITY) == HNBRDF_MAX_VALUE);
 }
 
-/* sigmoid(g) = 1/(1 + exp(-g)): exp within 1 ulp (2 u), its weight e/(1+e) at most 1, the sum and the
- * quotient u each, relative: 4 u, and 1 % for the second order. */
+/* sigmoid(g) = 1/(1 + exp(-g)): exp within 1 ulp (2 u), its weight e/(1+e) at most 1, the sum and
+ * the quotient u each, relative: 4 u, and 1 % for the second order. */
 static void gate_is_the_sigmoid(void **state)
 {
     (void)state;
@@ -140,12 +140,14 @@ static void gate_is_the_sigmoid(void **state)
 static void composition_stays_finite_whatever_the_network_says(void **state)
 {
     (void)state;
-    static const float values[] = {0.0f, -1.0f, 1.0f, 80.0f, -80.0f, 1e30f, -1e30f, INFINITY, -INFINITY, NAN};
+    static const float values[] = {0.0f,  -1.0f,  1.0f,     80.0f,     -80.0f,
+                                   1e30f, -1e30f, INFINITY, -INFINITY, NAN};
     const int n = sizeof values / sizeof values[0];
     for (int a = 0; a < n; a++)
         for (int b = 0; b < n; b++)
             for (int c = 0; c < n; c++) {
-                float f = hnbrdf_compose_hybrid(values[a], values[b], values[c], 1.0f, 0.0f, 0.003f);
+                float f =
+                    hnbrdf_compose_hybrid(values[a], values[b], values[c], 1.0f, 0.0f, 0.003f);
                 assert_true(f >= 0.0f && f <= HNBRDF_MAX_VALUE);
                 f = hnbrdf_compose_neural(values[a], values[b], values[c], 0.003f);
                 assert_true(f >= 0.0f && f <= HNBRDF_MAX_VALUE);

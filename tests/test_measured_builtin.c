@@ -1,5 +1,5 @@
-/* test_measured_builtin.c: the built-in materials are what a measurement could be: reciprocal, never
- * negative, never reflecting more than arrives, and beyond Lambert plus one GGX lobe. */
+/* test_measured_builtin.c: the built-in materials are what a measurement could be: reciprocal,
+ * never negative, never reflecting more than arrives, and beyond Lambert plus one GGX lobe. */
 #include "measured_support.h"
 #include "measured/builtin_terms.h"
 
@@ -109,8 +109,8 @@ static void directional_albedo(const hnbrdf_measured *measured, double theta, do
         }
 }
 
-/* Against a 16 times finer quadrature these albedos are off by less than 0.001, for retro-tape (whose
- * lobe is not around n) by 0.04; the largest is 0.87. */
+/* Against a 16 times finer quadrature these albedos are off by less than 0.001, for retro-tape
+ * (whose lobe is not around n) by 0.04; the largest is 0.87. */
 static void no_material_reflects_more_than_arrives(void **state)
 {
     static const double degrees[] = {0, 30, 60, 75, 85, 89};
@@ -142,8 +142,8 @@ static void turn_about_n(const float w[3], double angle, float turned[3])
     turned[2] = w[2];
 }
 
-/* Turning rounds h by 1e-7; at alpha = 0.006 the lobe's logarithm changes by up to 4 / alpha = 700 per
- * radian, so 1e-3 holds everywhere (the absolute part is for channels that are clipped). */
+/* Turning rounds h by 1e-7; at alpha = 0.006 the lobe's logarithm changes by up to 4 / alpha =
+ * 700 per radian, so 1e-3 holds everywhere (the absolute part is for channels that are clipped). */
 static void isotropic_materials_and_no_others_ignore_a_turn(void **state)
 {
     (void)state;
@@ -169,7 +169,8 @@ static void isotropic_materials_and_no_others_ignore_a_turn(void **state)
     }
 }
 
-/* Colours outside the gamut: some materials hold exact zeros in one channel while another reflects. */
+/* Colours outside the gamut: some materials hold exact zeros in one channel while another
+ * reflects. */
 static void some_materials_hold_exact_zeros(void **state)
 {
     int with_zeros = 0;
@@ -192,7 +193,8 @@ static void some_materials_hold_exact_zeros(void **state)
     assert_in_range(with_zeros, 2, 6);
 }
 
-/* ---- Beyond one lobe ----------------------------------------------------------------------------- */
+/* ---- Beyond one lobe
+ * ----------------------------------------------------------------------------- */
 
 enum { PAIRS = 400, ALPHAS = 12, ETAS = 10, KDS = 10 };
 
@@ -267,7 +269,8 @@ static double best_of_channel(fit *t)
     double best = 2.0, at[2] = {0.0, 0.0};
     for (int e = 0; e < ETAS; e++)
         for (int d = 0; d < KDS; d++) {
-            const double x[2] = {log(0.1) + 0.64 * e, d / (double)(KDS - 1)}; /* eta from 1.1 to 33 */
+            /* eta from 1.1 to 33 */
+            const double x[2] = {log(0.1) + 0.64 * e, d / (double)(KDS - 1)};
             double found = smape_of_channel(x, t);
             if (found < best) {
                 best = found;
@@ -334,8 +337,8 @@ static void the_search_finds_single_lobes(void **state)
     }
 }
 
-/* Lambert plus one GGX lobe, each channel with the kd and eta that suit it best, stays away from every
- * material by far more than the search itself misses. */
+/* Lambert plus one GGX lobe, each channel with the kd and eta that suit it best, stays away from
+ * every material by far more than the search itself misses. */
 static void no_single_lobe_follows_any_of_them(void **state)
 {
     static samples s;

@@ -1,5 +1,5 @@
-/* test_measured_custom.c: a BRDF given as a callback is asked, checked, clamped and released like any
- * other measurement, and can be fitted. */
+/* test_measured_custom.c: a BRDF given as a callback is asked, checked, clamped and released like
+ * any other measurement, and can be fitted. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -105,8 +105,8 @@ static void values_are_clamped_and_missing_ones_are_told(void **state)
     hnbrdf_measured_close(measured);
 }
 
-/* GGX fitted to a GGX lobe given as a callback is that lobe: 2 %, as ggx_fit_recovers_known_parameters
- * in test_fit.c. */
+/* GGX fitted to a GGX lobe given as a callback is that lobe: 2 %, as
+ * ggx_fit_recovers_known_parameters in test_fit.c. */
 static void it_can_be_fitted(void **state)
 {
     (void)state;

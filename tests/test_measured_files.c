@@ -1,5 +1,5 @@
-/* test_measured_files.c: opening by path: names, limits, and files that are none. Files are written to
- * the working directory and removed. */
+/* test_measured_files.c: opening by path: names, limits, and files that are none. Files are
+ * written to the working directory and removed. */
 #include "measured_support.h"
 
 #include <sys/stat.h>
@@ -89,8 +89,9 @@ static void files_above_the_limit_are_refused_at_the_limit(void **state)
     in_folder(path, "large.bsdf");
     write_file(path, file.data, file.size);
     expect_open_fails(path, &options, HNBRDF_ERROR_LIMIT, "limit of");
-    assert_int_equal(hnbrdf_measured_open_memory(file.data, file.size, "x", &options, &measured, NULL),
-                     HNBRDF_ERROR_LIMIT);
+    assert_int_equal(
+        hnbrdf_measured_open_memory(file.data, file.size, "x", &options, &measured, NULL),
+        HNBRDF_ERROR_LIMIT);
     options.max_bytes = file.size;
     assert_int_equal(hnbrdf_measured_open(path, &options, &measured, NULL), HNBRDF_OK);
     hnbrdf_measured_close(measured);
@@ -199,7 +200,8 @@ static void options_outside_their_range_are_refused(void **state)
         assert_int_equal(
             hnbrdf_measured_open_memory(file.data, file.size, "x", &bad[i], &measured, &error),
             HNBRDF_ERROR_ARGUMENT);
-        assert_int_equal(hnbrdf_measured_open("x", &bad[i], &measured, NULL), HNBRDF_ERROR_ARGUMENT);
+        assert_int_equal(hnbrdf_measured_open("x", &bad[i], &measured, NULL),
+                         HNBRDF_ERROR_ARGUMENT);
         assert_null(measured);
         assert_non_null(strstr(error.text, "measured options: "));
     }
@@ -227,8 +229,9 @@ static void wrong_arguments_are_refused(void **state)
 
 static void directions_below_the_horizon_or_not_finite_are_no_measurement(void **state)
 {
-    static const float bad[][3] = {{0, 0, -1},  {1, 0, 0},        {0, 0, 0},        {0, 0, NAN},
-                                   {NAN, 0, 1}, {0, INFINITY, 1}, {0, 0, INFINITY}, {0.6f, 0, -0.0f}};
+    static const float bad[][3] = {{0, 0, -1},       {1, 0, 0},       {0, 0, 0},
+                                   {0, 0, NAN},      {NAN, 0, 1},     {0, INFINITY, 1},
+                                   {0, 0, INFINITY}, {0.6f, 0, -0.0f}};
     const float good[3] = {0, 0, 1};
     test_bytes file = test_rgl(TEST_WHOLE);
     hnbrdf_measured *items[2] = {expect_opens(file.data, file.size, "x"), NULL};

@@ -1,22 +1,23 @@
-/* test_measured_hostile.c: every broken RGL file is refused with one line that says what was found and
- * what was expected, and none crashes. The files are made here. */
+/* test_measured_hostile.c: every broken RGL file is refused with one line that says what was
+ * found and what was expected, and none crashes. The files are made here. */
 #include "measured_support.h"
 
 static const double PI = 3.14159265358979323846;
 
-/* ---- Refusals ------------------------------------------------------------------------------------ */
+/* ---- Refusals
+ * ------------------------------------------------------------------------------------ */
 
 static void every_truncation_is_refused_or_harmless(void **state)
 {
     test_bytes file = test_rgl(TEST_ISOTROPIC);
-    size_t last = test_data_at(&file, "rgb") + 3 * 3 * 16 * 4; /* what follows is not read as values */
+    /* what follows is not read as values */
+    size_t last = test_data_at(&file, "rgb") + 3 * 3 * 16 * 4;
     (void)state;
-    for (size_t size = 1; size < file.size; size++) {
+    for (size_t size = 1; size < file.size; size++)
         if (size < last)
             expect_refusal(file.data, size, HNBRDF_ERROR_FORMAT, "expected");
         else
             expect_sane(file.data, size);
-    }
     expect_refusal(file.data, 0, HNBRDF_ERROR_FORMAT, "empty");
     expect_refusal(file.data, 5, HNBRDF_ERROR_FORMAT, "truncated tensor file: 5 bytes");
     free(file.data);
@@ -170,14 +171,17 @@ static void broken_spectra_are_refused(void **state)
         {test_record(&file, "wavelengths") + 2, 'X', 1, HNBRDF_ERROR_FORMAT,
          "no field \"wavelengths\""},
         {test_record(&file, "spectra") + 2, 'X', 1, HNBRDF_ERROR_FORMAT, "no field \"rgb\""},
-        {test_type_at(&file, "spectra"), 5, 1, HNBRDF_ERROR_FORMAT, "is u32 with 5 axes, expected f32"},
+        {test_type_at(&file, "spectra"), 5, 1, HNBRDF_ERROR_FORMAT,
+         "is u32 with 5 axes, expected f32"},
         {test_type_at(&file, "wavelengths"), 5, 1, HNBRDF_ERROR_FORMAT, "is u32 with 1 axes"},
         {test_shape_at(&file, "spectra", 2), 3, 8, HNBRDF_ERROR_FORMAT,
          "expected 4 (one a wavelength)"},
         {test_shape_at(&file, "wavelengths", 0), 3, 8, HNBRDF_ERROR_FORMAT,
          "expected 3 (one a wavelength)"},
-        {test_shape_at(&file, "spectra", 4), 2, 8, HNBRDF_ERROR_FORMAT, "expected 4 (as luminance)"},
-        {test_data_at(&file, "spectra") + 4, float_bits(NAN), 4, HNBRDF_ERROR_FORMAT, "element 1 of"},
+        {test_shape_at(&file, "spectra", 4), 2, 8, HNBRDF_ERROR_FORMAT,
+         "expected 4 (as luminance)"},
+        {test_data_at(&file, "spectra") + 4, float_bits(NAN), 4, HNBRDF_ERROR_FORMAT,
+         "element 1 of"},
         {nodes + 4, float_bits(INFINITY), 4, HNBRDF_ERROR_FORMAT, "is not finite"},
         {nodes + 8, float_bits(500.0f), 4, HNBRDF_ERROR_FORMAT, "expected increasing wavelengths"},
         {nodes + 12, float_bits(-1.0f), 4, HNBRDF_ERROR_FORMAT, "expected increasing wavelengths"},
@@ -193,7 +197,8 @@ static void an_empty_field_name_is_no_wavelength(void **state)
     test_bytes file = test_rgl(TEST_ISOTROPIC);
     size_t name = test_record(&file, "spare");
     (void)state;
-    /* "spare" becomes a field without a name: its record moves up, the rest is padding no one reads */
+    /* "spare" becomes a field without a name: its record moves up, the rest is padding no one
+     * reads */
     memmove(file.data + name + 2, file.data + name + 7, 2 + 1 + 8 + 8);
     put_le(file.data + name, 0, 2);
     expect_sane(file.data, file.size);
@@ -205,13 +210,17 @@ static void wrong_types_and_shapes_are_refused(void **state)
 {
     test_bytes file = test_rgl(TEST_ISOTROPIC);
     const patch patches[] = {
-        {test_type_at(&file, "theta_i"), 6, 1, HNBRDF_ERROR_FORMAT, "is i32 with 1 axes, expected f32"},
-        {test_type_at(&file, "jacobian"), 2, 1, HNBRDF_ERROR_FORMAT, "is i8 with 1 axes, expected u8"},
+        {test_type_at(&file, "theta_i"), 6, 1, HNBRDF_ERROR_FORMAT,
+         "is i32 with 1 axes, expected f32"},
+        {test_type_at(&file, "jacobian"), 2, 1, HNBRDF_ERROR_FORMAT,
+         "is i8 with 1 axes, expected u8"},
         {test_shape_at(&file, "theta_i", 0), 2, 8, HNBRDF_ERROR_FORMAT,
          "expected 2 (one a theta_i node)"},
-        {test_shape_at(&file, "vndf", 1), 2, 8, HNBRDF_ERROR_FORMAT, "size 2 along axis 1, expected 3"},
+        {test_shape_at(&file, "vndf", 1), 2, 8, HNBRDF_ERROR_FORMAT,
+         "size 2 along axis 1, expected 3"},
         {test_shape_at(&file, "luminance", 3), 2, 8, HNBRDF_ERROR_FORMAT, "expected 4 (square)"},
-        {test_shape_at(&file, "rgb", 2), 2, 8, HNBRDF_ERROR_FORMAT, "expected 3 (red, green, blue)"},
+        {test_shape_at(&file, "rgb", 2), 2, 8, HNBRDF_ERROR_FORMAT,
+         "expected 3 (red, green, blue)"},
         {test_shape_at(&file, "rgb", 3), 2, 8, HNBRDF_ERROR_FORMAT, "expected 4 (as luminance)"},
         {test_shape_at(&file, "rgb", 4), 3, 8, HNBRDF_ERROR_FORMAT, "expected 4 (as luminance)"},
         {test_shape_at(&file, "ndf", 0), 1, 8, HNBRDF_ERROR_FORMAT, "expected at least 2"},
@@ -233,8 +242,8 @@ static void wrong_values_are_refused(void **state)
     for (size_t i = 0; i < sizeof fields / sizeof fields[0]; i++)
         for (size_t k = 0; k < 3; k++)
             expect_refused_patches(&file,
-                                   &(patch){test_data_at(&file, fields[i]) + 4, float_bits(bad[k]), 4,
-                                            HNBRDF_ERROR_FORMAT, "element 1 of"},
+                                   &(patch){test_data_at(&file, fields[i]) + 4, float_bits(bad[k]),
+                                            4, HNBRDF_ERROR_FORMAT, "element 1 of"},
                                    1);
     const patch patches[] = {
         {test_data_at(&file, "theta_i") + 8, float_bits(0.8f), 4, HNBRDF_ERROR_FORMAT,
@@ -278,7 +287,8 @@ static void an_unknown_part_of_the_circle_is_refused(void **state)
     free(file.data);
 }
 
-/* ---- Random damage ------------------------------------------------------------------------------- */
+/* ---- Random damage
+ * ------------------------------------------------------------------------------- */
 
 static void mutate(unsigned char *data, size_t size, hnbrdf_rng *rng)
 {
@@ -300,7 +310,8 @@ static void random_damage_never_crashes(void **state)
 {
     (void)state;
     for (int circle = 0; circle < 6; circle++) {
-        test_bytes file = circle < 4 ? test_rgl((test_circle)circle) : test_rgl_spectral(circle == 5);
+        test_bytes file =
+            circle < 4 ? test_rgl((test_circle)circle) : test_rgl_spectral(circle == 5);
         hnbrdf_measured_options options = {.rgl_signed = circle == 4, .rgl_spectra = circle > 3};
         unsigned char *damaged = malloc(file.size);
         hnbrdf_rng rng;
@@ -310,9 +321,9 @@ static void random_damage_never_crashes(void **state)
             memcpy(damaged, file.data, file.size);
             for (uint32_t k = 0, count = 1 + hnbrdf_rng_u32(&rng) % 3; k < count; k++)
                 mutate(damaged, file.size, &rng);
-            expect_sane_with(damaged,
-                             hnbrdf_rng_u32(&rng) % 8 ? file.size : hnbrdf_rng_u32(&rng) % file.size,
-                             "damaged.bsdf", &options);
+            expect_sane_with(
+                damaged, hnbrdf_rng_u32(&rng) % 8 ? file.size : hnbrdf_rng_u32(&rng) % file.size,
+                "damaged.bsdf", &options);
         }
         free(damaged);
         free(file.data);

@@ -50,21 +50,24 @@ static int tear_down(void **state)
     return 0;
 }
 
-/* ---- Lookup -------------------------------------------------------------------------------------- */
+/* ---- Lookup
+ * -------------------------------------------------------------------------------------- */
 
 /* Directions as floats are off by 1e-7, and the half vector of two that point apart by 1e-7 /
- * cos(theta_d). That blurs phi_d by `blur`; bins of half a degree to either side are left out where it
- * is more than half of that. In theta the edges are farther away. */
+ * cos(theta_d). That blurs phi_d by `blur`; bins of half a degree to either side are left out
+ * where it is more than half of that. In theta the edges are farther away. */
 static void the_centre_of_every_bin_finds_that_bin(void **state)
 {
     int found = 0;
     (void)state;
     for (int bin = 0; bin < BINS; bin += 7) { /* prime to 90 and 180: meets every row and column */
         int i = bin / (TD * PD), j = bin / PD % TD, k = bin % PD;
-        double theta_h = (i + 0.5) / TH * (i + 0.5) / TH * PI / 2, theta_d = (j + 0.5) / TD * PI / 2;
+        double theta_h = (i + 0.5) / TH * (i + 0.5) / TH * PI / 2,
+               theta_d = (j + 0.5) / TD * PI / 2;
         float wi[3], wo[3], f[3];
         double blur = 1e-7 / sin(theta_d) + 1e-7 / (cos(theta_d) * sin(theta_h));
-        if (blur > 0.25 * PI / PD || !pair_at(theta_h, theta_d, (k + 0.5) / PD * PI, bin % 6, wi, wo))
+        if (blur > 0.25 * PI / PD ||
+            !pair_at(theta_h, theta_d, (k + 0.5) / PD * PI, bin % 6, wi, wo))
             continue;
         assert_int_equal(hnbrdf_measured_eval(numbered, wi, wo, f), 1);
         assert_int_equal(looked_up(f), bin);
@@ -133,7 +136,8 @@ static void channels_carry_their_scale(void **state)
     assert_true(fabs((double)f[1] - 1.0) < 1e-7 && fabs((double)f[2] - 1.0) < 1e-7);
 }
 
-/* ---- Validity ------------------------------------------------------------------------------------ */
+/* ---- Validity
+ * ------------------------------------------------------------------------------------ */
 
 static void a_bin_with_a_bad_channel_is_no_measurement(void **state)
 {
@@ -186,7 +190,8 @@ static void the_summary_tells_the_valid_share(void **state)
     hnbrdf_measured_close(measured);
 }
 
-/* ---- Refusals ------------------------------------------------------------------------------------ */
+/* ---- Refusals
+ * ------------------------------------------------------------------------------------ */
 
 static void expect_header(uint32_t a, uint32_t b, uint32_t c, size_t size, hnbrdf_result result,
                           const char *words)
@@ -203,8 +208,10 @@ static void expect_header(uint32_t a, uint32_t b, uint32_t c, size_t size, hnbrd
 static void every_wrong_header_is_refused(void **state)
 {
     (void)state;
-    expect_header(180, 90, 90, FILE_SIZE, HNBRDF_ERROR_FORMAT, "180 90 90 bins, expected 90 90 180");
-    expect_header(90, 180, 90, FILE_SIZE, HNBRDF_ERROR_FORMAT, "90 180 90 bins, expected 90 90 180");
+    expect_header(180, 90, 90, FILE_SIZE, HNBRDF_ERROR_FORMAT,
+                  "180 90 90 bins, expected 90 90 180");
+    expect_header(90, 180, 90, FILE_SIZE, HNBRDF_ERROR_FORMAT,
+                  "90 180 90 bins, expected 90 90 180");
     expect_header(1, 1, 1458000, FILE_SIZE, HNBRDF_ERROR_FORMAT, "1 1 1458000 bins");
     expect_header(0, 0, 0, FILE_SIZE, HNBRDF_ERROR_FORMAT, "0 0 0 bins");
     expect_header(0xffffffff, 90, 180, FILE_SIZE, HNBRDF_ERROR_FORMAT, "4294967295 90 180 bins");
@@ -216,7 +223,8 @@ static void every_wrong_header_is_refused(void **state)
 static void every_truncation_is_refused(void **state)
 {
     static const size_t sizes[] = {
-        12, 13, 19, 20, 12 + 8 * BINS - 1, 12 + 8 * BINS, 12 + 16 * BINS, FILE_SIZE - 8, FILE_SIZE - 1};
+        12,           13, 19, 20, 12 + 8 * BINS - 1, 12 + 8 * BINS, 12 + 16 * BINS, FILE_SIZE - 8,
+        FILE_SIZE - 1};
     hnbrdf_rng rng;
     (void)state;
     for (size_t size = 1; size < 12; size++)
@@ -225,8 +233,8 @@ static void every_truncation_is_refused(void **state)
         expect_refusal(table.data, sizes[i], HNBRDF_ERROR_FORMAT, "truncated");
     hnbrdf_rng_seed(&rng, 1, 1);
     for (int i = 0; i < 20; i++)
-        expect_refusal(table.data, 12 + hnbrdf_rng_u32(&rng) % (FILE_SIZE - 12), HNBRDF_ERROR_FORMAT,
-                       "expected 34992012");
+        expect_refusal(table.data, 12 + hnbrdf_rng_u32(&rng) % (FILE_SIZE - 12),
+                       HNBRDF_ERROR_FORMAT, "expected 34992012");
 }
 
 static void bytes_after_the_table_are_mentioned(void **state)

@@ -3,7 +3,8 @@
 
 static const double PI = 3.14159265358979323846;
 
-/* ---- Values -------------------------------------------------------------------------------------- */
+/* ---- Values
+ * -------------------------------------------------------------------------------------- */
 
 typedef struct checkpoint {
     test_circle circle;
@@ -46,8 +47,8 @@ static const checkpoint CHECKPOINTS[] = {
      {0.25231, 0.30381, 0.207896}},
 };
 
-/* Tolerance: the reference computes in float (FORMATS 6.1 grants 1e-4; these agree to 3e-6) and prints
- * six digits. */
+/* Tolerance: the reference computes in float (FORMATS 6.1 grants 1e-4; these agree to 3e-6) and
+ * prints six digits. */
 static void values_are_those_of_the_reference_loader(void **state)
 {
     (void)state;
@@ -185,8 +186,9 @@ static void the_seam_of_the_azimuth_belongs_to_the_first_row(void **state)
     free(file.data);
 }
 
-/* The synthetic sigma depends on the azimuth of wi, which makes even the isotropic file turn-dependent;
- * with equal rows, as in every real file, it is not. Turning rounds directions by 1e-7. */
+/* The synthetic sigma depends on the azimuth of wi, which makes even the isotropic file
+ * turn-dependent; with equal rows, as in every real file, it is not. Turning rounds directions by
+ * 1e-7. */
 static void isotropic_files_do_not_feel_a_turn(void **state)
 {
     test_bytes file = test_rgl(TEST_ISOTROPIC);
@@ -210,7 +212,8 @@ static void isotropic_files_do_not_feel_a_turn(void **state)
     free(file.data);
 }
 
-/* ---- Edges of what is accepted ------------------------------------------------------------------- */
+/* ---- Edges of what is accepted
+ * ------------------------------------------------------------------- */
 
 static void minor_versions_and_unknown_fields_do_not_matter(void **state)
 {

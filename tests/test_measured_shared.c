@@ -1,5 +1,6 @@
 /* test_measured_shared.c: the readers meet the reference values of real RGL files and of MERL
- * stand-ins. Skipped without the shared data: HNBRDF_DATA_DIR, or the folder beside the checkout. */
+ * stand-ins. Skipped without the shared data: HNBRDF_DATA_DIR, or the folder beside the checkout.
+ */
 #include "measured_support.h"
 #include "measured/merl_known.h"
 
@@ -99,9 +100,9 @@ static void check_spectral(const char *path, const char *line)
     float wi[3], wo[3], spectrum[4];
     double reference[4], most = 0.0;
     const float *nm = NULL;
-    assert_int_equal(sscanf(line, "%*[^,],%f,%f,%f,%f,%f,%f,%lf,%lf,%lf,%lf", &wi[0], &wi[1], &wi[2],
-                            &wo[0], &wo[1], &wo[2], &reference[0], &reference[1], &reference[2],
-                            &reference[3]),
+    assert_int_equal(sscanf(line, "%*[^,],%f,%f,%f,%f,%f,%f,%lf,%lf,%lf,%lf", &wi[0], &wi[1],
+                            &wi[2], &wo[0], &wo[1], &wo[2], &reference[0], &reference[1],
+                            &reference[2], &reference[3]),
                      10);
     assert_int_equal(hnbrdf_measured_open(path, &options, &measured, NULL), HNBRDF_OK);
     assert_int_equal(hnbrdf_measured_wavelengths(measured, &nm), 4);
@@ -154,9 +155,9 @@ static void rgl_files_keep_their_sign_on_request(void **state)
     for (; fgets(line, sizeof line, file); rows++) {
         float wi[3], wo[3], f[3];
         double reference[3];
-        assert_int_equal(sscanf(line, "%99[^,],%f,%f,%f,%f,%f,%f,%*f,%*f,%*f,%lf,%lf,%lf", name, &wi[0],
-                                &wi[1], &wi[2], &wo[0], &wo[1], &wo[2], &reference[0], &reference[1],
-                                &reference[2]),
+        assert_int_equal(sscanf(line, "%99[^,],%f,%f,%f,%f,%f,%f,%*f,%*f,%*f,%lf,%lf,%lf", name,
+                                &wi[0], &wi[1], &wi[2], &wo[0], &wo[1], &wo[2], &reference[0],
+                                &reference[1], &reference[2]),
                          10);
         if (!measured || strcmp(hnbrdf_measured_name(measured), name) != 0) {
             hnbrdf_measured_close(measured);
@@ -196,7 +197,8 @@ static void published_checksums_are_those_of_the_list(void **state)
     assert_int_equal(rows, 100);
 }
 
-/* ---- MERL stand-ins, decoded by the program in shared/tools -----------------------------------------
+/* ---- MERL stand-ins, decoded by the program in shared/tools
+ * -----------------------------------------
  */
 
 static char folder[] = "measured-XXXXXX";
@@ -221,9 +223,10 @@ static hnbrdf_measured *decode_stand_in(const char *name)
                  shared, folder))
             return NULL;
     }
-    if (!run("./%s/decode '%s/data/nbrdf/nbrdf_merl.f32' '%s/data/nbrdf/nbrdf_merl.names.txt' %s %s "
-             ">/dev/null",
-             folder, shared, shared, folder, name))
+    if (!run(
+            "./%s/decode '%s/data/nbrdf/nbrdf_merl.f32' '%s/data/nbrdf/nbrdf_merl.names.txt' %s %s "
+            ">/dev/null",
+            folder, shared, shared, folder, name))
         return NULL;
     snprintf(path, sizeof path, "%s/nbrdf_%s.binary", folder, name);
     hnbrdf_measured *measured = open_path(path);
@@ -246,8 +249,8 @@ static double within(int edge, double share, double bins)
     return ((double)edge + share) / bins;
 }
 
-/* f somewhere in bin (i, j, k): at its centre, or nearer to its lower edge where the centre is below
- * the horizon. Returns 0 if no point tried is above. */
+/* f somewhere in bin (i, j, k): at its centre, or nearer to its lower edge where the centre is
+ * below the horizon. Returns 0 if no point tried is above. */
 static int eval_in_bin(const hnbrdf_measured *measured, const int ijk[3], float f[3])
 {
     static const double shares[] = {0.5, 0.1, 0.01, 0.001};
@@ -255,7 +258,8 @@ static int eval_in_bin(const hnbrdf_measured *measured, const int ijk[3], float 
         double u = within(ijk[0], shares[n / 16], 90),
                theta_d = within(ijk[1], shares[n / 4 % 4], 90) * PI / 2;
         float wi[3], wo[3];
-        if (pair_at(u * u * PI / 2, theta_d, within(ijk[2], shares[n % 4], 180) * PI, 0.3, wi, wo) &&
+        if (pair_at(u * u * PI / 2, theta_d, within(ijk[2], shares[n % 4], 180) * PI, 0.3, wi,
+                    wo) &&
             hnbrdf_measured_eval(measured, wi, wo, f))
             return 1;
     }
@@ -279,7 +283,8 @@ static void check_stand_in(const char *wanted)
         double stored, reference[3];
         float f[3];
         assert_int_equal(sscanf(line, "%99[^,],%d,%d,%d,%*d,%lf,%*f,%*f,%lf,%lf,%lf", name, &ijk[0],
-                                &ijk[1], &ijk[2], &stored, &reference[0], &reference[1], &reference[2]),
+                                &ijk[1], &ijk[2], &stored, &reference[0], &reference[1],
+                                &reference[2]),
                          8);
         if (strcmp(name, wanted) != 0)
             continue;

@@ -1,5 +1,6 @@
-/* test_measured_spectral.c: spectral RGL files: the values of the reference loader at each wavelength,
- * and linear sRGB as the CIE's observer sees it. The files are made here: no real one was at hand. */
+/* test_measured_spectral.c: spectral RGL files: the values of the reference loader at each
+ * wavelength, and linear sRGB as the CIE's observer sees it. The files are made here: no real one
+ * was at hand. */
 #include "measured_support.h"
 #include "measured/cie.h"
 
@@ -19,10 +20,11 @@ static void set_spectra(test_bytes *file, float value)
         put_float(file->data + first + 4 * i, value);
 }
 
-/* ---- Spectra ------------------------------------------------------------------------------------- */
+/* ---- Spectra
+ * ------------------------------------------------------------------------------------- */
 
-/* f wo.z at 400 to 700 nm from the reference loader of the database on the same formulas, six digits,
- * computed in float (FORMATS 6.2). */
+/* f wo.z at 400 to 700 nm from the reference loader of the database on the same formulas, six
+ * digits, computed in float (FORMATS 6.2). */
 static void spectra_are_those_of_the_reference_loader(void **state)
 {
     static const struct {
@@ -91,8 +93,8 @@ static void spectra_keep_their_sign_and_rgb_on_request(void **state)
     hnbrdf_measured *clipped = open_spectral(&file, 1, 0), *kept = open_spectral(&file, 0, 1);
     assert_int_equal(eval_angles(clipped, angles, f), 1);
     assert_true(f[0] == 0.0f && f[1] == 0.0f && f[2] == 0.0f);
-    assert_int_equal(hnbrdf_measured_eval_spectrum(clipped, wi, wo, 2, (float[2]){450, 550}, spectrum),
-                     1);
+    assert_int_equal(
+        hnbrdf_measured_eval_spectrum(clipped, wi, wo, 2, (float[2]){450, 550}, spectrum), 1);
     assert_true(spectrum[0] < 0.0f && spectrum[1] < 0.0f);
     assert_int_equal(eval_angles(kept, angles, f), 1);
     assert_true(f[0] < 0.0f && f[1] < 0.0f && f[2] < 0.0f);
@@ -142,8 +144,8 @@ static void without_spectra_there_is_no_spectrum(void **state)
     for (int k = 0; k < 2; k++) {
         assert_int_equal(hnbrdf_measured_wavelengths(items[k], &nm), 0);
         assert_ptr_equal(nm, wi);
-        assert_int_equal(hnbrdf_measured_eval_spectrum(items[k], wi, wi, 2, (float[2]){450, 550}, f),
-                         0);
+        assert_int_equal(
+            hnbrdf_measured_eval_spectrum(items[k], wi, wi, 2, (float[2]){450, 550}, f), 0);
         assert_true(f[0] == 0.0f && f[1] == 0.0f);
         hnbrdf_measured_close(items[k]);
     }
@@ -156,7 +158,8 @@ static void without_spectra_there_is_no_spectrum(void **state)
     free(spectral.data);
 }
 
-/* ---- Colour -------------------------------------------------------------------------------------- */
+/* ---- Colour
+ * -------------------------------------------------------------------------------------- */
 
 static void a_flat_spectrum_is_grey_to_the_last_bit(void **state)
 {
@@ -180,8 +183,8 @@ static void a_flat_spectrum_is_grey_to_the_last_bit(void **state)
 
 enum { LINES = 401 };
 
-/* XYZ of monochromatic light of D65's power at 380 to 780 nm, from the weights by the published matrix
- * of sRGB (IEC 61966-2-1, four digits). */
+/* XYZ of monochromatic light of D65's power at 380 to 780 nm, from the weights by the published
+ * matrix of sRGB (IEC 61966-2-1, four digits). */
 static void monochromatic_xyz(double xyz[LINES][3])
 {
     static const double M[3][3] = {
@@ -196,8 +199,8 @@ static void monochromatic_xyz(double xyz[LINES][3])
             xyz[k][c] = M[c][0] * weights[k][0] + M[c][1] * weights[k][1] + M[c][2] * weights[k][2];
 }
 
-/* Chromaticities of the spectral locus (CIE 15:2004, table T.6); the matrix's four digits and its white
- * (0.9505, 1, 1.0890) allow 1e-3. */
+/* Chromaticities of the spectral locus (CIE 15:2004, table T.6); the matrix's four digits and its
+ * white (0.9505, 1, 1.0890) allow 1e-3. */
 static void monochromatic_light_lies_on_the_spectral_locus(void **state)
 {
     static const struct {
@@ -217,9 +220,9 @@ static void monochromatic_light_lies_on_the_spectral_locus(void **state)
     }
 }
 
-/* Luminance over V(lambda) is the illuminant: D65 is 117.812, 100 and 87.6987 at 460, 560 and 620 nm; V
- * is 0.06, 0.995 and 0.381. In the blue, luminance is what the matrix's fourth digit leaves of two
- * large terms: 1 %. */
+/* Luminance over V(lambda) is the illuminant: D65 is 117.812, 100 and 87.6987 at 460, 560 and 620
+ * nm; V is 0.06, 0.995 and 0.381. In the blue, luminance is what the matrix's fourth digit leaves
+ * of two large terms: 1 %. */
 static void the_light_is_d65(void **state)
 {
     static double xyz[LINES][3];
@@ -230,8 +233,8 @@ static void the_light_is_d65(void **state)
     assert_true(fabs(at_620 / at_560 / 0.876987 - 1) < 1e-3);
 }
 
-/* Hat functions of coarse nodes share out the same integral: a linear spectrum has the same colour on
- * any. */
+/* Hat functions of coarse nodes share out the same integral: a linear spectrum has the same
+ * colour on any. */
 static void the_spacing_of_the_wavelengths_does_not_matter(void **state)
 {
     float fine[LINES], coarse[] = {360, 433, 500, 641, 720, 1000};
@@ -262,7 +265,8 @@ static void odd_wavelengths_stay_grey(void **state)
         assert_true(fabs(weights[0][c] - 1) < 1e-12);
     hnbrdf_cie_weights(infrared, 3, weights);
     for (int c = 0; c < 3; c++)
-        assert_true(fabs(weights[0][c] - 1) < 1e-12 && weights[1][c] == 0.0 && weights[2][c] == 0.0);
+        assert_true(fabs(weights[0][c] - 1) < 1e-12 && weights[1][c] == 0.0 &&
+                    weights[2][c] == 0.0);
     hnbrdf_cie_weights(ultraviolet, 2, weights);
     for (int c = 0; c < 3; c++)
         assert_true(weights[0][c] == 0.0 && fabs(weights[1][c] - 1) < 1e-12);

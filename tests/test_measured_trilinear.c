@@ -1,5 +1,6 @@
-/* test_measured_trilinear.c: the trilinear lookup in MERL tables (FORMATS 2.4): between samples at bin
- * centres or at lower edges, around the seam of phi_d, without the bins that hold no measurement. */
+/* test_measured_trilinear.c: the trilinear lookup in MERL tables (FORMATS 2.4): between samples
+ * at bin centres or at lower edges, around the seam of phi_d, without the bins that hold no
+ * measurement. */
 #include "measured_support.h"
 
 static const double PI = 3.14159265358979323846;
@@ -147,8 +148,9 @@ static void swapping_directions_gives_the_same_bits(void **state)
     hnbrdf_measured_close(measured);
 }
 
-/* Of the eight corners around (30.25, 30, 60) at lower edges, those of i = 31 are spoilt: red is then
- * that of i = 30, not drawn towards a missing value; with i = 30 spoilt too nothing is left. */
+/* Of the eight corners around (30.25, 30, 60) at lower edges, those of i = 31 are spoilt: red is
+ * then that of i = 30, not drawn towards a missing value; with i = 30 spoilt too nothing is left.
+ */
 static void bins_without_a_measurement_are_left_out(void **state)
 {
     float f[3];
@@ -176,9 +178,10 @@ static void the_summary_tells_the_lookup(void **state)
         hnbrdf_merl_lookup lookup;
         hnbrdf_merl_node node;
         const char *words;
-    } rows[] = {{HNBRDF_MERL_NEAREST, HNBRDF_MERL_CENTRE, ", nearest bin"},
-                {HNBRDF_MERL_TRILINEAR, HNBRDF_MERL_CENTRE, ", trilinear between bin centres"},
-                {HNBRDF_MERL_TRILINEAR, HNBRDF_MERL_EDGE, ", trilinear between lower edges of bins"}};
+    } rows[] = {
+        {HNBRDF_MERL_NEAREST, HNBRDF_MERL_CENTRE, ", nearest bin"},
+        {HNBRDF_MERL_TRILINEAR, HNBRDF_MERL_CENTRE, ", trilinear between bin centres"},
+        {HNBRDF_MERL_TRILINEAR, HNBRDF_MERL_EDGE, ", trilinear between lower edges of bins"}};
     (void)state;
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         hnbrdf_measured *measured = open_lookup(rows[i].lookup, rows[i].node);

@@ -25,7 +25,8 @@ static test_bytes synthetic_table(void)
 {
     test_bytes file = constant_table(0.0);
     for (int k = 0; k < SAMPLES; k++) {
-        int c = k / PAIRS, it_i = k / 13824 % 6, ip_i = k / 288 % 48, it_v = k / 48 % 6, ip_v = k % 48;
+        int c = k / PAIRS, it_i = k / 13824 % 6, ip_i = k / 288 % 48, it_v = k / 48 % 6,
+            ip_v = k % 48;
         double v = 0.2 * (c + 1) + 0.05 * it_i + 0.002 * ip_i - 0.04 * it_v + 0.001 * ip_v;
         put_double(file.data + sample_at(c, it_i, ip_i, it_v, ip_v), c == 1 ? 10 * v : v);
     }
@@ -63,10 +64,11 @@ static int eval_degrees(const hnbrdf_measured *measured, const double degrees[4]
     return eval_angles(measured, radians, f);
 }
 
-/* ---- Values -------------------------------------------------------------------------------------- */
+/* ---- Values
+ * -------------------------------------------------------------------------------------- */
 
-/* The rows of FORMATS 6.4; those of djb are dj_brdf's own. Tolerance: six digits are given, directions
- * and samples are floats. */
+/* The rows of FORMATS 6.4; those of djb are dj_brdf's own. Tolerance: six digits are given,
+ * directions and samples are floats. */
 static void values_are_those_of_the_description(void **state)
 {
     static const struct {
@@ -83,7 +85,9 @@ static void values_are_those_of_the_description(void **state)
         {{80, 100, 85, 250},
          {{0.0165856, 0.276426, 0.0386997}, {0.3, 5, 0.7}, {0.0703937, 42.1449, 0.444159}}},
         {{0, 0, 45, 90},
-         {{0.00508625, 0.161433, 0.0272004}, {0.092, 2.92, 0.492}, {0.00882583, 12.0382, 0.206711}}},
+         {{0.00508625, 0.161433, 0.0272004},
+          {0.092, 2.92, 0.492},
+          {0.00882583, 12.0382, 0.206711}}},
         {{52.5, 187.5, 37.5, 352.5},
          {{0.0205661, 0.316295, 0.0426802}, {0.372, 5.72, 0.772}, {0.11516, 59.4505, 0.558855}}}};
     double worst = 0.0;
@@ -139,7 +143,8 @@ static void azimuths_wrap_around(void **state)
     hnbrdf_measured_close(measured);
 }
 
-/* 5.4/140 lies between djb's threshold 0.0375 and that of sRGB: 100 ((0.0385714+0.055)/1.055)^2.4. */
+/* 5.4/140 lies between djb's threshold 0.0375 and that of sRGB: 100
+ * ((0.0385714+0.055)/1.055)^2.4. */
 static void djb_decodes_from_its_own_threshold_on(void **state)
 {
     test_bytes file = constant_table(5.4);
@@ -152,7 +157,8 @@ static void djb_decodes_from_its_own_threshold_on(void **state)
     free(file.data);
 }
 
-/* Half way between samples of -1 and 1 djb sees half of 1/140, raw their mean 0. Directions are floats.
+/* Half way between samples of -1 and 1 djb sees half of 1/140, raw their mean 0. Directions are
+ * floats.
  */
 static void djb_clamps_samples_before_it_blends_them(void **state)
 {
@@ -246,7 +252,8 @@ static void extrapolation_below_zero_is_zero_and_valid(void **state)
     free(file.data);
 }
 
-/* ---- Summary ------------------------------------------------------------------------------------- */
+/* ---- Summary
+ * ------------------------------------------------------------------------------------- */
 
 /* A constant f has the albedo pi f; djb reads 7 as 7/140 = 0.05: decoded and times 100 0.9875. */
 static void the_summary_tells_mode_and_albedo(void **state)
@@ -275,7 +282,8 @@ static void the_summary_tells_mode_and_albedo(void **state)
     }
 }
 
-/* ---- Refusals ------------------------------------------------------------------------------------ */
+/* ---- Refusals
+ * ------------------------------------------------------------------------------------ */
 
 static void expect_wrong(const char *path, const void *data, size_t size, hnbrdf_result result,
                          const char *words)
@@ -298,12 +306,14 @@ static void every_other_size_is_refused_naming_both(void **state)
     assert_non_null(longer);
     for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
         char words[80];
-        snprintf(words, sizeof words, "%zu bytes, expected a UTIA .bin of exactly 1990656", sizes[i]);
+        snprintf(words, sizeof words, "%zu bytes, expected a UTIA .bin of exactly 1990656",
+                 sizes[i]);
         expect_wrong("m.bin", table.data, sizes[i], HNBRDF_ERROR_FORMAT, words);
     }
     expect_wrong("m.bin", longer, FILE_SIZE + 1, HNBRDF_ERROR_FORMAT, "1990657 bytes, expected");
     expect_wrong("m.bin", longer, 0, HNBRDF_ERROR_FORMAT, "empty");
-    expect_wrong("m.dat", longer, FILE_SIZE + 1, HNBRDF_ERROR_FORMAT, "or a UTIA .bin (1990656 bytes)");
+    expect_wrong("m.dat", longer, FILE_SIZE + 1, HNBRDF_ERROR_FORMAT,
+                 "or a UTIA .bin (1990656 bytes)");
     free(longer);
 }
 
@@ -369,8 +379,8 @@ static void random_damage_never_crashes(void **state)
         for (int k = 0; k < 2000; k++) /* whole bytes, but seldom in an exponent: most files open */
             damaged[hnbrdf_rng_u32(&rng) % FILE_SIZE / 8 * 8 + (size_t)(k % 300 ? k % 6 : 7)] =
                 (unsigned char)(hnbrdf_rng_u32(&rng) & (k % 300 ? 255 : 0x7f));
-        expect_sane_with(damaged, i % 7 ? FILE_SIZE : hnbrdf_rng_u32(&rng) % FILE_SIZE, "damaged.bin",
-                         &options);
+        expect_sane_with(damaged, i % 7 ? FILE_SIZE : hnbrdf_rng_u32(&rng) % FILE_SIZE,
+                         "damaged.bin", &options);
     }
     free(damaged);
 }

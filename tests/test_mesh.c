@@ -12,7 +12,8 @@
 
 static const double pi = 3.14159265358979323846;
 
-/* ---- OBJ files ----------------------------------------------------------------------------------- */
+/* ---- OBJ files
+ * ----------------------------------------------------------------------------------- */
 
 static render_mesh read_obj(const char *text)
 {
@@ -36,12 +37,14 @@ static void reads_all_forms_of_corners(void **state)
     for (int i = 0; i < 7; i++)
         for (uint32_t k = 0; k < 3; k++)
             assert_int_equal(mesh.triangles[i].position[k], k);
-    assert_true(mesh.triangles[0].uv[0] == RENDER_NONE && mesh.triangles[0].normal[2] == RENDER_NONE);
+    assert_true(mesh.triangles[0].uv[0] == RENDER_NONE &&
+                mesh.triangles[0].normal[2] == RENDER_NONE);
     assert_true(mesh.triangles[1].uv[1] == 1 && mesh.triangles[1].normal[0] == RENDER_NONE);
     assert_true(mesh.triangles[2].uv[1] == RENDER_NONE && mesh.triangles[2].normal[0] == 0);
     for (int i = 3; i < 5; i++)
         assert_true(mesh.triangles[i].uv[1] == 1 && mesh.triangles[i].normal[1] == 1);
-    assert_true(mesh.uvs[0][0] == 0.25f && mesh.normals[0][2] == 1.0f && mesh.normals[1][2] == 1.0f);
+    assert_true(mesh.uvs[0][0] == 0.25f && mesh.normals[0][2] == 1.0f &&
+                mesh.normals[1][2] == 1.0f);
     render_mesh_free(&mesh);
 }
 
@@ -109,7 +112,8 @@ static void limits_hold(void **state)
     assert_int_equal(render_obj_read("/nonexistent/a.obj", NULL, &mesh, &error), HNBRDF_ERROR_IO);
 }
 
-/* ---- Polygons ------------------------------------------------------------------------------------ */
+/* ---- Polygons
+ * ------------------------------------------------------------------------------------ */
 
 static double area_of(const float (*p)[3], const uint32_t t[3])
 {
@@ -118,12 +122,13 @@ static double area_of(const float (*p)[3], const uint32_t t[3])
         a[k] = (double)p[t[1]][k] - (double)p[t[0]][k];
         b[k] = (double)p[t[2]][k] - (double)p[t[0]][k];
     }
-    double x = a[1] * b[2] - a[2] * b[1], y = a[2] * b[0] - a[0] * b[2], z = a[0] * b[1] - a[1] * b[0];
+    double x = a[1] * b[2] - a[2] * b[1], y = a[2] * b[0] - a[0] * b[2],
+           z = a[0] * b[1] - a[1] * b[0];
     return 0.5 * sqrt(x * x + y * y + z * z) * (y > 0.0 ? -1.0 : 1.0);
 }
 
-/* A star of any number of points in the plane y = 2, seen from below or above: its triangles have the
- * star's area, and none is turned over: all signs are alike. */
+/* A star of any number of points in the plane y = 2, seen from below or above: its triangles have
+ * the star's area, and none is turned over: all signs are alike. */
 static void concave_polygons_are_covered_once(void **state)
 {
     (void)state;
@@ -172,7 +177,8 @@ static void any_polygon_ends(void **state)
             assert_true(t[i][k] < 100);
 }
 
-/* ---- Shapes -------------------------------------------------------------------------------------- */
+/* ---- Shapes
+ * -------------------------------------------------------------------------------------- */
 
 /* Volume inside the triangles, by the divergence theorem; positive if they face outwards. */
 static double volume_of(const render_mesh *mesh)
@@ -195,8 +201,10 @@ static double agreement(const render_mesh *mesh, size_t i)
     const render_triangle *t = &mesh->triangles[i];
     double e1[3], e2[3], least = 1.0;
     for (int k = 0; k < 3; k++) {
-        e1[k] = (double)mesh->positions[t->position[1]][k] - (double)mesh->positions[t->position[0]][k];
-        e2[k] = (double)mesh->positions[t->position[2]][k] - (double)mesh->positions[t->position[0]][k];
+        e1[k] =
+            (double)mesh->positions[t->position[1]][k] - (double)mesh->positions[t->position[0]][k];
+        e2[k] =
+            (double)mesh->positions[t->position[2]][k] - (double)mesh->positions[t->position[0]][k];
     }
     double n[3] = {e1[1] * e2[2] - e1[2] * e2[1], e1[2] * e2[0] - e1[0] * e2[2],
                    e1[0] * e2[1] - e1[1] * e2[0]};
@@ -229,7 +237,8 @@ static void shapes_face_outwards_and_have_their_volume(void **state)
         {RENDER_SUPERELLIPSOID, {.detail = 96}, 4.0 / 3.0 * pi, 2e-3},
         {RENDER_SUPERELLIPSOID, {.detail = 256, .powers = {0.1, 0.1}}, 7.8, 0.03},
         {RENDER_LATHE, turned, pi * (2.0 + 1.0 / 3.0), 2e-3},
-        /* a tube along the knot's length: what a tube holds by Pappus, where it does not cross itself
+        /* a tube along the knot's length: what a tube holds by Pappus, where it does not cross
+         * itself
          */
         {RENDER_KNOT, {.detail = 96, .tube = 0.1}, 0.0, INFINITY},
         {RENDER_TEAPOT, {.detail = 96}, 0.0, INFINITY},
@@ -257,8 +266,8 @@ static void shapes_face_outwards_and_have_their_volume(void **state)
     }
 }
 
-/* Every edge of the ball belongs to two triangles, and the averaged normals are those of the formula
- * within half a quad of 2 pi / 96. */
+/* Every edge of the ball belongs to two triangles, and the averaged normals are those of the
+ * formula within half a quad of 2 pi / 96. */
 static void smooth_normals_follow_the_shape(void **state)
 {
     (void)state;

@@ -14,7 +14,8 @@
 
 enum { PAIRS = 1000, MERL_BINS = 90 * 90 * 180 };
 
-/* ---- What is compared: constants, so that every figure is known in closed form --------------------
+/* ---- What is compared: constants, so that every figure is known in closed form
+ * --------------------
  */
 
 /* A neural 1x1 model of weights 0: f = exp(bias), the same for every pair. */
@@ -54,7 +55,8 @@ static hnbrdf_model *ggx_model(void)
     return model;
 }
 
-/* A MERL table that stores `value` in every bin from `first` on and -1, never measured, before it. */
+/* A MERL table that stores `value` in every bin from `first` on and -1, never measured, before
+ * it. */
 static hnbrdf_measured *constant_merl(double value, int first)
 {
     static const unsigned char header[12] = {90, 0, 0, 0, 90, 0, 0, 0, 180, 0, 0, 0};
@@ -106,7 +108,8 @@ static void assert_close(double value, double expected, double tolerance)
         fail_msg("%.17g, expected %.17g within %g of it", value, expected, tolerance);
 }
 
-/* ---- SMAPE --------------------------------------------------------------------------------------- */
+/* ---- SMAPE
+ * --------------------------------------------------------------------------------------- */
 
 static void smape_of_one_value_has_its_definition(void **state)
 {
@@ -133,7 +136,8 @@ static void smape_is_symmetric_and_between_0_and_2(void **state)
     }
 }
 
-/* ---- Comparisons --------------------------------------------------------------------------------- */
+/* ---- Comparisons
+ * --------------------------------------------------------------------------------- */
 
 static void constants_compare_to_their_closed_form(void **state)
 {
@@ -168,7 +172,8 @@ static void pairs_without_a_measurement_are_drawn_again(void **state)
     (void)state;
     const float value[3] = {1.0f, 1.0f, 1.0f};
     hnbrdf_model *model = constant_model(value);
-    hnbrdf_measured *measured = constant_merl(1500.0, MERL_BINS / 2); /* theta_h above 22.5 degrees */
+    /* theta_h above 22.5 degrees */
+    hnbrdf_measured *measured = constant_merl(1500.0, MERL_BINS / 2);
     hnbrdf_comparison comparison = compare(model, measured, HNBRDF_SAMPLER_GRID, 1);
     assert_int_equal(comparison.pairs, PAIRS);
     assert_true(comparison.smape < 0.3); /* never the 2 of a bin taken for black */
@@ -181,8 +186,8 @@ static void no_valid_pair_is_an_error_and_changes_nothing(void **state)
     (void)state;
     const float value[3] = {1.0f, 1.0f, 1.0f};
     hnbrdf_model *model = constant_model(value);
-    /* Only the last bin is valid, theta_h and theta_d near 90 degrees: one direction of such a pair is
-     * below the horizon. */
+    /* Only the last bin is valid, theta_h and theta_d near 90 degrees: one direction of such a
+     * pair is below the horizon. */
     hnbrdf_measured *measured = constant_merl(1500.0, MERL_BINS - 1);
     hnbrdf_comparison comparison = {.pairs = 77};
     hnbrdf_error error;
@@ -245,7 +250,8 @@ static void a_ggx_model_is_its_analytic_part(void **state)
     hnbrdf_model_free(model);
 }
 
-/* ---- Images -------------------------------------------------------------------------------------- */
+/* ---- Images
+ * -------------------------------------------------------------------------------------- */
 
 static void image_errors_have_their_known_values(void **state)
 {
@@ -255,7 +261,8 @@ static void image_errors_have_their_known_values(void **state)
     hnbrdf_image_compare(image, reference, 4, &error);
     assert_true(error.mae == 1.0);
     assert_true(error.mse == 2.0);
-    assert_close(error.psnr, 9.030899869919435, 1e-15); /* 10 log10(4^2 / 2), rounded once or twice */
+    /* 10 log10(4^2 / 2), rounded once or twice */
+    assert_close(error.psnr, 9.030899869919435, 1e-15);
 }
 
 static void equal_images_have_infinite_psnr(void **state)
@@ -295,8 +302,8 @@ static double normal(hnbrdf_rng *rng)
 
 enum { NOISY_PIXELS = 24, TRIALS = 4000 };
 
-/* One noisy rendering: the error of channel k is 0.1 (k + 1), its noise the same in all channels but
- * for a part of its own. The reference has none. */
+/* One noisy rendering: the error of channel k is 0.1 (k + 1), its noise the same in all channels
+ * but for a part of its own. The reference has none. */
 static void render_noisily(hnbrdf_rng *rng, const float *reference, float *image)
 {
     for (int p = 0; p < NOISY_PIXELS; p++) {
@@ -331,10 +338,10 @@ static void the_error_by_noise_is_the_spread_of_many_renderings(void **state)
         assert_true(noise.peak_error == 0.0);
     }
     double spread = sqrt(squares - sum * sum);
-    /* The mean of all trials within 4 standard errors of the truth; the plain MSE above it by half the
-     * noise's variance, 0.05/2. The spread of 4000 trials is known to 1/sqrt(2 * 4000) = 1.1 %, and the
-     * stated variance, a mean of 4000 * 24 squares whose own spread is less than 3 times their mean, to
-     * 1 %. */
+    /* The mean of all trials within 4 standard errors of the truth; the plain MSE above it by
+     * half the noise's variance, 0.05/2. The spread of 4000 trials is known to 1/sqrt(2 * 4000) =
+     * 1.1 %, and the stated variance, a mean of 4000 * 24 squares whose own spread is less than 3
+     * times their mean, to 1 %. */
     assert_true(fabs(sum - truth) < 4.0 * spread / sqrt(TRIALS));
     assert_true(fabs(plain - truth - 0.025) < 4.0 * spread / sqrt(TRIALS));
     assert_true(fabs(sqrt(stated) / spread - 1.0) < 4.0 * 0.015);

@@ -1,5 +1,5 @@
-/* test_model_create.c: a model holds what its description says, and every wrong description is refused
- * with a message and nothing made. */
+/* test_model_create.c: a model holds what its description says, and every wrong description is
+ * refused with a message and nothing made. */
 #include "model_support.h"
 
 #include <math.h>
@@ -140,7 +140,8 @@ static void latents_beyond_l_and_negative_zeros_are_cleared(void **state)
     hnbrdf_model_free(model);
 }
 
-/* ---- Refusals ---------------------------------------------------------------------------------- */
+/* ---- Refusals
+ * ---------------------------------------------------------------------------------- */
 
 static void expect(const sample *s, hnbrdf_result expected, const char *part)
 {
@@ -150,19 +151,19 @@ static void expect(const sample *s, hnbrdf_result expected, const char *part)
     const hnbrdf_allocator allocator = counting_allocator(&count);
     const hnbrdf_result result = hnbrdf_model_create(&s->desc, &allocator, &model, &error);
     if (result != expected || !strstr(error.text, part))
-        fail_msg("result %d \"%s\", expected %d with \"%s\"", (int)result, error.text, (int)expected,
-                 part);
+        fail_msg("result %d \"%s\", expected %d with \"%s\"", (int)result, error.text,
+                 (int)expected, part);
     assert_null(model);
     assert_int_equal(count.alive, 0);
     assert_int_equal(hnbrdf_model_create(&s->desc, NULL, &model, NULL), expected);
 }
 
-#define REFUSES(edit, result, part)                                                                    \
-    do {                                                                                               \
-        sample s;                                                                                      \
-        make_sample(&s);                                                                               \
-        edit;                                                                                          \
-        expect(&s, result, part);                                                                      \
+#define REFUSES(edit, result, part) \
+    do {                            \
+        sample s;                   \
+        make_sample(&s);            \
+        edit;                       \
+        expect(&s, result, part);   \
     } while (0)
 
 static void wrong_shapes_are_refused(void **state)
@@ -273,7 +274,8 @@ static void half_an_allocator_is_refused(void **state)
     make_sample(&s);
     assert_int_equal(hnbrdf_model_create(&s.desc, &allocator, &model, &error), HNBRDF_ERROR_MEMORY);
     allocator.release = NULL;
-    assert_int_equal(hnbrdf_model_create(&s.desc, &allocator, &model, &error), HNBRDF_ERROR_ARGUMENT);
+    assert_int_equal(hnbrdf_model_create(&s.desc, &allocator, &model, &error),
+                     HNBRDF_ERROR_ARGUMENT);
     assert_int_equal(hnbrdf_model_create(NULL, NULL, &model, &error), HNBRDF_ERROR_ARGUMENT);
     assert_int_equal(hnbrdf_model_create(&s.desc, NULL, NULL, &error), HNBRDF_ERROR_ARGUMENT);
     assert_null(model);
@@ -297,7 +299,8 @@ static void every_result_kind_and_encoding_has_its_word(void **state)
     assert_string_equal(hnbrdf_encoding_name(HNBRDF_ENCODING_HALF_DIFFERENCE), "half-difference");
     assert_string_equal(hnbrdf_encoding_name(HNBRDF_ENCODING_ANGLES), "angles");
     assert_string_equal(hnbrdf_encoding_name(HNBRDF_ENCODING_ANGLES_DIRECTED), "angles-directed");
-    assert_string_equal(hnbrdf_encoding_name(HNBRDF_ENCODING_ANGLES_ANISOTROPIC), "angles-anisotropic");
+    assert_string_equal(hnbrdf_encoding_name(HNBRDF_ENCODING_ANGLES_ANISOTROPIC),
+                        "angles-anisotropic");
     assert_null(hnbrdf_encoding_name((hnbrdf_encoding)5));
     assert_string_equal(hnbrdf_version(), HNBRDF_VERSION_STRING);
 }

@@ -1,5 +1,5 @@
-/* test_model_file.c: a model survives its file to the last bit, whichever way the bytes come, and no
- * failure on the way leaks, crashes or spoils the file that was there. */
+/* test_model_file.c: a model survives its file to the last bit, whichever way the bytes come, and
+ * no failure on the way leaks, crashes or spoils the file that was there. */
 #include "model_support.h"
 
 #include <locale.h>
@@ -70,7 +70,8 @@ static int exists(const char *path)
     return file != NULL;
 }
 
-/* ---- Round trips ------------------------------------------------------------------------------- */
+/* ---- Round trips
+ * ------------------------------------------------------------------------------- */
 
 static void a_model_survives_its_bytes_and_gives_the_same_again(void **state)
 {
@@ -161,7 +162,8 @@ static void the_header_reads_as_the_design_says(void **state)
     hnbrdf_model_free(model);
 }
 
-/* ---- Where bytes come from --------------------------------------------------------------------- */
+/* ---- Where bytes come from
+ * --------------------------------------------------------------------- */
 
 typedef struct stream {
     const bytes *b;
@@ -184,7 +186,8 @@ static size_t read_stream(void *user, void *buffer, size_t size)
 static void a_callback_may_give_any_number_of_bytes(void **state)
 {
     static const size_t STEPS[] = {1, 7, 4096, 65536, 1000000};
-    hnbrdf_model *model = example_model(3, HNBRDF_KIND_HYBRID, 64, 4, 16, 200, 0); /* above one chunk */
+    /* above one chunk */
+    hnbrdf_model *model = example_model(3, HNBRDF_KIND_HYBRID, 64, 4, 16, 200, 0);
     bytes b = model_bytes(model);
     (void)state;
     assert_true(b.size > 70000);
@@ -254,7 +257,8 @@ static void missing_files_and_directories_are_io_errors(void **state)
     assert_null(back);
 }
 
-/* ---- Failures while saving --------------------------------------------------------------------- */
+/* ---- Failures while saving
+ * --------------------------------------------------------------------- */
 
 static void a_failed_save_leaves_the_old_file(void **state)
 {
@@ -276,7 +280,8 @@ static void a_failed_save_leaves_the_old_file(void **state)
     in_directory("missing/a.safetensors", blocked);
     assert_int_equal(hnbrdf_model_save(model, blocked, &error), HNBRDF_ERROR_IO);
 
-    in_directory("folder", blocked); /* a file cannot take a folder's place: the aside file must go */
+    /* a file cannot take a folder's place: the aside file must go */
+    in_directory("folder", blocked);
     in_directory("folder.tmp", aside);
     assert_int_equal(mkdir(blocked, 0700), 0);
     assert_int_equal(hnbrdf_model_save(model, blocked, &error), HNBRDF_ERROR_IO);
@@ -288,8 +293,8 @@ static void a_failed_save_leaves_the_old_file(void **state)
     hnbrdf_model_free(back);
 }
 
-/* /dev/full takes no byte: a large file fails while it is written, one that fits the stream's buffer
- * only when it is closed. Only where there is such a device. */
+/* /dev/full takes no byte: a large file fails while it is written, one that fits the stream's
+ * buffer only when it is closed. Only where there is such a device. */
 static void a_full_disk_is_noticed(void **state)
 {
     char path[256], aside[256];
@@ -339,7 +344,8 @@ static void a_write_callback_can_stop_anywhere(void **state)
     hnbrdf_model_free(model);
 }
 
-/* ---- Memory ------------------------------------------------------------------------------------ */
+/* ---- Memory
+ * ------------------------------------------------------------------------------------ */
 
 static void every_failed_allocation_is_reported_without_a_leak(void **state)
 {

@@ -1,5 +1,6 @@
-/* test_model_hostile.c: whatever the bytes of a model file are, loading ends with a model that passes
- * every check or with a result and one line that says where and why. Run it under ASan and UBSan too.
+/* test_model_hostile.c: whatever the bytes of a model file are, loading ends with a model that
+ * passes every check or with a result and one line that says where and why. Run it under ASan and
+ * UBSan too.
  */
 #include "model_support.h"
 
@@ -11,8 +12,8 @@
 
 #include <cmocka.h>
 
-/* Loads from a block of exactly that size, so that AddressSanitizer sees a read behind it. On failure
- * the model must be untouched, the message one line, nothing leaked. */
+/* Loads from a block of exactly that size, so that AddressSanitizer sees a read behind it. On
+ * failure the model must be untouched, the message one line, nothing leaked. */
 static hnbrdf_result load(const unsigned char *data, size_t size, hnbrdf_error *error)
 {
     counting count = {.fail_at = -1};
@@ -42,8 +43,8 @@ static void expect(const bytes *file, hnbrdf_result expected, const char *part)
     hnbrdf_error error;
     const hnbrdf_result result = load(file->data, file->size, &error);
     if (result != expected || (part && !strstr(error.text, part)))
-        fail_msg("result %d \"%s\", expected %d with \"%s\"", (int)result, error.text, (int)expected,
-                 part ? part : "");
+        fail_msg("result %d \"%s\", expected %d with \"%s\"", (int)result, error.text,
+                 (int)expected, part ? part : "");
 }
 
 /* The tests below spoil this one: hybrid 4x2, l = 2, 3 materials. */
@@ -75,7 +76,8 @@ static void every_truncation_is_refused(void **state)
     for (size_t size = 0; size < good.size; size++) {
         const hnbrdf_result result = load(good.data, size, &error);
         if (result != HNBRDF_ERROR_FORMAT)
-            fail_msg("%zu of %zu bytes: result %d \"%s\"", size, good.size, (int)result, error.text);
+            fail_msg("%zu of %zu bytes: result %d \"%s\"", size, good.size, (int)result,
+                     error.text);
     }
     assert_int_equal(load(good.data, good.size, &error), HNBRDF_OK);
     write_bytes(&good, "", 1);
@@ -151,7 +153,8 @@ static void spoiled_metadata_is_named(void **state)
     expect_replaced("hnbrdf/1", "hnbrdf/10", HNBRDF_ERROR_UNSUPPORTED, "format is \"hnbrdf/10\"");
     expect_replaced("hnbrdf/1", "hnbrdf/1.7", HNBRDF_OK, NULL);
     expect_replaced("hnbrdf/1", "hnbrdf\\/1", HNBRDF_OK, NULL);
-    expect_replaced("hnbrdf/1", "pt", HNBRDF_ERROR_FORMAT, "format is \"pt\", expected \"hnbrdf/1\"");
+    expect_replaced("hnbrdf/1", "pt", HNBRDF_ERROR_FORMAT,
+                    "format is \"pt\", expected \"hnbrdf/1\"");
     expect_replaced("\"format\"", "\"Format\"", HNBRDF_ERROR_FORMAT, "has no key format");
     expect_replaced("\"__metadata__\"", "\"net\"", HNBRDF_ERROR_FORMAT, "tensor net has no dtype");
     expect_replaced("hybrid", "hybird", HNBRDF_ERROR_FORMAT,
@@ -160,12 +163,14 @@ static void spoiled_metadata_is_named(void **state)
                     "net.0.weight is not expected in a ggx model");
     expect_replaced("hybrid", "neural", HNBRDF_ERROR_FORMAT,
                     "net.2.weight has shape [6, 4], expected [3, 4]");
-    expect_replaced("directions", "rusinkiewicz", HNBRDF_ERROR_FORMAT, "encoding is \"rusinkiewicz\"");
+    expect_replaced("directions", "rusinkiewicz", HNBRDF_ERROR_FORMAT,
+                    "encoding is \"rusinkiewicz\"");
     expect_replaced("\"encoding\"", "\"encodign\"", HNBRDF_ERROR_FORMAT, "has no key encoding");
     expect_replaced("\"kind\"", "\"format\"", HNBRDF_ERROR_FORMAT, "has the key format twice");
     expect_replaced("\"kind\"", "\"scale\":\"1,5\",\"kind\"", HNBRDF_ERROR_FORMAT,
                     "scale is \"1,5\", expected a decimal");
-    expect_replaced("\"kind\"", "\"scale\":\"nan\",\"kind\"", HNBRDF_ERROR_FORMAT, "scale is \"nan\"");
+    expect_replaced("\"kind\"", "\"scale\":\"nan\",\"kind\"", HNBRDF_ERROR_FORMAT,
+                    "scale is \"nan\"");
     expect_replaced("\"kind\"", "\"shift\":\"1e39\",\"kind\"", HNBRDF_ERROR_FORMAT,
                     "shift is \"1e39\"");
     expect_replaced("\"kind\"", "\"shift\":\"\",\"kind\"", HNBRDF_ERROR_FORMAT, "shift is \"\"");
@@ -175,8 +180,8 @@ static void spoiled_metadata_is_named(void **state)
     expect_replaced("\"kind\"", "\"scale\":1.5,\"kind\"", HNBRDF_ERROR_FORMAT,
                     "found '1', expected '\"'");
     expect_replaced("\"kind\"", "\"note\":\"kept by others\",\"kind\"", HNBRDF_OK, NULL);
-    expect_replaced("{\"__metadata__\"", "{\"__metadata__\":{},\"__metadata__\"", HNBRDF_ERROR_FORMAT,
-                    "appears twice");
+    expect_replaced("{\"__metadata__\"", "{\"__metadata__\":{},\"__metadata__\"",
+                    HNBRDF_ERROR_FORMAT, "appears twice");
 }
 
 static void spoiled_names_are_named(void **state)
@@ -211,14 +216,17 @@ static void spoiled_tensors_are_named(void **state)
     expect_replaced("net.2.bias", "net.9.bias", HNBRDF_ERROR_LIMIT,
                     "net.9.bias: expected at most 4 hidden layers");
     expect_replaced("net.2.bias", "net.2.b", HNBRDF_ERROR_FORMAT, "net.2.bias is missing");
-    expect_replaced("net.1.weight", "net.3.weight", HNBRDF_ERROR_FORMAT, "has no tensor net.1.weight");
+    expect_replaced("net.1.weight", "net.3.weight", HNBRDF_ERROR_FORMAT,
+                    "has no tensor net.1.weight");
     expect_replaced("net.0.weight", "a", HNBRDF_ERROR_FORMAT, "has no tensor net.0.weight");
     expect_replaced("net.2.weight", "net.3.weight", HNBRDF_ERROR_FORMAT,
                     "net.1.weight has shape [4, 4], expected [6, 4]");
     expect_replaced("material.kd", "material.kD", HNBRDF_ERROR_FORMAT, "material.kd is missing");
-    expect_replaced("material.latent", "material.z", HNBRDF_ERROR_FORMAT, "material.latent is missing");
+    expect_replaced("material.latent", "material.z", HNBRDF_ERROR_FORMAT,
+                    "material.latent is missing");
     expect_replaced("material.rotation", "material.theta", HNBRDF_OK, NULL);
-    expect_replaced("F32", "F16", HNBRDF_ERROR_UNSUPPORTED, "net.0.weight: dtype is F16, expected F32");
+    expect_replaced("F32", "F16", HNBRDF_ERROR_UNSUPPORTED,
+                    "net.0.weight: dtype is F16, expected F32");
     expect_replaced("\"F32\"", "32", HNBRDF_ERROR_FORMAT, "found '3', expected '\"'");
     expect_replaced("\"dtype\":\"F32\",", "", HNBRDF_ERROR_FORMAT, "has no dtype");
     expect_replaced("\"dtype\"", "\"shape\":[4,8],\"dtype\"", HNBRDF_ERROR_FORMAT,
@@ -239,7 +247,8 @@ static void spoiled_tensors_are_named(void **state)
                     "product of its shape is above");
     expect_replaced("[4,8]", "[4611686018427387912,4]", HNBRDF_ERROR_FORMAT,
                     "product of its shape is above");
-    expect_replaced("[4,8]", "[18446744073709551616]", HNBRDF_ERROR_FORMAT, "expected a whole number");
+    expect_replaced("[4,8]", "[18446744073709551616]", HNBRDF_ERROR_FORMAT,
+                    "expected a whole number");
     expect_replaced("[0,128]", "[0,127]", HNBRDF_ERROR_FORMAT, "span 127 bytes");
     expect_replaced("[0,128]", "[128,0]", HNBRDF_ERROR_FORMAT, "expected a range within");
     expect_replaced("[0,128]", "[4,132]", HNBRDF_ERROR_FORMAT,
@@ -248,7 +257,8 @@ static void spoiled_tensors_are_named(void **state)
                     "expected a range within");
     expect_replaced("[0,128]", "[0,18446744073709551615]", HNBRDF_ERROR_FORMAT,
                     "expected a range within");
-    expect_replaced("[0,128]", "[128]", HNBRDF_ERROR_FORMAT, "data_offsets has 1 numbers, expected 2");
+    expect_replaced("[0,128]", "[128]", HNBRDF_ERROR_FORMAT,
+                    "data_offsets has 1 numbers, expected 2");
     expect_replaced("[0,128]", "[0,128,256]", HNBRDF_ERROR_FORMAT, "data_offsets has 3 numbers");
     expect_replaced("[128,144]", "[124,140]", HNBRDF_ERROR_FORMAT,
                     "begins at byte 124 of the data, expected 128");
@@ -267,12 +277,12 @@ static void unknown_tensors_must_lie_within_the_data(void **state)
         {"\"x\":{\"dtype\":\"F8_NEW\",\"shape\":[2,2],\"data_offsets\":[476,480]},", 4, HNBRDF_OK,
          NULL},
         {"\"x\":{\"dtype\":\"F32\",\"shape\":[0],\"data_offsets\":[0,0]},", 0, HNBRDF_OK, NULL},
-        {"\"x\":{\"dtype\":\"I64\",\"shape\":[1],\"data_offsets\":[468,476]},", 0, HNBRDF_ERROR_FORMAT,
-         "begins at byte"},
-        {"\"x\":{\"dtype\":\"I64\",\"shape\":[1],\"data_offsets\":[476,484]},", 0, HNBRDF_ERROR_FORMAT,
-         "tensor x"},
-        {"\"x\":{\"dtype\":\"I64\",\"shape\":[1],\"data_offsets\":[477,485]},", 9, HNBRDF_ERROR_FORMAT,
-         "begins at byte 477"},
+        {"\"x\":{\"dtype\":\"I64\",\"shape\":[1],\"data_offsets\":[468,476]},", 0,
+         HNBRDF_ERROR_FORMAT, "begins at byte"},
+        {"\"x\":{\"dtype\":\"I64\",\"shape\":[1],\"data_offsets\":[476,484]},", 0,
+         HNBRDF_ERROR_FORMAT, "tensor x"},
+        {"\"x\":{\"dtype\":\"I64\",\"shape\":[1],\"data_offsets\":[477,485]},", 9,
+         HNBRDF_ERROR_FORMAT, "begins at byte 477"},
     };
     bytes good = good_file();
     (void)state;
@@ -358,9 +368,10 @@ static void a_neural_model_needs_no_analytic_parameters(void **state)
     assert_int_equal(hnbrdf_model_load_memory(b.data, b.size, NULL, &back, NULL), HNBRDF_OK);
     assert_memory_equal(hnbrdf_model_material(back, 1)->kd, standard.kd, sizeof standard.kd);
     assert_memory_equal(hnbrdf_model_material(back, 1)->eta, standard.eta, sizeof standard.eta);
-    assert_memory_equal(hnbrdf_model_material(back, 1)->alpha, standard.alpha, sizeof standard.alpha);
-    assert_memory_equal(hnbrdf_model_material(back, 1)->latent, hnbrdf_model_material(model, 1)->latent,
-                        sizeof standard.latent);
+    assert_memory_equal(hnbrdf_model_material(back, 1)->alpha, standard.alpha,
+                        sizeof standard.alpha);
+    assert_memory_equal(hnbrdf_model_material(back, 1)->latent,
+                        hnbrdf_model_material(model, 1)->latent, sizeof standard.latent);
     hnbrdf_model_free(back);
     hnbrdf_model_free(model);
     free_bytes(&b);
@@ -393,8 +404,8 @@ static void control_characters_never_reach_a_message(void **state)
     free_bytes(&b);
 }
 
-/* A few random bytes changed, mostly in the header, sometimes a piece cut out or doubled. What loads
- * must be a sound model: saved and loaded again it is the same. */
+/* A few random bytes changed, mostly in the header, sometimes a piece cut out or doubled. What
+ * loads must be a sound model: saved and loaded again it is the same. */
 static void random_damage_never_gives_an_unsound_model(void **state)
 {
     static const char LETTERS[] = "{}[]\",:\\u0123456789-+.eEtfn /\x80\xff";
@@ -409,8 +420,9 @@ static void random_damage_never_gives_an_unsound_model(void **state)
         write_bytes(&b, good.data, good.size);
         for (int k = 0; k < changes; k++) {
             const size_t place = rng_u32(&r) % (rng_u32(&r) % 4 ? b.size - DATA_SIZE : b.size);
-            b.data[place] = rng_u32(&r) % 2 ? (unsigned char)LETTERS[rng_u32(&r) % (sizeof LETTERS - 1)]
-                                            : (unsigned char)rng_u32(&r);
+            b.data[place] = rng_u32(&r) % 2
+                                ? (unsigned char)LETTERS[rng_u32(&r) % (sizeof LETTERS - 1)]
+                                : (unsigned char)rng_u32(&r);
         }
         if (rng_u32(&r) % 8 == 0) {
             const size_t place = rng_u32(&r) % b.size, length = rng_u32(&r) % (b.size - place);
@@ -419,7 +431,8 @@ static void random_damage_never_gives_an_unsound_model(void **state)
         }
         if (load(b.data, b.size, &error) == HNBRDF_OK) {
             hnbrdf_model *model = NULL, *back = NULL;
-            assert_int_equal(hnbrdf_model_load_memory(b.data, b.size, NULL, &model, NULL), HNBRDF_OK);
+            assert_int_equal(hnbrdf_model_load_memory(b.data, b.size, NULL, &model, NULL),
+                             HNBRDF_OK);
             bytes again = model_bytes(model);
             assert_int_equal(hnbrdf_model_load_memory(again.data, again.size, NULL, &back, NULL),
                              HNBRDF_OK);

@@ -1,5 +1,5 @@
-/* test_model_json.c: the JSON reader takes what RFC 8259 allows, refuses the rest, and strings survive
- * being escaped. */
+/* test_model_json.c: the JSON reader takes what RFC 8259 allows, refuses the rest, and strings
+ * survive being escaped. */
 #include "core_support.h"
 
 #include "model/json.h"

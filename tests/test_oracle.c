@@ -1,5 +1,5 @@
-/* test_oracle.c: is the oracle right? Against facts that do not come from its formulas: normalisation,
- * Fresnel's amplitudes, closed forms, a network small enough to write out. */
+/* test_oracle.c: is the oracle right? Against facts that do not come from its formulas:
+ * normalisation, Fresnel's amplitudes, closed forms, a network small enough to write out. */
 #include "oracle/oracle.h"
 
 #include "core_support.h"
@@ -22,8 +22,9 @@ static oracle_point ggx_point(const hnbrdf_material *m, const float wi[3], const
     return point;
 }
 
-/* kd = 0, alpha = 1: D = 1/pi whatever h is, so f = F/pi * G1 G1/(4 wi.z wo.z), and with G1 written out
- * by hand F is what is left. Compared with (|rs|^2 + |rp|^2)/2 of Fresnel's amplitudes. */
+/* kd = 0, alpha = 1: D = 1/pi whatever h is, so f = F/pi * G1 G1/(4 wi.z wo.z), and with G1
+ * written out by hand F is what is left. Compared with (|rs|^2 + |rp|^2)/2 of Fresnel's
+ * amplitudes. */
 static void fresnel_is_the_mean_of_the_squared_amplitudes(void **state)
 {
     (void)state;
@@ -63,11 +64,12 @@ static void fresnel_is_the_mean_of_the_squared_amplitudes(void **state)
         }
 }
 
-/* Seen along n nothing is masked: of all normals the density of wi is D h.z/(4 wo.h); of the visible ones that is
- * over (1 + k)/2, k = (1 - a^2)/(1 + a^2) with the smaller roughness a: the bound cuts off normals beyond 45
- * degrees, all of them where the lobe is round. In slopes r a (cos, sin) with r^2 = v/(1 - v), D h.z dh =
- * dv dphi/(2 pi): of a midpoint rule in v and phi every point has the same share, so the mean of density over
- * expectation, with the share of wi below the horizon, is 1. */
+/* Seen along n nothing is masked: of all normals the density of wi is D h.z/(4 wo.h); of the
+ * visible ones that is over (1 + k)/2, k = (1 - a^2)/(1 + a^2) with the smaller roughness a: the
+ * bound cuts off normals beyond 45 degrees, all of them where the lobe is round. In slopes r a
+ * (cos, sin) with r^2 = v/(1 - v), D h.z dh = dv dphi/(2 pi): of a midpoint rule in v and phi
+ * every point has the same share, so the mean of density over expectation, with the share of wi
+ * below the horizon, is 1. */
 static void the_density_is_that_of_mirrored_normals_and_integrates_to_one(void **state)
 {
     const float wo[3] = {0.0f, 0.0f, 1.0f};
@@ -81,15 +83,18 @@ static void the_density_is_that_of_mirrored_normals_and_integrates_to_one(void *
         memcpy(m.alpha, alphas[a / 2], sizeof m.alpha);
         if (a % 2)
             hnbrdf_lobes_paper(&m.lobes);
-        double share = a % 2 ? 0.5 : 0.2, total = 0.0, above = 0.0, least = fmin((double)m.alpha[0], (double)m.alpha[1]);
+        double share = a % 2 ? 0.5 : 0.2, total = 0.0, above = 0.0,
+               least = fmin((double)m.alpha[0], (double)m.alpha[1]);
         double visible = a % 2 ? 1.0 : 1 / (1 + least * least); /* (1 + k)/2 */
         for (int i = 0; i < RINGS; i++)
             for (int k = 0; k < TURNS; k++) {
-                double v = (i + 0.5) / RINGS, r = sqrt(v / (1 - v)), phi = 2 * pi * (k + 0.5) / TURNS;
+                double v = (i + 0.5) / RINGS, r = sqrt(v / (1 - v)),
+                       phi = 2 * pi * (k + 0.5) / TURNS;
                 double ax = (double)m.alpha[0], ay = (double)m.alpha[1], t = 1 + r * r;
                 double x = r * ax * cos(phi), y = r * ay * sin(phi), h2 = x * x + y * y + 1;
                 const float wi[3] = {(float)(2 * x / h2), (float)(2 * y / h2), (float)(2 / h2 - 1)};
-                double lobe = (ggx_point(&m, wi, wo).pdf - (1 - share) * (double)wi[2] / pi) / share * visible;
+                double lobe = (ggx_point(&m, wi, wo).pdf - (1 - share) * (double)wi[2] / pi) /
+                              share * visible;
                 double all = point * lobe * 4 * pi * ax * ay * t * t / (h2 * h2);
                 total += wi[2] > 0.0f ? all : point;
                 above += wi[2] > 0.0f ? all / visible : 0.0;
@@ -155,9 +160,9 @@ static void a_network_of_one_unit_is_what_one_writes_out(void **state)
     }
 }
 
-/* Every kind, encoding and clamp against the library: they were written apart, so an error of one of
- * them shows. 2e-4 of the scale is what random networks of order 1 lose at most in floats; a wrong
- * formula is wrong in the first digits. */
+/* Every kind, encoding and clamp against the library: they were written apart, so an error of one
+ * of them shows. 2e-4 of the scale is what random networks of order 1 lose at most in floats; a
+ * wrong formula is wrong in the first digits. */
 static void library_and_oracle_agree_on_every_kind_and_encoding(void **state)
 {
     (void)state;

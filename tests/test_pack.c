@@ -1,6 +1,7 @@
-/* test_pack.c: materials as texels: what comes back, how near, and that any bits are a legal material.
- * Bounds are those that hnbrdf.h states; beside them stands the rounding of float: a few operations,
- * each within 2^-24 relative, on numbers along the curve that are at most 9.3 (the logarithm of 1e-4).
+/* test_pack.c: materials as texels: what comes back, how near, and that any bits are a legal
+ * material. Bounds are those that hnbrdf.h states; beside them stands the rounding of float: a
+ * few operations, each within 2^-24 relative, on numbers along the curve that are at most 9.3
+ * (the logarithm of 1e-4).
  */
 #include "core_support.h"
 
@@ -95,9 +96,11 @@ static void half_floats_keep_every_field_within_what_the_header_states(void **st
                         a * (0x1p-11 + FLOAT_ERROR) + 0x1p-25 + 0x1p-23);
         }
         for (int c = 0; c < 2; c++)
-            assert_near("alpha", m.alpha[c], b.alpha[c], fabs((double)m.alpha[c] - (double)b.alpha[c]),
+            assert_near("alpha", m.alpha[c], b.alpha[c],
+                        fabs((double)m.alpha[c] - (double)b.alpha[c]),
                         (double)m.alpha[c] * 0x1p-11);
-        assert_near("rotation", m.rotation, b.rotation, turn_between(m.rotation, b.rotation), 3.5e-4);
+        assert_near("rotation", m.rotation, b.rotation, turn_between(m.rotation, b.rotation),
+                    3.5e-4);
         for (int i = 0; i < HNBRDF_MAX_LATENT; i++)
             assert_near("latent", m.latent[i], b.latent[i],
                         fabs((double)m.latent[i] - (double)b.latent[i]),
@@ -125,7 +128,8 @@ static void bytes_keep_every_field_within_what_the_header_states(void **state)
             assert_near("alpha", m.alpha[c], b.alpha[c],
                         fabs(log((double)m.alpha[c]) - log((double)b.alpha[c])),
                         log_alpha / 510.0 + FLOAT_ERROR);
-        assert_near("rotation", m.rotation, b.rotation, turn_between(m.rotation, b.rotation), 5.6e-3);
+        assert_near("rotation", m.rotation, b.rotation, turn_between(m.rotation, b.rotation),
+                    5.6e-3);
         for (int i = 0; i < HNBRDF_MAX_LATENT; i++)
             assert_near("latent", m.latent[i], b.latent[i],
                         fabs((double)m.latent[i] - (double)b.latent[i]), 8.0 / 510.0 + FLOAT_ERROR);
@@ -137,7 +141,8 @@ static void bytes_keep_every_field_within_what_the_header_states(void **state)
 static void ends_of_the_ranges_come_back_as_they_are(void **state)
 {
     (void)state;
-    for (hnbrdf_texel_format format = HNBRDF_TEXEL_RGBA16F; format <= HNBRDF_TEXEL_RGBA8; format++) {
+    for (hnbrdf_texel_format format = HNBRDF_TEXEL_RGBA16F; format <= HNBRDF_TEXEL_RGBA8;
+         format++) {
         hnbrdf_packing packing = full_packing(format);
         hnbrdf_material m;
         hnbrdf_material_init(&m);
@@ -155,11 +160,13 @@ static void ends_of_the_ranges_come_back_as_they_are(void **state)
     }
 }
 
-/* The reflectance at normal incidence is what an index means: of nearly nothing, and of nearly all. */
+/* The reflectance at normal incidence is what an index means: of nearly nothing, and of nearly
+ * all. */
 static void extreme_indices_keep_their_reflectance(void **state)
 {
     (void)state;
-    for (hnbrdf_texel_format format = HNBRDF_TEXEL_RGBA16F; format <= HNBRDF_TEXEL_RGBA8; format++) {
+    for (hnbrdf_texel_format format = HNBRDF_TEXEL_RGBA16F; format <= HNBRDF_TEXEL_RGBA8;
+         format++) {
         hnbrdf_packing packing = full_packing(format);
         hnbrdf_material m;
         hnbrdf_material_init(&m);
@@ -167,7 +174,8 @@ static void extreme_indices_keep_their_reflectance(void **state)
         memcpy(m.eta, etas, sizeof etas);
         hnbrdf_material b = round_trip(&packing, &m);
         for (int c = 0; c < 3; c++) {
-            /* r^2 = (sqrt r)^4: 4 r^(3/2) w/510 for bytes; r^2 2^-10 for half floats, 0.998 for 0.9980
+            /* r^2 = (sqrt r)^4: 4 r^(3/2) w/510 for bytes; r^2 2^-10 for half floats, 0.998 for
+             * 0.9980
              */
             double before = pow(amplitude(m.eta[c]), 2.0), after = pow(amplitude(b.eta[c]), 2.0);
             assert_near("reflectance", m.eta[c], b.eta[c], fabs(after - before),

@@ -1,11 +1,12 @@
-/* test_pairs.c: the random numbers and the three samplers draw what measured.h says. Seeds are fixed;
- * bounds are five standard deviations of the statistic. */
+/* test_pairs.c: the random numbers and the three samplers draw what measured.h says. Seeds are
+ * fixed; bounds are five standard deviations of the statistic. */
 #include "measured_support.h"
 
 static const double PI = 3.14159265358979323846;
 enum { DRAWS = 200000, BINS = 16 };
 
-/* Pearson's statistic against equal counts stays within 5 sigma of its mean: sigma^2 = 2 (bins - 1). */
+/* Pearson's statistic against equal counts stays within 5 sigma of its mean: sigma^2 = 2 (bins -
+ * 1). */
 static void expect_flat(const size_t *counts, size_t bins, const char *what)
 {
     double total = 0.0, chi2 = 0.0, freedom = (double)(bins - 1);
@@ -95,8 +96,8 @@ static void directions_are_unit_and_above_one_hundredth(void **state)
     }
 }
 
-/* z (uniform) or z^2 (cosine) is flat over what is left above 0.01, the azimuth over the circle, for wi
- * and wo alike. */
+/* z (uniform) or z^2 (cosine) is flat over what is left above 0.01, the azimuth over the circle,
+ * for wi and wo alike. */
 static void expect_hemisphere(hnbrdf_sampler sampler, int power)
 {
     size_t heights[2][BINS] = {{0}}, azimuths[2][BINS] = {{0}}, joint[BINS * BINS] = {0};

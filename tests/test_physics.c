@@ -1,4 +1,5 @@
-/* test_physics.c: directional albedo against closed forms and against another integrator, reciprocity.
+/* test_physics.c: directional albedo against closed forms and against another integrator,
+ * reciprocity.
  */
 #include "hnbrdf/metrics.h"
 
@@ -41,10 +42,10 @@ static void the_albedo_of_lambert_is_kd(void **state)
     hnbrdf_model_free(model);
 }
 
-/* GGX that reflects everything (eta 1000: 0.996 at normal incidence) against hnbrdf_sample(): the mean
- * of its weights is the albedo. 20000 draws with weights of at most about 5 (share 0.2 at least): a
- * standard deviation under 5/sqrt(20000) = 0.035, in fact near 0.005; judged by their own scatter, four
- * times. */
+/* GGX that reflects everything (eta 1000: 0.996 at normal incidence) against hnbrdf_sample(): the
+ * mean of its weights is the albedo. 20000 draws with weights of at most about 5 (share 0.2 at
+ * least): a standard deviation under 5/sqrt(20000) = 0.035, in fact near 0.005; judged by their
+ * own scatter, four times. */
 static void the_albedo_is_the_mean_weight_of_samples(void **state)
 {
     (void)state;
@@ -52,7 +53,8 @@ static void the_albedo_is_the_mean_weight_of_samples(void **state)
     hnbrdf_model *models[] = {
         random_model(&r, HNBRDF_KIND_GGX, HNBRDF_ENCODING_DIRECTIONS, 0, 0, 0),
         random_model(&r, HNBRDF_KIND_HYBRID, HNBRDF_ENCODING_ANGLES_ANISOTROPIC, 8, 2, 4)};
-    static const float alphas[][2] = {{0.001f, 0.001f}, {0.05f, 0.05f}, {0.5f, 0.5f}, {0.3f, 0.03f}};
+    static const float alphas[][2] = {
+        {0.001f, 0.001f}, {0.05f, 0.05f}, {0.5f, 0.5f}, {0.3f, 0.03f}};
     for (int k = 0; k < 2 * 4 * 3; k++) {
         const hnbrdf_model *model = models[k % 2];
         hnbrdf_material m = random_material(&r, 1);
@@ -103,7 +105,8 @@ static void reciprocity_is_exact_for_reciprocal_encodings_and_measured_for_other
     (void)state;
     rng r = rng_make(4);
     for (int encoding = 0; encoding <= HNBRDF_ENCODING_ANGLES_ANISOTROPIC; encoding++) {
-        hnbrdf_model *model = random_model(&r, HNBRDF_KIND_HYBRID, (hnbrdf_encoding)encoding, 8, 2, 4);
+        hnbrdf_model *model =
+            random_model(&r, HNBRDF_KIND_HYBRID, (hnbrdf_encoding)encoding, 8, 2, 4);
         hnbrdf_material m = random_material(&r, 1);
         hnbrdf_physics physics;
         hnbrdf_physics_of(model, &m, &physics);

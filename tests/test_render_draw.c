@@ -121,7 +121,7 @@ static void the_scale_ends_at_the_next_round_number(void **state)
     static const struct {
         float difference;
         double top;
-    } cases[] = {{0.0f, 1.0},  {1.0f, 1.0},   {1.5f, 2.0},    {2.0f, 2.0},  {3.0f, 5.0},
+    } cases[] = {{0.0f, 1.0},  {1.0f, 1.0},   {1.5f, 2.0},    {2.0f, 2.0},    {3.0f, 5.0},
                  {7.0f, 10.0}, {0.03f, 0.05}, {0.011f, 0.02}, {1.9e-7f, 2e-7}};
     for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
         render_image a = make(20, 10, 0), b = make(20, 10, 0);
@@ -158,7 +158,8 @@ static void a_difference_page_holds_the_map_and_its_scale(void **state)
     }
     assert_int_equal(render_difference_page(&a, &b, 6.0, lines, &page, NULL), HNBRDF_OK);
     assert_true(page.width >= 150 && page.height >= 130);
-    /* Every colour of the map as often as there, and once more in each of the bar's columns at most. */
+    /* Every colour of the map as often as there, and once more in each of the bar's columns at
+     * most. */
     int top = 0;
     float yellow[3];
     render_colour_map(1.0, yellow);

@@ -1,4 +1,5 @@
-/* test_render_exr.c: OpenEXR there and back, every compression and tiles; hostile bytes give one line.
+/* test_render_exr.c: OpenEXR there and back, every compression and tiles; hostile bytes give one
+ * line.
  */
 #include "render/image.h"
 
@@ -122,7 +123,8 @@ static void channels_are_named_and_sorted(void **state)
     float *layer = calloc(48, sizeof *layer);
     assert_int_equal(render_image_add_layer(&image, "analytic", layer, NULL), HNBRDF_OK);
     render_bytes bytes = encode(&image, 0);
-    static const char *const names[] = {"A", "B", "G", "R", "analytic.B", "analytic.G", "analytic.R"};
+    static const char *const names[] = {"A",          "B",          "G",         "R",
+                                        "analytic.B", "analytic.G", "analytic.R"};
     const unsigned char *at = bytes.data, *end = bytes.data + bytes.size;
     for (size_t i = 0; i < sizeof names / sizeof *names;
          i++) { /* name, NUL, type 2 (float), in this order */
@@ -181,10 +183,12 @@ static void write_chunk(exr_context_t context, const foreign *file, const exr_ch
 {
     exr_encode_pipeline_t pipe = EXR_ENCODE_PIPELINE_INITIALIZER;
     EXR(exr_encoding_initialize(context, 0, chunk, &pipe));
-    float *values = malloc(sizeof(float) * (size_t)(chunk->width * chunk->height * pipe.channel_count));
+    float *values =
+        malloc(sizeof(float) * (size_t)(chunk->width * chunk->height * pipe.channel_count));
     for (int c = 0; c < pipe.channel_count; c++) {
         float *plane = values + c * chunk->width * chunk->height;
-        int channel = (int)(strchr(file->channels, pipe.channels[c].channel_name[0]) - file->channels);
+        int channel =
+            (int)(strchr(file->channels, pipe.channels[c].channel_name[0]) - file->channels);
         for (int i = 0; i < chunk->width * chunk->height; i++)
             plane[i] = foreign_value(channel, x + i % chunk->width, y + i / chunk->width);
         pipe.channels[c].user_data_type = EXR_PIXEL_FLOAT;
@@ -212,8 +216,8 @@ static render_bytes write_foreign(const foreign *file)
     init.write_fn = put;
     EXR(exr_start_write(&context, "x", EXR_WRITE_FILE_DIRECTLY, &init));
     EXR(exr_add_part(context, "p", file->tile ? EXR_STORAGE_TILED : EXR_STORAGE_SCANLINE, &part));
-    EXR(exr_initialize_required_attr(context, part, &file->window, &file->window, 1.0f, &centre, 1.0f,
-                                     EXR_LINEORDER_INCREASING_Y, file->compression));
+    EXR(exr_initialize_required_attr(context, part, &file->window, &file->window, 1.0f, &centre,
+                                     1.0f, EXR_LINEORDER_INCREASING_Y, file->compression));
     if (file->tile)
         EXR(exr_set_tile_descriptor(context, part, (uint32_t)file->tile, (uint32_t)file->tile,
                                     EXR_TILE_ONE_LEVEL, EXR_TILE_ROUND_DOWN));

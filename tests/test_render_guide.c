@@ -1,4 +1,5 @@
-/* test_render_guide.c: guides are densities that their samples follow, and take noise away, not light.
+/* test_render_guide.c: guides are densities that their samples follow, and take noise away, not
+ * light.
  */
 #include "render/render.h"
 
@@ -65,8 +66,9 @@ static void shares_sum_to_one_and_keep_a_broad_lobe(void **state)
     }
 }
 
-/* Frequencies in 12 x 8 cells of the projected hemisphere against the density, integrated there on a
- * grid of midpoints; lobes of alpha 0.1 and more are wide enough for it. A chi-squared test. */
+/* Frequencies in 12 x 8 cells of the projected hemisphere against the density, integrated there
+ * on a grid of midpoints; lobes of alpha 0.1 and more are wide enough for it. A chi-squared test.
+ */
 static void samples_follow_the_density(void **state)
 {
     (void)state;
@@ -87,7 +89,8 @@ static void samples_follow_the_density(void **state)
     hnbrdf_rng rng;
     hnbrdf_rng_seed(&rng, 1, 1);
     for (int i = 0; i < DRAWS; i++) {
-        float u[3] = {hnbrdf_rng_float(&rng), hnbrdf_rng_float(&rng), hnbrdf_rng_float(&rng)}, wi[3];
+        float u[3] = {hnbrdf_rng_float(&rng), hnbrdf_rng_float(&rng), hnbrdf_rng_float(&rng)},
+              wi[3];
         float pdf = surface.sample(&surface, wo, u, wi);
         if (!(pdf > 0.0f)) {
             lost++;
@@ -109,15 +112,16 @@ static void samples_follow_the_density(void **state)
             double phi = ((cell % SECTORS + (i % GRID + 0.5) / GRID) * 2.0 / SECTORS - 1.0) * pi;
             float wi[3] = {(float)(r * cos(phi)), (float)(r * sin(phi)), (float)z};
             /* solid angle: d phi d(r^2) / (2 z) */
-            integral +=
-                (double)surface.pdf(&surface, wi, wo) * (pi / SECTORS) / (RINGS * z) / (GRID * GRID);
+            integral += (double)surface.pdf(&surface, wi, wo) * (pi / SECTORS) / (RINGS * z) /
+                        (GRID * GRID);
         }
         total += integral;
         double expected = integral * DRAWS;
         assert_true(expected > 20.0);
         chi2 += pow(counts[cell] - expected, 2.0) / expected;
     }
-    /* 5 standard deviations of chi squared, and 1 % of room for the midpoint rule where z goes to 0. */
+    /* 5 standard deviations of chi squared, and 1 % of room for the midpoint rule where z goes to
+     * 0. */
     assert_true(chi2 < 1.01 * (RINGS * SECTORS + 5.0 * sqrt(2.0 * RINGS * SECTORS)));
     assert_true(fabs(total + (double)lost / DRAWS - 1.0) < 0.01);
 }
@@ -145,8 +149,9 @@ static double mean(const render_surface *surface, render_strategy strategy, int 
     return sum / covered;
 }
 
-/* Every built-in material, retroreflecting and anisotropic ones too: with its guide the joint estimate
- * agrees with light sampling alone, which knows nothing of guides, within 5 standard errors. */
+/* Every built-in material, retroreflecting and anisotropic ones too: with its guide the joint
+ * estimate agrees with light sampling alone, which knows nothing of guides, within 5 standard
+ * errors. */
 static void guides_do_not_bias(void **state)
 {
     (void)state;
@@ -198,8 +203,8 @@ static void guides_take_noise_away(void **state)
         }
 }
 
-static void black_eval(const render_surface *surface, size_t count, const float *wi, const float *wo,
-                       float *f)
+static void black_eval(const render_surface *surface, size_t count, const float *wi,
+                       const float *wo, float *f)
 {
     (void)surface, (void)wi, (void)wo;
     memset(f, 0, 3 * count * sizeof *f);

@@ -1,4 +1,5 @@
-/* test_render_images.c: PNG and Radiance, memory and files; hostile bytes give one line and no crash.
+/* test_render_images.c: PNG and Radiance, memory and files; hostile bytes give one line and no
+ * crash.
  */
 #include "render/image.h"
 
@@ -135,7 +136,8 @@ static render_bytes make_hdr(int width, int height, int coded, const char *sign)
     append(&bytes, line, (size_t)length);
     for (int y = 0; y < height; y++) {
         if (coded) {
-            unsigned char start[4] = {2, 2, (unsigned char)(width >> 8), (unsigned char)(width & 255)};
+            unsigned char start[4] = {2, 2, (unsigned char)(width >> 8),
+                                      (unsigned char)(width & 255)};
             append(&bytes, start, 4);
         }
         for (int k = 0; k < (coded ? 4 : 1); k++)
@@ -168,8 +170,8 @@ static void radiance_decodes_flat_and_coded_scanlines(void **state)
         int coded = kind & 1, bottom_up = kind & 2, width = coded ? 300 : 5, height = 19;
         render_bytes bytes = make_hdr(width, height, coded, bottom_up ? "+" : "-");
         render_image image;
-        assert_int_equal(render_radiance_decode(bytes.data, bytes.size, "x.hdr", NULL, &image, NULL),
-                         HNBRDF_OK);
+        assert_int_equal(
+            render_radiance_decode(bytes.data, bytes.size, "x.hdr", NULL, &image, NULL), HNBRDF_OK);
         assert_int_equal(image.width, width);
         assert_int_equal(image.height, height);
         for (int y = 0; y < height; y++)
@@ -247,8 +249,8 @@ static void absurd_radiance_is_refused(void **state)
     };
     for (size_t i = 0; i < sizeof headers / sizeof *headers; i++) {
         hnbrdf_error error;
-        assert_int_not_equal(decode_copy((const unsigned char *)headers[i], strlen(headers[i]), &error),
-                             HNBRDF_OK);
+        assert_int_not_equal(
+            decode_copy((const unsigned char *)headers[i], strlen(headers[i]), &error), HNBRDF_OK);
         assert_one_line(&error);
     }
 }
@@ -259,7 +261,8 @@ static void absurd_radiance_is_refused(void **state)
 static void absurd_images_are_refused(void **state)
 {
     (void)state;
-    static const int sizes[][2] = {{0, 1}, {1, 0}, {-1, 5}, {65537, 1}, {65536, 65536}, {8193, 8193}};
+    static const int sizes[][2] = {{0, 1},     {1, 0},         {-1, 5},
+                                   {65537, 1}, {65536, 65536}, {8193, 8193}};
     for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
         hnbrdf_error error;
         render_image image;
@@ -315,7 +318,8 @@ static void failed_writing_leaves_the_old_file(void **state)
     assert_int_equal(fgetc(file), 'o');
     fclose(file);
     remove(path);
-    assert_int_equal(render_image_write(&image, "no/such/folder/a.png", NULL, &error), HNBRDF_ERROR_IO);
+    assert_int_equal(render_image_write(&image, "no/such/folder/a.png", NULL, &error),
+                     HNBRDF_ERROR_IO);
     assert_non_null(strstr(error.text, "no/such/folder/a.png"));
     assert_int_equal(render_image_write(&image, "test_render_images.PNG", NULL, &error), HNBRDF_OK);
     assert_int_equal(remove("test_render_images.PNG"), 0);

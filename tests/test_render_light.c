@@ -76,7 +76,8 @@ static void turn_is_within_its_error(void **state)
 static const int sizes[][2] = {{1, 1}, {7, 5}, {64, 32}, {128, 1}, {3, 100}};
 enum { SIZES = sizeof sizes / sizeof *sizes };
 
-/* The density is constant in a texel, so the sum over texels is the integral; doubles throughout. */
+/* The density is constant in a texel, so the sum over texels is the integral; doubles throughout.
+ * */
 static void density_integrates_to_one(void **state)
 {
     (void)state;
@@ -114,7 +115,8 @@ static void sampling_frequencies_match_the_density(void **state)
         assert_true(density > 0.0);
         double phi = atan2((double)d[0], -(double)d[2]) + environment.rotation;
         double turn = phi / (2.0 * pi) + 0.5;
-        int column = (int)((turn - floor(turn)) * 16.0), row = (int)(acos((double)d[1]) / pi * 12.0);
+        int column = (int)((turn - floor(turn)) * 16.0),
+            row = (int)(acos((double)d[1]) / pi * 12.0);
         counts[16 * (row < 12 ? row : 11) + (column < 16 ? column : 15)]++;
     }
     double chi2 = 0.0;
@@ -198,9 +200,10 @@ static void extreme_random_numbers_and_directions_are_harmless(void **state)
 {
     (void)state;
     static const double ends[2] = {0.0, 1.0 - 0x1p-32};
-    static const float odd[][3] = {{0, 1, 0},     {0, -1, 0},     {0, 0, 0},           {0, 0, 1},
-                                   {-0.0f, 0, 1}, {0, 1.001f, 0}, {NAN, NAN, NAN},     {INFINITY, 0, 0},
-                                   {0, -2, 0},    {1e-30f, 1, 0}, {0, INFINITY, -0.0f}};
+    static const float odd[][3] = {{0, 1, 0},       {0, -1, 0},          {0, 0, 0},
+                                   {0, 0, 1},       {-0.0f, 0, 1},       {0, 1.001f, 0},
+                                   {NAN, NAN, NAN}, {INFINITY, 0, 0},    {0, -2, 0},
+                                   {1e-30f, 1, 0},  {0, INFINITY, -0.0f}};
     for (int s = 1; s < SIZES - 2; s++) {
         render_environment environment = random_environment(sizes[s][0], sizes[s][1], 100.0, 4);
         for (int i = 0; i < 4; i++) {
@@ -238,8 +241,9 @@ static void map_lies_in_the_world_as_documented(void **state)
         assert_int_equal(render_image_create(WIDTH, HEIGHT, 0, &image, NULL), HNBRDF_OK);
         int x = (int)(cases[i].column * WIDTH) % WIDTH, y = (int)(cases[i].row * (HEIGHT - 0.5));
         image.rgb[3 * (y * WIDTH + x)] = 1.0f;
-        assert_int_equal(render_environment_create(&image, cases[i].rotation, "x", &environment, NULL),
-                         HNBRDF_OK);
+        assert_int_equal(
+            render_environment_create(&image, cases[i].rotation, "x", &environment, NULL),
+            HNBRDF_OK);
         double u[2] = {0.5, 0.5}, along = 0.0;
         float d[3], radiance[3];
         render_environment_sample(&environment, u, d, radiance);

@@ -1,5 +1,5 @@
-/* test_render_shared.c: real environment maps. Skipped without the shared data: HNBRDF_DATA_DIR, or the
- * folder beside the checkout. */
+/* test_render_shared.c: real environment maps. Skipped without the shared data: HNBRDF_DATA_DIR,
+ * or the folder beside the checkout. */
 #include "render/environment.h"
 
 #include <setjmp.h>
@@ -15,7 +15,8 @@
 
 static const char *shared;
 
-static hnbrdf_result open_map(const char *name, render_environment *environment, hnbrdf_error *error)
+static hnbrdf_result open_map(const char *name, render_environment *environment,
+                              hnbrdf_error *error)
 {
     char path[600];
     snprintf(path, sizeof path, "%s/data/env/%s", shared, name);

@@ -1,5 +1,5 @@
-/* test_render_sphere.c: the estimator is unbiased, the picture depends on the seed alone, the shading
- * frame has no seam. */
+/* test_render_sphere.c: the estimator is unbiased, the picture depends on the seed alone, the
+ * shading frame has no seam. */
 #include "render/render.h"
 
 #include <math.h>
@@ -25,7 +25,8 @@ static int open_lights(void **state)
     hnbrdf_model_desc desc = {
         .kind = HNBRDF_KIND_GGX, .material_count = 1, .materials = &material, .names = &name};
     if (hnbrdf_model_create(&desc, NULL, &ggx, NULL) ||
-        render_environment_open("sky", 0.0, &sky, NULL) || render_image_create(8, 4, 0, &image, NULL))
+        render_environment_open("sky", 0.0, &sky, NULL) ||
+        render_image_create(8, 4, 0, &image, NULL))
         return -1;
     for (int i = 0; i < 3 * 8 * 4; i++)
         image.rgb[i] = 2.5f;
@@ -127,7 +128,8 @@ static void shading_frame_is_right_handed_and_orthonormal(void **state)
     int hits = 0;
     for (int i = 0; i < 200 * 200; i++) {
         render_point p;
-        if (!render_sphere_hit((float)(2 * (i % 200) - 199) / 200.0f, (float)(2 * (i / 200) - 199) / 200.0f, &p))
+        if (!render_sphere_hit((float)(2 * (i % 200) - 199) / 200.0f,
+                               (float)(2 * (i / 200) - 199) / 200.0f, &p))
             continue;
         const float *t = p.tangent, *b = p.bitangent, *n = p.normal;
         float cross[3] = {t[1] * b[2] - t[2] * b[1], t[2] * b[0] - t[0] * b[2],
@@ -143,8 +145,8 @@ static void shading_frame_is_right_handed_and_orthonormal(void **state)
     assert_true(fabs(hits * 1e-4 - pi / (double)(RENDER_FRAME * RENDER_FRAME)) < 0.01);
 }
 
-/* The ray meets the sphere where it does in doubles: in floats everything is off by a few 2^-24, but D near the
- * outline, the square root of what x and y leave to 1. */
+/* The ray meets the sphere where it does in doubles: in floats everything is off by a few 2^-24,
+ * but D near the outline, the square root of what x and y leave to 1. */
 static void hits_are_where_the_ray_meets_the_sphere(void **state)
 {
     (void)state;
@@ -152,7 +154,8 @@ static void hits_are_where_the_ray_meets_the_sphere(void **state)
         for (float x = -0.95f; x < 0.95f; x += 0.0151f) {
             render_point p;
             double distance = (double)RENDER_DISTANCE, frame = (double)RENDER_FRAME;
-            double scale = frame / sqrt(distance * distance - 1.0), d[3] = {x * scale, y * scale, -1.0};
+            double scale = frame / sqrt(distance * distance - 1.0),
+                   d[3] = {x * scale, y * scale, -1.0};
             double length = sqrt(d[0] * d[0] + d[1] * d[1] + 1.0), half = -distance / length;
             double inside = half * half - (distance * distance - 1.0);
             int hit = render_sphere_hit(x, y, &p);
@@ -166,14 +169,15 @@ static void hits_are_where_the_ray_meets_the_sphere(void **state)
                 double wo = (double)p.tangent[k] * (double)p.wo[0] +
                             (double)p.bitangent[k] * (double)p.wo[1] +
                             (double)p.normal[k] * (double)p.wo[2];
-                assert_true(fabs((double)p.normal[k] - (t * d[k] + (k == 2 ? distance : 0.0))) < tolerance);
+                assert_true(fabs((double)p.normal[k] - (t * d[k] + (k == 2 ? distance : 0.0))) <
+                            tolerance);
                 assert_true(fabs(wo + d[k] / length) < tolerance);
             }
         }
 }
 
-/* Neighbouring rays have neighbouring tangents: their angle is bounded by the step over the distance
- * from the axis. A seam would show as a jump. */
+/* Neighbouring rays have neighbouring tangents: their angle is bounded by the step over the
+ * distance from the axis. A seam would show as a jump. */
 static void tangent_has_no_seam(void **state)
 {
     (void)state;
@@ -183,7 +187,8 @@ static void tangent_has_no_seam(void **state)
             render_point p, q;
             if (!render_sphere_hit(x, y, &p) || !render_sphere_hit(x + step, y, &q))
                 continue;
-            double moved = 0.0, turned = 0.0, axis = hypot((double)p.normal[0], (double)p.normal[2]);
+            double moved = 0.0, turned = 0.0,
+                   axis = hypot((double)p.normal[0], (double)p.normal[2]);
             for (int k = 0; k < 3; k++) {
                 moved += pow((double)(p.normal[k] - q.normal[k]), 2.0);
                 turned += pow((double)(p.tangent[k] - q.tangent[k]), 2.0);
@@ -235,16 +240,16 @@ static estimate estimate_mean(const render_surface *surface, const render_enviro
     return (estimate){sum / covered, sqrt(squares) / covered};
 }
 
-static void lambert_eval(const render_surface *surface, size_t count, const float *wi, const float *wo,
-                         float *f)
+static void lambert_eval(const render_surface *surface, size_t count, const float *wi,
+                         const float *wo, float *f)
 {
     (void)surface, (void)wo;
     for (size_t i = 0; i < 3 * count; i++)
         f[i] = wi[i / 3 * 3 + 2] > 0.0f ? 0.8f * 0.318309886f : 0.0f;
 }
 
-/* White furnace: 0.8 of 2.5 comes back everywhere. The density is that of the GGX mixture, not of the
- * cosine, so that the estimate is a real one; 5 standard errors. */
+/* White furnace: 0.8 of 2.5 comes back everywhere. The density is that of the GGX mixture, not of
+ * the cosine, so that the estimate is a real one; 5 standard errors. */
 static void lambert_sphere_returns_its_albedo_in_a_furnace(void **state)
 {
     (void)state;
@@ -257,9 +262,9 @@ static void lambert_sphere_returns_its_albedo_in_a_furnace(void **state)
     }
 }
 
-/* Smooth, rough, anisotropic and the library's own sample() and pdf(): all three strategies estimate
- * the same mean, within 5 standard errors of the difference. The smoothest one leaves out light
- * sampling alone, whose error there has no finite sample size worth a test. */
+/* Smooth, rough, anisotropic and the library's own sample() and pdf(): all three strategies
+ * estimate the same mean, within 5 standard errors of the difference. The smoothest one leaves
+ * out light sampling alone, whose error there has no finite sample size worth a test. */
 static void strategies_agree(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
-/* test_render_tabulated.c: the tabulated sampler is one: density and draws agree, nothing is missed, and the
- * samples of what it tabulates have hardly any variance. */
+/* test_render_tabulated.c: the tabulated sampler is one: density and draws agree, nothing is
+ * missed, and the samples of what it tabulates have hardly any variance. */
 #include "render/tabulated.h"
 
 #include <math.h>
@@ -19,7 +19,8 @@ static hnbrdf_model *make_model(float alpha, float kd)
     m.alpha[0] = m.alpha[1] = alpha;
     for (int c = 0; c < 3; c++)
         m.kd[c] = kd;
-    const hnbrdf_model_desc desc = {.kind = HNBRDF_KIND_GGX, .material_count = 1, .materials = &m, .names = &name};
+    const hnbrdf_model_desc desc = {
+        .kind = HNBRDF_KIND_GGX, .material_count = 1, .materials = &m, .names = &name};
     assert_int_equal(hnbrdf_model_create(&desc, NULL, &model, NULL), HNBRDF_OK);
     return model;
 }
@@ -58,7 +59,8 @@ static void check_material(float alpha, float kd)
     enum { DRAWS = 20000 };
     static const float cosines[] = {1.0f, 0.7f, 0.25f};
     hnbrdf_model *model = make_model(alpha, kd);
-    render_surface lobes = render_surface_model(model, hnbrdf_model_material(model, 0)), tabulated = lobes;
+    render_surface lobes = render_surface_model(model, hnbrdf_model_material(model, 0)),
+                   tabulated = lobes;
     render_table *table = NULL;
     hnbrdf_error error;
     assert_int_equal(render_table_create(&lobes, &table, &error), HNBRDF_OK);
@@ -82,7 +84,8 @@ static void samples_have_the_albedo_and_little_variance(void **state)
     check_material(0.05f, 0.0f);
 }
 
-/* Midpoints of rings and turns of the half vector resolve the lobe; what the table puts below the horizon is lost. */
+/* Midpoints of rings and turns of the half vector resolve the lobe; what the table puts below the
+ * horizon is lost. */
 static void the_density_integrates_to_at_most_one(void **state)
 {
     (void)state;
@@ -99,7 +102,8 @@ static void the_density_integrates_to_at_most_one(void **state)
     double total = 0.0;
     for (int r = 0; r < RINGS; r++)
         for (int t = 0; t < TURNS; t++) {
-            double u = (r + 0.5) / RINGS, theta = u * u * 0.5 * pi, phi = 2.0 * pi * (t + 0.5) / TURNS;
+            double u = (r + 0.5) / RINGS, theta = u * u * 0.5 * pi,
+                   phi = 2.0 * pi * (t + 0.5) / TURNS;
             double h[3] = {sin(theta) * cos(phi), sin(theta) * sin(phi), cos(theta)}, c = 0.0;
             float wi[3];
             for (int k = 0; k < 3; k++)
@@ -107,7 +111,8 @@ static void the_density_integrates_to_at_most_one(void **state)
             for (int k = 0; k < 3; k++)
                 wi[k] = (float)(2.0 * c * h[k] - (double)wo[k]);
             if (c > 0.0 && wi[2] > 0.0f)
-                total += (double)surface.pdf(&surface, wi, wo) * 4.0 * c * sin(theta) * (pi * u / RINGS) * (2.0 * pi / TURNS);
+                total += (double)surface.pdf(&surface, wi, wo) * 4.0 * c * sin(theta) *
+                         (pi * u / RINGS) * (2.0 * pi / TURNS);
         }
     assert_true(total <= 1.001 && total >= 0.97);
     render_table_free(table);

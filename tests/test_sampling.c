@@ -1,5 +1,6 @@
-/* test_sampling.c: what hnbrdf_sample() and hnbrdf_pdf() promise of every single result: the edges of u, of views
- * and of materials. That samples follow the density: test_sampling_density.c. */
+/* test_sampling.c: what hnbrdf_sample() and hnbrdf_pdf() promise of every single result: the
+ * edges of u, of views and of materials. That samples follow the density:
+ * test_sampling_density.c. */
 #include "core_support.h"
 
 #include <math.h>
@@ -29,11 +30,13 @@ static void check_result(const hnbrdf_model *model, const hnbrdf_material *m, co
         double weight = (double)f[c] * (double)s->wi[2] / (double)s->pdf;
         assert_true(s->weight[c] >= 0.0f && s->weight[c] <= HNBRDF_MAX_VALUE);
         if (weight > 1e-30 && weight < 1e38 && (double)f[c] * (double)s->wi[2] < 1e38)
-            assert_true(fabs((double)s->weight[c] - weight) <= 2.01 * UNIT * weight); /* two roundings */
+            /* two roundings */
+            assert_true(fabs((double)s->weight[c] - weight) <= 2.01 * UNIT * weight);
     }
 }
 
-/* |2 (wo.h) h - wo| = |wo|: the rounding of k, of the products and of the differences stays below 8 u. */
+/* |2 (wo.h) h - wo| = |wo|: the rounding of k, of the products and of the differences stays below
+ * 8 u. */
 static void check_unit(const float w[3])
 {
     double length = sqrt((double)w[0] * (double)w[0] + (double)w[1] * (double)w[1] +
@@ -76,7 +79,8 @@ static void ends_of_u_give_finite_directions_and_densities(void **state)
     static const double cosines[] = {1.0, 0.5, 1e-2, 1e-4, 1e-7, 1e-30};
     enum { ENDS = sizeof ends / sizeof ends[0] };
     rng r = rng_make(46);
-    hnbrdf_model *model = random_model(&r, HNBRDF_KIND_HYBRID, HNBRDF_ENCODING_HALF_DIFFERENCE, 8, 2, 4);
+    hnbrdf_model *model =
+        random_model(&r, HNBRDF_KIND_HYBRID, HNBRDF_ENCODING_HALF_DIFFERENCE, 8, 2, 4);
     int drawn = 0, total = 0;
     for (int a = 0; a < 9; a++)
         for (int v = 0; v < 6; v++)
@@ -100,8 +104,8 @@ static void ends_of_u_give_finite_directions_and_densities(void **state)
     hnbrdf_model_free(model);
 }
 
-/* u[2] = 0 is the normal between n and wo (turned no farther from n than wo is): its reflection is above the
- * horizon, so a refusal would mean that the radicand fell below 0. */
+/* u[2] = 0 is the normal between n and wo (turned no farther from n than wo is): its reflection
+ * is above the horizon, so a refusal would mean that the radicand fell below 0. */
 static void smallest_u_is_never_refused(void **state)
 {
     (void)state;
@@ -125,7 +129,8 @@ static void bad_numbers_give_a_result_that_can_be_used(void **state)
     static const float bad[] = {0.0f, -0.0f, -1.0f, 2.0f, 1e-38f, 3e38f, INFINITY, -INFINITY, NAN};
     const uint32_t n = sizeof bad / sizeof bad[0];
     rng r = rng_make(47);
-    hnbrdf_model *model = random_model(&r, HNBRDF_KIND_HYBRID, HNBRDF_ENCODING_HALF_DIFFERENCE, 8, 2, 4);
+    hnbrdf_model *model =
+        random_model(&r, HNBRDF_KIND_HYBRID, HNBRDF_ENCODING_HALF_DIFFERENCE, 8, 2, 4);
     for (int k = 0; k < 50000; k++) {
         hnbrdf_material m = random_material(&r, 0);
         if (k & 8)

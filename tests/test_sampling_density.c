@@ -1,6 +1,6 @@
-/* test_sampling_density.c: draws of hnbrdf_sample() follow hnbrdf_pdf(): chi-squared, rejected share,
- * mean weights; weights of the analytic part are bounded. Over made-up materials from the smallest
- * roughness to 1 and over every material of the shipped model. */
+/* test_sampling_density.c: draws of hnbrdf_sample() follow hnbrdf_pdf(): chi-squared, rejected
+ * share, mean weights; weights of the analytic part are bounded. Over made-up materials from the
+ * smallest roughness to 1 and over every material of the shipped model. */
 #include "core_support.h"
 #include "sampling_statistics.h"
 
@@ -65,8 +65,8 @@ static void draw(const hnbrdf_model *model, const hnbrdf_material *m, const floa
     }
 }
 
-/* The configurations: alpha from the smallest to 1, both anisotropies, dielectric and almost metallic,
- * from normal to grazing incidence. */
+/* The configurations: alpha from the smallest to 1, both anisotropies, dielectric and almost
+ * metallic, from normal to grazing incidence. */
 enum { GUESSED, FITTED, PAPER }; /* lobes */
 static const struct {
     float alpha[2], eta, kd, rotation;
@@ -79,11 +79,13 @@ static const struct {
     {{0.02f, 0.9f}, 1.2f, 0.5f, 0.0f, GUESSED},  {{0.1f, 0.1f}, 1.5f, 0.8f, 0.0f, FITTED},
     {{0.4f, 0.05f}, 10.0f, 0.1f, 0.7f, FITTED},  {{0.001f, 0.001f}, 2.0f, 0.2f, 0.0f, FITTED},
     {{0.8f, 0.8f}, 1.5f, 0.5f, 0.0f, PAPER},     {{0.4f, 0.05f}, 10.0f, 0.1f, 0.7f, PAPER}};
-/* As hnbrdf_lobes_fit() could give them: shares that change with the view, one lobe wider than alpha.
+/* As hnbrdf_lobes_fit() could give them: shares that change with the view, one lobe wider than
+ * alpha.
  */
 static const hnbrdf_lobes fitted = {{0.7f, 3.0f},
                                     {{0.1f, 0.5f, 0.3f, 0.6f}, {0.8f, 0.25f, 0.6f, 0.02f}}};
-static const double views[][2] = {{1.0, 0.0}, {0.8, 1.0}, {0.3, 4.0}, {0.05, 2.5}}; /* cos theta, phi */
+/* cos theta, phi */
+static const double views[][2] = {{1.0, 0.0}, {0.8, 1.0}, {0.3, 4.0}, {0.05, 2.5}};
 enum {
     MATERIALS = sizeof materials / sizeof materials[0],
     VIEWS = sizeof views / sizeof views[0],
@@ -121,7 +123,8 @@ static double albedo_deviate(const integrals *sums, const experiment *e)
     return worst;
 }
 
-/* ---- A density that is wrong ------------------------------------------------------------------ */
+/* ---- A density that is wrong ------------------------------------------------------------------
+ * */
 
 /* Where 2 % are put: everywhere, or from one half of the draws, left or below, to the other. */
 enum { EVERYWHERE, LEFT_TO_RIGHT, BELOW_TO_ABOVE, MISTAKES };
@@ -152,7 +155,8 @@ static void check_that_mistakes_are_noticed(const sampling_expected *expected,
     }
 }
 
-/* ---- Running it ------------------------------------------------------------------------------- */
+/* ---- Running it -------------------------------------------------------------------------------
+ * */
 
 typedef struct worst_deviates {
     double density, albedo, least_mistake;
@@ -166,7 +170,8 @@ static void run_experiment(const hnbrdf_model *model, const hnbrdf_material *m, 
     sampling_chart c = sampling_chart_make(m, wo);
     integrate(model, m, wo, &c, &sums);
     draw(model, m, wo, &c, r, &e);
-    double density = sampling_deviate(&sums.expected, &e.counted), albedo = albedo_deviate(&sums, &e);
+    double density = sampling_deviate(&sums.expected, &e.counted),
+           albedo = albedo_deviate(&sums, &e);
     worst->density = fmax(worst->density, density);
     worst->albedo = fmax(worst->albedo, albedo);
     if (!(density < SAMPLING_THRESHOLD && albedo < SAMPLING_THRESHOLD))
@@ -190,7 +195,8 @@ static void run_kind(hnbrdf_kind kind, int step, uint64_t seed)
     for (int k = 0; k < CONFIGURATIONS; k += step) {
         hnbrdf_material m;
         float wo[3];
-        if ((k / VIEWS + k) % 2) /* each material from two of the views, its neighbour from the others */
+        /* each material from two of the views, its neighbour from the others */
+        if ((k / VIEWS + k) % 2)
             continue;
         configuration(k, &m, wo);
         run_experiment(model, &m, wo, &r, &worst);
@@ -235,12 +241,13 @@ static void samples_of_every_shipped_material_follow_the_density(void **state)
     hnbrdf_model_free(model);
 }
 
-/* ---- Weights ---------------------------------------------------------------------------------- */
+/* ---- Weights ----------------------------------------------------------------------------------
+ * */
 
-/* Of f_a and the lobes that are guessed. Where a share s in [0.2, 0.9] goes to visible normals and the
- * rest to the cosine, f cos/pdf is at most the larger of what each lobe alone gives: F G2/G1(wo)/s <=
- * 5, or less where the normals are bounded, and kd/(1 - s) = kd (1 + specular/d) <= 3 (d + 1.05) <= 4.2
- * with d >= kd/3. */
+/* Of f_a and the lobes that are guessed. Where a share s in [0.2, 0.9] goes to visible normals
+ * and the rest to the cosine, f cos/pdf is at most the larger of what each lobe alone gives: F
+ * G2/G1(wo)/s <= 5, or less where the normals are bounded, and kd/(1 - s) = kd (1 + specular/d)
+ * <= 3 (d + 1.05) <= 4.2 with d >= kd/3. */
 static const double largest_weight = 5.0 * (1.0 + 1e-5); /* rounding: pdf and f_a are within 4e-6 */
 
 static void weights_of_the_analytic_part_are_bounded(void **state)

@@ -1,4 +1,5 @@
-/* test_scene.c: path tracing against closed forms, against the sphere renderer, and against itself. */
+/* test_scene.c: path tracing against closed forms, against the sphere renderer, and against
+ * itself. */
 #include "scene_support.h"
 
 #include "core/error.h"
@@ -8,19 +9,20 @@
 #include <string.h>
 #include <unistd.h>
 
-/* ---- Energy -------------------------------------------------------------------------------------- */
+/* ---- Energy
+ * -------------------------------------------------------------------------------------- */
 
 /* The six walls of a room from -1 to 1, facing inwards. */
-#define ROOM(rest)                                                                                     \
-    "shape quad scale 2 move 0 -1 0 " rest "\n"                                                        \
-    "shape quad scale 2 rotate 1 0 0 180 move 0 1 0 " rest "\n"                                        \
-    "shape quad scale 2 rotate 1 0 0 90 move 0 0 -1 " rest "\n"                                        \
-    "shape quad scale 2 rotate 1 0 0 -90 move 0 0 1 " rest "\n"                                        \
-    "shape quad scale 2 rotate 0 0 1 -90 move -1 0 0 " rest "\n"                                       \
+#define ROOM(rest)                                               \
+    "shape quad scale 2 move 0 -1 0 " rest "\n"                  \
+    "shape quad scale 2 rotate 1 0 0 180 move 0 1 0 " rest "\n"  \
+    "shape quad scale 2 rotate 1 0 0 90 move 0 0 -1 " rest "\n"  \
+    "shape quad scale 2 rotate 1 0 0 -90 move 0 0 1 " rest "\n"  \
+    "shape quad scale 2 rotate 0 0 1 -90 move -1 0 0 " rest "\n" \
     "shape quad scale 2 rotate 0 0 1 90 move 1 0 0 " rest "\n"
 
-/* Every wall gives off 1 and reflects r: after N reflections radiance is the sum of r^k, k to N, in all
- * directions; without end 1/(1 - r). */
+/* Every wall gives off 1 and reflects r: after N reflections radiance is the sum of r^k, k to N,
+ * in all directions; without end 1/(1 - r). */
 static void closed_diffuse_room_has_the_radiance_of_its_series(void **state)
 {
     (void)state;
@@ -44,8 +46,8 @@ static void closed_diffuse_room_has_the_radiance_of_its_series(void **state)
     render_loaded_free(&loaded);
 }
 
-/* A white body in a white furnace cannot be seen, whatever its shape. Flat triangles: nothing is lost
- * to interpolated normals. */
+/* A white body in a white furnace cannot be seen, whatever its shape. Flat triangles: nothing is
+ * lost to interpolated normals. */
 static void white_knot_vanishes_in_a_furnace(void **state)
 {
     (void)state;
@@ -58,8 +60,8 @@ static void white_knot_vanishes_in_a_furnace(void **state)
     for (size_t i = 0; i < mesh->triangle_count; i++)
         memset(mesh->triangles[i].normal, 0xff, sizeof mesh->triangles[i].normal);
     for (int strategy = RENDER_MIS; strategy <= RENDER_BRDF; strategy++) {
-        test_estimate e =
-            test_estimate_mean(&loaded.scene, (render_strategy)strategy, 1024, 64, RENDER_RADIANCE + 1);
+        test_estimate e = test_estimate_mean(&loaded.scene, (render_strategy)strategy, 1024, 64,
+                                             RENDER_RADIANCE + 1);
         assert_true(e.error < 0.005);
         assert_true(fabs(e.mean - 1.0) < 5.0 * e.error + 1e-5);
     }
@@ -84,7 +86,8 @@ static void nothing_gives_off_more_than_it_gets(void **state)
     render_loaded_free(&loaded);
 }
 
-/* ---- Against the sphere renderer ----------------------------------------------------------------- */
+/* ---- Against the sphere renderer
+ * ----------------------------------------------------------------- */
 
 /* The camera of sphere.c: 8 radii away, the sphere fills 1 / RENDER_FRAME of the picture. */
 static void check_against_sphere(const char *shape, double geometry)
@@ -113,7 +116,8 @@ static void check_against_sphere(const char *shape, double geometry)
                          HNBRDF_OK);
     }
     for (int i = 0; i < 32 * 32; i++) {
-        double a = film[0].sums[i][RENDER_RADIANCE] / 256, b = film[1].sums[i][RENDER_RADIANCE] / 256;
+        double a = film[0].sums[i][RENDER_RADIANCE] / 256,
+               b = film[1].sums[i][RENDER_RADIANCE] / 256;
         double c = (double)image[0].rgb[3 * i], d = (double)image[1].rgb[3 * i];
         e.mean += 0.5 * (a + b);
         e.error += 0.25 * (a - b) * (a - b);
@@ -136,8 +140,8 @@ static void sphere_equals_the_sphere_view(void **state)
     check_against_sphere("shape sphere material m", 0.0);
 }
 
-/* The outline of a polygon of 256 corners misses 2 pi^2 / (3 256^2) of the circle's area, 1e-4; what
- * interpolated normals lose is of the same order. */
+/* The outline of a polygon of 256 corners misses 2 pi^2 / (3 256^2) of the circle's area, 1e-4;
+ * what interpolated normals lose is of the same order. */
 static void sphere_mesh_equals_the_sphere_view(void **state)
 {
     (void)state;
@@ -145,30 +149,33 @@ static void sphere_mesh_equals_the_sphere_view(void **state)
     check_against_sphere("shape superellipsoid detail 128 material m", 5e-4);
 }
 
-/* ---- Strategies ---------------------------------------------------------------------------------- */
+/* ---- Strategies
+ * ---------------------------------------------------------------------------------- */
 
-/* A window to the sky, a lamp of triangles and a glowing ball: light and BRDF sampling alone, and both
- * joined, agree within 5 standard errors of the difference, whatever the number of reflections. */
+/* A window to the sky, a lamp of triangles and a glowing ball: light and BRDF sampling alone, and
+ * both joined, agree within 5 standard errors of the difference, whatever the number of
+ * reflections. */
 static void strategies_agree(void **state)
 {
     (void)state;
     test_need_embree();
     render_loaded loaded;
-    test_load(
-        "camera from 0 0.2 2.6 to 0 -0.1 0 fov 45\nsize 24 24\nenvironment sky gain 3\n"
-        "portal corner -1 -1 1 edge 2 0 0 edge 0 2 0\n"
-        "material wall diffuse 0.6 0.5 0.4\nmaterial shiny ggx kd 0.1 0.1 0.2 eta 2 2 2 alpha 0.35\n"
-        "shape quad scale 2 move 0 -1 0 material wall\n"
-        "shape quad scale 2 rotate 1 0 0 180 move 0 1 0 material wall\n"
-        "shape quad scale 2 rotate 1 0 0 90 move 0 0 -1 material wall\n"
-        "shape quad scale 2 rotate 0 0 1 -90 move -1 0 0 material wall\n"
-        "shape quad scale 2 rotate 0 0 1 90 move 1 0 0 material wall\n"
-        "shape torus scale 0.4 tube 0.4 move 0.3 -0.6 0 material shiny\n"
-        "shape sphere scale 0.2 move -0.5 0.3 0 emit 4 3 2\n"
-        "shape quad scale 0.8 rotate 1 0 0 180 move 0 0.95 0 emit 3 3 3\n",
-        &loaded);
+    test_load("camera from 0 0.2 2.6 to 0 -0.1 0 fov 45\nsize 24 24\nenvironment sky gain 3\n"
+              "portal corner -1 -1 1 edge 2 0 0 edge 0 2 0\n"
+              "material wall diffuse 0.6 0.5 0.4\nmaterial shiny ggx kd 0.1 0.1 0.2 eta 2 2 2 "
+              "alpha 0.35\n"
+              "shape quad scale 2 move 0 -1 0 material wall\n"
+              "shape quad scale 2 rotate 1 0 0 180 move 0 1 0 material wall\n"
+              "shape quad scale 2 rotate 1 0 0 90 move 0 0 -1 material wall\n"
+              "shape quad scale 2 rotate 0 0 1 -90 move -1 0 0 material wall\n"
+              "shape quad scale 2 rotate 0 0 1 90 move 1 0 0 material wall\n"
+              "shape torus scale 0.4 tube 0.4 move 0.3 -0.6 0 material shiny\n"
+              "shape sphere scale 0.2 move -0.5 0.3 0 emit 4 3 2\n"
+              "shape quad scale 0.8 rotate 1 0 0 180 move 0 0.95 0 emit 3 3 3\n",
+              &loaded);
     for (int bounces = 1; bounces <= 4; bounces += 3) {
-        test_estimate mis = test_estimate_mean(&loaded.scene, RENDER_MIS, bounces, 64, RENDER_RADIANCE);
+        test_estimate mis =
+            test_estimate_mean(&loaded.scene, RENDER_MIS, bounces, 64, RENDER_RADIANCE);
         test_estimate light =
             test_estimate_mean(&loaded.scene, RENDER_LIGHT, bounces, 128, RENDER_RADIANCE);
         test_estimate brdf =
@@ -181,10 +188,11 @@ static void strategies_agree(void **state)
     render_loaded_free(&loaded);
 }
 
-/* ---- Shading normals ----------------------------------------------------------------------------- */
+/* ---- Shading normals
+ * ----------------------------------------------------------------------------- */
 
-/* A room without a light in a bright environment, a coarse smooth ball in a corner through its walls:
- * not one sample finds light. */
+/* A room without a light in a bright environment, a coarse smooth ball in a corner through its
+ * walls: not one sample finds light. */
 static void nothing_leaks_through_walls(void **state)
 {
     (void)state;
@@ -193,8 +201,8 @@ static void nothing_leaks_through_walls(void **state)
     test_load(
         "camera from 0.3 0.2 0.9 to 0 -0.4 0 fov 80\nsize 32 32\nenvironment furnace gain 1000\n"
         "material wall diffuse 0.5 0.5 0.5\nmaterial shiny ggx kd 0.2 0.2 0.2 eta 3 3 3 alpha "
-        "0.3\n" ROOM(
-            "material wall") "shape superellipsoid detail 5 scale 0.6 move 0 -0.8 0 material shiny\n",
+        "0.3\n" ROOM("material wall") "shape superellipsoid detail 5 scale 0.6 move 0 -0.8 0 "
+                                      "material shiny\n",
         &loaded);
     render_film film = test_render(&loaded.scene, RENDER_MIS, 8, 64, 1, 0);
     for (int i = 0; i < 32 * 32; i++)
@@ -203,11 +211,11 @@ static void nothing_leaks_through_walls(void **state)
     render_loaded_free(&loaded);
 }
 
-/* The edge of a coarse ball with normals far from those of its triangles, in a furnace. Without bent
- * normals all light at the outline would be lost. What is lost with them is what a diffuse lobe has
- * below the horizon of a triangle: (1 - cos t)/2 for normals t apart, 0.1 for the 36 degrees of half a
- * facet; of a narrow lobe, whose middle is kept above it, half. Noise: 6 standard errors of a sample
- * that is 0 or 1, 6 sqrt(0.1 0.9 / 256) = 0.11. */
+/* The edge of a coarse ball with normals far from those of its triangles, in a furnace. Without
+ * bent normals all light at the outline would be lost. What is lost with them is what a diffuse
+ * lobe has below the horizon of a triangle: (1 - cos t)/2 for normals t apart, 0.1 for the 36
+ * degrees of half a facet; of a narrow lobe, whose middle is kept above it, half. Noise: 6
+ * standard errors of a sample that is 0 or 1, 6 sqrt(0.1 0.9 / 256) = 0.11. */
 static void outlines_are_not_black(void **state)
 {
     (void)state;
@@ -243,13 +251,15 @@ static void outlines_are_not_black(void **state)
     }
 }
 
-/* ---- Seeds, threads, interruptions --------------------------------------------------------------- */
+/* ---- Seeds, threads, interruptions
+ * --------------------------------------------------------------- */
 
 static const char small_scene[] =
     "camera from 0 1 5 to 0 0.3 0 fov 35 lens 0.05\nsize 40 24\nenvironment sky\n"
     "material floor diffuse 0.5 0.5 0.5\nmaterial m builtin clear-coat-red\n"
     "shape quad scale 8 material floor\nshape teapot detail 12 scale 0.4 material m\n"
-    "shape sphere scale 0.3 move -1.2 0.3 0 material m\nshape box scale 0.3 move 1.4 0.15 0 emit 2 2 "
+    "shape sphere scale 0.3 move -1.2 0.3 0 material m\nshape box scale 0.3 move 1.4 0.15 0 emit 2 "
+    "2 "
     "2\n";
 
 static void assert_same(const render_film *a, const render_film *b)
@@ -361,7 +371,8 @@ static void time_budget_ends_a_rendering(void **state)
     render_loaded_free(&loaded);
 }
 
-/* ---- Layers -------------------------------------------------------------------------------------- */
+/* ---- Layers
+ * -------------------------------------------------------------------------------------- */
 
 static void layers_show_albedo_and_normal(void **state)
 {

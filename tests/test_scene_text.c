@@ -37,7 +37,8 @@ static void statements_mean_what_they_say(void **state)
               "shape knot turns 3 5 tube 0.2\n");
     assert_true(d.camera.from[2] == 3.0f && d.camera.to[0] == 4.0f && d.camera.up[2] == 1.0f &&
                 d.camera.lens == 0.1f && d.camera.focus == 7.0f && d.camera.width == 320);
-    assert_true(d.exposure == -1.5 && d.bounces == 7 && d.rotate == 90.0 && d.gain == 2.0 && d.hidden);
+    assert_true(d.exposure == -1.5 && d.bounces == 7 && d.rotate == 90.0 && d.gain == 2.0 &&
+                d.hidden);
     assert_string_equal(d.environment, "a map.exr");
     assert_int_equal(d.portal_count, 1);
     assert_int_equal(d.material_count, 5);
@@ -57,9 +58,10 @@ static void placing_goes_from_left_to_right(void **state)
 {
     (void)state;
     static const double expected[] = {1.0, 1.0, -1.0};
-    render_description d = parse(CAMERA "shape box scale 2 turn 90 move 1 1 1\n"
-                                        "shape box scale 2 rotate 0 3 0 90 move 1 1 1\n"
-                                        "shape box move 0.5 0 0 stretch 1 1 2 turn 90 move 1 1 0.5\n");
+    render_description d =
+        parse(CAMERA "shape box scale 2 turn 90 move 1 1 1\n"
+                     "shape box scale 2 rotate 0 3 0 90 move 1 1 1\n"
+                     "shape box move 0.5 0 0 stretch 1 1 2 turn 90 move 1 1 0.5\n");
     for (int s = 0; s < 2; s++)
         for (int k = 0; k < 3; k++)
             assert_true(fabs(d.shapes[s].place.m[k][0] + d.shapes[s].place.m[k][3] - expected[k]) <
@@ -139,11 +141,13 @@ static void loading_refuses_with_file_and_line(void **state)
          "a.scene:3: no built-in material"},
         {CAMERA "environment sky\nmaterial a measured /none.bsdf\nshape box\n",
          "a.scene:3: /none.bsdf"},
-        {CAMERA "environment sky\n\nshape obj none.obj\n", "a.scene:4: dir/none.obj: cannot be opened"},
+        {CAMERA "environment sky\n\nshape obj none.obj\n",
+         "a.scene:4: dir/none.obj: cannot be opened"},
         {CAMERA "environment sky\nshape sphere stretch 1 2 1\n", "a.scene:3: a stretched sphere"},
         {CAMERA "environment none.exr\nshape box\n", "a.scene:2: dir/none.exr"},
         {CAMERA "shape box\n", "a scene without light"},
-        {"camera from 0 1 0 to 0 0 0 fov 40\nenvironment sky\nshape box\n", "along its up direction"},
+        {"camera from 0 1 0 to 0 0 0 fov 40\nenvironment sky\nshape box\n",
+         "along its up direction"},
         {CAMERA "environment sky\nportal corner 0 0 0 edge 1 0 0 edge 2 0 0\nshape box\n",
          "portal 1 has no area"},
     };

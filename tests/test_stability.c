@@ -1,5 +1,6 @@
-/* test_stability.c: would `hnbrdf stability` notice? Implementations that are wrong on purpose, in the
- * ways such code has been wrong, against the same cases, and the library itself in the short form. */
+/* test_stability.c: would `hnbrdf stability` notice? Implementations that are wrong on purpose,
+ * in the ways such code has been wrong, against the same cases, and the library itself in the
+ * short form. */
 #include "stability/stability.h"
 
 #include "core/math.h"
@@ -14,7 +15,8 @@
 
 #include <cmocka.h>
 
-static hnbrdf_result begin(stability_backend *backend, const hnbrdf_model *model, hnbrdf_error *error)
+static hnbrdf_result begin(stability_backend *backend, const hnbrdf_model *model,
+                           hnbrdf_error *error)
 {
     hnbrdf_model_desc desc;
     hnbrdf_model_describe(model, &desc);
@@ -31,13 +33,15 @@ HNBRDF_DIVIDES_AS_IEEE
 static float naive_analytic(const hnbrdf_material *m, const float *wi, const float *wo, int c)
 {
     float s[3] = {wi[0] + wo[0], wi[1] + wo[1], wi[2] + wo[2]};
-    float length = sqrtf(s[0] * s[0] + s[1] * s[1] + s[2] * s[2]), nh = s[2] / length, a = m->alpha[0];
+    float length = sqrtf(s[0] * s[0] + s[1] * s[1] + s[2] * s[2]), nh = s[2] / length,
+          a = m->alpha[0];
     float t = nh * nh * (a * a - 1.0f) + 1.0f, d = a * a / (3.14159265f * t * t), v[2];
     for (int i = 0; i < 2; i++) {
         float z = i ? wo[2] : wi[2];
         v[i] = 1.0f / (z + sqrtf(z * z + a * a * (1.0f - z * z)));
     }
-    float g2 = m->eta[c] * m->eta[c] - 1.0f, cosine = 0.5f * length, g = sqrtf(g2 + cosine * cosine);
+    float g2 = m->eta[c] * m->eta[c] - 1.0f, cosine = 0.5f * length,
+          g = sqrtf(g2 + cosine * cosine);
     float p = (g - cosine) / (g + cosine),
           q = (cosine * (g + cosine) - 1.0f) / (cosine * (g - cosine) + 1.0f);
     return m->kd[c] * 0.318309886f + 0.5f * p * p * (1.0f + q * q) * d * v[0] * v[1];
@@ -46,9 +50,9 @@ static float naive_analytic(const hnbrdf_material *m, const float *wi, const flo
 enum { MISTAKE_NAIVE, MISTAKE_NAN, MISTAKE_NEGATIVE, MISTAKE_EPSILON, MISTAKE_PDF, MISTAKE_VALUE };
 
 HNBRDF_DIVIDES_AS_IEEE /* 0/0 is one of the mistakes */
-static hnbrdf_result run(stability_backend *backend, stability_stage stage,
-                         const stability_block *block, float values[STABILITY_BLOCK][STABILITY_NUMBERS],
-                         hnbrdf_error *error)
+    static hnbrdf_result
+    run(stability_backend *backend, stability_stage stage, const stability_block *block,
+        float values[STABILITY_BLOCK][STABILITY_NUMBERS], hnbrdf_error *error)
 {
     (void)error;
     for (int k = 0; k < STABILITY_BLOCK; k++) {
@@ -65,7 +69,8 @@ static hnbrdf_result run(stability_backend *backend, stability_stage stage,
                 values[k][c] += 0.0f * (wi[2] / wi[2]); /* 0/0 at the horizon */
             if (backend->form == MISTAKE_NEGATIVE)
                 values[k][c] -= 1e-6f;
-            if (backend->form == MISTAKE_VALUE) /* more than rounding in the network's sums can explain */
+            /* more than rounding in the network's sums can explain */
+            if (backend->form == MISTAKE_VALUE)
                 values[k][c] *= 1.00005f;
             if (backend->form == MISTAKE_EPSILON) /* + 1e-6 in a denominator of 4 wi.z wo.z */
                 values[k][c] *= wi[2] * wo[2] / (wi[2] * wo[2] + 2.5e-7f);
@@ -138,9 +143,9 @@ static void mistakes_are_noticed_where_they_show(void **state)
     hnbrdf_model_free(model);
 }
 
-/* Every kind and encoding: finite everywhere, the analytic part, pdf and samples within the bars. (Of
- * the value that is asked of trained networks, by the command's test: random ones have no floor under
- * them.) */
+/* Every kind and encoding: finite everywhere, the analytic part, pdf and samples within the bars.
+ * (Of the value that is asked of trained networks, by the command's test: random ones have no
+ * floor under them.) */
 static void the_library_keeps_the_bars_in_every_kind_and_encoding(void **state)
 {
     (void)state;

@@ -1,4 +1,5 @@
-/* test_text.c: numbers as text agree with the C library's in the C locale, and survive the way back. */
+/* test_text.c: numbers as text agree with the C library's in the C locale, and survive the way
+ * back. */
 #include "core_support.h"
 
 #include "model/text.h"

@@ -1,9 +1,9 @@
-/* test_threads.c MODEL SCRATCH: one model, shared by eight threads that do everything with it at once,
- * gives each of them what it gives one thread alone, to the last bit; and evaluation leaves errno
- * alone.
+/* test_threads.c MODEL SCRATCH: one model, shared by eight threads that do everything with it at
+ * once, gives each of them what it gives one thread alone, to the last bit; and evaluation leaves
+ * errno alone.
  *
- * A plain program without cmocka: test_races.sh builds it again under ThreadSanitizer, which sees races
- * that happen to do no harm. */
+ * A plain program without cmocka: test_races.sh builds it again under ThreadSanitizer, which sees
+ * races that happen to do no harm. */
 #include "hnbrdf/hnbrdf.h"
 
 #include <errno.h>
@@ -34,7 +34,8 @@ static int add(void *user, const void *data, size_t size)
     return 0;
 }
 
-/* ---- What a thread does; each ends with a checksum of what came out -------------------------------
+/* ---- What a thread does; each ends with a checksum of what came out
+ * -------------------------------
  */
 
 static int single(const shared *s, int thread, uint64_t *sum)
@@ -77,7 +78,8 @@ static int batches(const shared *s, int thread, uint64_t *sum)
     (void)thread;
     hnbrdf_eval_batch(s->model, &s->materials[0], PAIRS, s->wi[0], 0, s->wo[0], 0, f[0], 0);
     add(sum, f, sizeof f);
-    hnbrdf_eval_analytic_batch(s->model, &s->materials[1], PAIRS, s->wi[0], 0, s->wo[0], 0, f[0], 0);
+    hnbrdf_eval_analytic_batch(s->model, &s->materials[1], PAIRS, s->wi[0], 0, s->wo[0], 0, f[0],
+                               0);
     add(sum, f, sizeof f);
     hnbrdf_eval_many(s->model, s->materials, s->index, PAIRS, s->wi[0], 0, s->wo[0], 0, f[0], 0);
     add(sum, f, sizeof f);
@@ -119,7 +121,8 @@ static int exporting(const shared *s, int thread, uint64_t *sum)
 {
     (void)thread;
     for (int weights = HNBRDF_GLSL_CONSTANTS; weights <= HNBRDF_GLSL_UNIFORM; weights++) {
-        hnbrdf_glsl_options options = {.weights = (hnbrdf_glsl_weights)weights, .fixed = weights == 0};
+        hnbrdf_glsl_options options = {.weights = (hnbrdf_glsl_weights)weights,
+                                       .fixed = weights == 0};
         options.precision = weights == 1 ? HNBRDF_GLSL_HALF : HNBRDF_GLSL_FLOAT;
         if (hnbrdf_export_glsl(s->model, &options, add, sum, NULL) ||
             hnbrdf_export_weights(s->model, &options, add, sum, NULL))
@@ -190,7 +193,8 @@ static int run(const shared *s, int which, int thread, uint64_t *sum)
     return failed;
 }
 
-/* ---- Threads ------------------------------------------------------------------------------------- */
+/* ---- Threads
+ * ------------------------------------------------------------------------------------- */
 
 typedef struct worker {
     const shared *s;
@@ -209,7 +213,8 @@ static void *work(void *user)
         const int which = (w->number + k) % ACTIVITIES;
         uint64_t sum;
         if (run(w->s, which, w->number, &sum) || sum != w->expected[which]) {
-            fprintf(stderr, "thread %d: %s differs from one thread alone\n", w->number, names[which]);
+            fprintf(stderr, "thread %d: %s differs from one thread alone\n", w->number,
+                    names[which]);
             w->failures++;
         }
     }

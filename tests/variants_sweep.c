@@ -40,23 +40,23 @@ static void unit_vector(sweep *s, float w[3])
 
 void sweep_pair(sweep *s, float wi[3], float wo[3])
 {
-    static const float odd[] = {0.0f,  -0.0f, -0.5f,    1e-7f,     1e-42f, 1.1754944e-38f, 1e-20f, 2.0f,
-                                1e18f, 3e38f, INFINITY, -INFINITY, NAN,    1.0f,           1e-3f};
+    static const float odd[] = {0.0f,           -0.0f,     -0.5f, 1e-7f, 1e-42f,
+                                1.1754944e-38f, 1e-20f,    2.0f,  1e18f, 3e38f,
+                                INFINITY,       -INFINITY, NAN,   1.0f,  1e-3f};
     unit_vector(s, wi);
     unit_vector(s, wo);
     uint32_t choice = sweep_u32(s) % 32;
     float *w = choice & 1 ? wi : wo;
-    if (choice < 4) {
+    if (choice < 4)
         w[sweep_u32(s) % 3] = odd[sweep_u32(s) % (sizeof odd / sizeof odd[0])];
-    } else if (choice < 6) {
+    else if (choice < 6)
         w[2] = odd[sweep_u32(s) % (sizeof odd / sizeof odd[0])];
-    } else if (choice < 8) { /* the mirror, off by little */
+    else if (choice < 8) /* the mirror, off by little */
         for (int k = 0; k < 3; k++)
             wi[k] = k < 2 ? sweep_range(s, -1e-4f, 1e-4f) - wo[k] : wo[k];
-    } else if (choice == 8) {
+    else if (choice == 8)
         for (int k = 0; k < 3; k++)
             wi[k] = wo[k];
-    }
 }
 
 void sweep_material(sweep *s, int wild, hnbrdf_material *material)
@@ -79,11 +79,12 @@ void sweep_material(sweep *s, int wild, hnbrdf_material *material)
             material->lobes.share[k][j] = sweep_range(s, 0.0f, 1.0f - material->lobes.share[0][j]);
     }
     if (wild && sweep_u32(s) % 4 == 0)
-        ((float *)material)[sweep_u32(s) % (sizeof *material / sizeof(float))] = odd[sweep_u32(s) % 8];
+        ((float *)material)[sweep_u32(s) % (sizeof *material / sizeof(float))] =
+            odd[sweep_u32(s) % 8];
 }
 
-hnbrdf_model *sweep_model(sweep *s, hnbrdf_kind kind, hnbrdf_encoding encoding, int hidden, int layers,
-                          int latent)
+hnbrdf_model *sweep_model(sweep *s, hnbrdf_kind kind, hnbrdf_encoding encoding, int hidden,
+                          int layers, int latent)
 {
     static float weights[HNBRDF_MAX_LAYERS + 1][HNBRDF_MAX_HIDDEN * HNBRDF_MAX_HIDDEN];
     static float biases[HNBRDF_MAX_LAYERS + 1][HNBRDF_MAX_HIDDEN];

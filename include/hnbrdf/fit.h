@@ -1,26 +1,27 @@
 /* fit.h: fit a model to measured BRDFs (libhnbrdf_fit).
  *
- * First every material gets a GGX fit of its own (kd, eta, alpha; several starts). For a hybrid that
- * analytic part is then kept as it is (faithful), or trained on with the network, and the shared
- * network and the latent codes learn what is missing. The result depends on the data, the options and
- * the seed only, never on the number of threads.
+ * First every material gets a GGX fit of its own (kd, eta, alpha; several starts). For a hybrid
+ * that analytic part is then kept as it is (faithful), or trained on with the network, and the
+ * shared network and the latent codes learn what is missing. The result depends on the data, the
+ * options and the seed only, never on the number of threads.
  *
  * Data. Directions without a valid measurement are left out; a material where fewer than 1 % of the
  * directions drawn have one is refused. Negative values count as 0, values above 1e15 as 1e15. Both
- * losses saturate or grow as a logarithm, so that single wild values hardly pull. SMAPE has 1e-4 added
- * to its denominator, the logarithm 1e-3 to its argument: values far below are matched to about 1e-4
- * 1/sr, not relative to themselves. What of the data these rules concern is told in hnbrdf_fit_drawn.
+ * losses saturate or grow as a logarithm, so that single wild values hardly pull. SMAPE has 1e-4
+ * added to its denominator, the logarithm 1e-3 to its argument: values far below are matched to
+ * about 1e-4 1/sr, not relative to themselves. What of the data these rules concern is told in
+ * hnbrdf_fit_drawn.
  *
  * Divergence. Training is judged at its steps 25, 50, 100 and every 200, by its loss over a fixed
  * sample of the training pairs. It counts as diverged if a number is no longer finite, if the loss
- * exceeds both that of the untrained start and twice the best plus 0.1, or if more than an eighth of a
- * layer's units (at least 4, or all) died since the best state. It is then set back to the best state,
- * with Adam and warm-up starting anew at 0.3 times the rate. So a rate that is 100 times too large
- * costs a few hundred steps; the report tells how often it happened and the rate at the end. What is
- * returned is the last state unless an earlier one was better by more than 5 %, which is what such a
- * sample can tell; and for a hybrid it is never worse than GGX alone by more than that (plus 0.001): if
- * all training was in vain, the network returned leaves GGX as it is. Every number in a model is
- * finite.
+ * exceeds both that of the untrained start and twice the best plus 0.1, or if more than an eighth
+ * of a layer's units (at least 4, or all) died since the best state. It is then set back to the
+ * best state, with Adam and warm-up starting anew at 0.3 times the rate. So a rate that is 100
+ * times too large costs a few hundred steps; the report tells how often it happened and the rate
+ * at the end. What is returned is the last state unless an earlier one was better by more than
+ * 5 %, which is what such a sample can tell; and for a hybrid it is never worse than GGX alone by
+ * more than that (plus 0.001): if all training was in vain, the network returned leaves GGX as it
+ * is. Every number in a model is finite.
  */
 #ifndef HNBRDF_FIT_H
 #define HNBRDF_FIT_H
@@ -62,13 +63,13 @@ typedef struct hnbrdf_fit_progress {
     long step;
 } hnbrdf_fit_progress;
 
-/* Return non-zero to stop: training ends after the step and the model so far is returned. Before the
- * network's first step there is none: a new fit then returns HNBRDF_ERROR_CANCELLED. */
+/* Return non-zero to stop: training ends after the step and the model so far is returned. Before
+ * the network's first step there is none: a new fit then returns HNBRDF_ERROR_CANCELLED. */
 typedef int (*hnbrdf_fit_progress_fn)(void *user, const hnbrdf_fit_progress *progress);
 
-/* What the GGX fit of one material found. Its loss, 0.7 SMAPE + 0.3 |ln(f + 1e-3) - ln(F + 1e-3)| over
- * the training pairs, has several minima: every start is followed a little, the three best ones to the
- * end. Two that end alike speak for the global minimum. */
+/* What the GGX fit of one material found. Its loss, 0.7 SMAPE + 0.3 |ln(f + 1e-3) - ln(F + 1e-3)|
+ * over the training pairs, has several minima: every start is followed a little, the three best
+ * ones to the end. Two that end alike speak for the global minimum. */
 typedef struct hnbrdf_fit_search {
     int starts;            /* 0: no GGX fit was made */
     double best, second;   /* losses at the end of the best two; infinite if there is no second */
@@ -87,8 +88,8 @@ typedef struct hnbrdf_fit_drawn {
 typedef struct hnbrdf_fit_options {
     hnbrdf_kind kind;   /* default hybrid */
     int hidden, layers; /* HxN; 0 stands for 32 and 2 */
-    int latent;         /* l; 0 stands for 4 (hybrid) or 12 (neural), negative for none: enough for one
-                           material */
+    /* l; 0 stands for 4 (hybrid) or 12 (neural), negative for none: enough for one material */
+    int latent;
     hnbrdf_encoding encoding;
     int encoding_set; /* 1: use `encoding`; 0: angles, or angles-directed where swapping wi and
                          wo changes the data by more than 2 % (RGL: 3 to 20 %), or
@@ -99,12 +100,14 @@ typedef struct hnbrdf_fit_options {
      * taken instead of a GGX fit: kept as they are (faithful) or where training starts (joint). */
     const hnbrdf_material *materials;
     hnbrdf_fit_search *search; /* [count] written: how the GGX fit of each material went, or NULL */
-    hnbrdf_fit_drawn *drawn; /* [count] written: what was found in the data of each material, or NULL */
-    long steps;              /* network steps; 0 stands for 32000 */
-    double seconds;          /* time budget for the network stage instead of steps */
-    int batch;               /* pairs a step; 0 stands for 2048; rounded up to a multiple of 1024 */
-    int pool;                /* pairs drawn per material before training; 0: 131072 */
-    float learning_rate;     /* Adam's peak rate; 0 stands for 6e-2 min(1, 64/(HN)), HxN the network */
+    /* [count] written: what was found in the data of each material, or NULL */
+    hnbrdf_fit_drawn *drawn;
+    long steps;     /* network steps; 0 stands for 32000 */
+    double seconds; /* time budget for the network stage instead of steps */
+    int batch;      /* pairs a step; 0 stands for 2048; rounded up to a multiple of 1024 */
+    int pool;       /* pairs drawn per material before training; 0: 131072 */
+    /* Adam's peak rate; 0 stands for 6e-2 min(1, 64/(HN)), HxN the network */
+    float learning_rate;
     hnbrdf_fit_loss loss;
     hnbrdf_fit_schedule schedule;
     float uniform_share; /* of the pairs, drawn by the uniform sampler, the others by grid; 0 stands
@@ -114,12 +117,14 @@ typedef struct hnbrdf_fit_options {
     hnbrdf_fit_progress_fn progress;
     void *progress_user;
     /* Keep this model's network: only kd, eta, alpha and the latent codes of the new materials are
-     * fitted (steps default to 3000). The result holds them first, then the model's own materials; one
-     * of the same name is replaced. Kind, sizes, encoding and floor are the model's. */
+     * fitted (steps default to 3000). The result holds them first, then the model's own
+     * materials; one of the same name is replaced. Kind, sizes, encoding and floor are the
+     * model's. */
     const hnbrdf_model *freeze;
-    /* Where the state of training is kept, written twice a minute and when the callback stops the fit;
-     * NULL for none. With resume = 1 training goes on from there, and ends with the very model that an
-     * uninterrupted fit of the same steps gives. The caller removes the file when it is done with it.
+    /* Where the state of training is kept, written twice a minute and when the callback stops the
+     * fit; NULL for none. With resume = 1 training goes on from there, and ends with the very
+     * model that an uninterrupted fit of the same steps gives. The caller removes the file when
+     * it is done with it.
      */
     const char *checkpoint;
     int resume;
@@ -133,7 +138,8 @@ typedef struct hnbrdf_fit_times {
     double encoding; /* what the network sees, and f_a where it is frozen */
     double network;  /* forward and backward passes */
     double update;   /* choice of pairs, sum of the gradients, Adam, checkpoints: on one thread */
-    double waiting; /* threads times elapsed time less all of these: idle, or taken by other programs */
+    /* threads times elapsed time less all of these: idle, or taken by other programs */
+    double waiting;
 } hnbrdf_fit_times;
 
 typedef struct hnbrdf_fit_report {
@@ -149,12 +155,13 @@ typedef struct hnbrdf_fit_report {
     hnbrdf_fit_times times;
     int threads;
     const char *instructions; /* of the kernels: "plain", "avx2" or "avx512" */
-    /* Of a network: how the training went, see "Divergence" above. Losses are means over a sample of
-     * the training pairs, SMAPE unless HNBRDF_FIT_LOG is minimised. */
-    int set_backs;    /* times that training had diverged and was set back to the best state before */
-    double rate;      /* Adam's peak rate at the end: learning_rate times 0.3 for each of them */
-    long best_step;   /* the step whose state was returned: `steps`, or an earlier one that was clearly
-                         better */
+    /* Of a network: how the training went, see "Divergence" above. Losses are means over a sample
+     * of the training pairs, SMAPE unless HNBRDF_FIT_LOG is minimised. */
+    /* times that training had diverged and was set back to the best state before */
+    int set_backs;
+    double rate; /* Adam's peak rate at the end: learning_rate times 0.3 for each of them */
+    /* the step whose state was returned: `steps`, or an earlier one that was clearly better */
+    long best_step;
     int ggx_alone;    /* 1: none was as good as GGX alone; the network returned leaves GGX as it is.
                          best_step is 0 */
     double best_loss; /* of the state returned */

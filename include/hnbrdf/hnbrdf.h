@@ -56,10 +56,10 @@ HNBRDF_API const char *hnbrdf_version(void);
 
 /* ---- Limits ---------------------------------------------------------------------------------- */
 
-#define HNBRDF_MAX_HIDDEN 64   /* units H of a hidden layer in an HxN network */
-#define HNBRDF_MAX_LAYERS 4    /* hidden layers N */
-#define HNBRDF_MAX_LATENT 16   /* floats of a latent code, l */
-#define HNBRDF_MAX_NAME 127    /* bytes of a material's name */
+#define HNBRDF_MAX_HIDDEN 64 /* units H of a hidden layer in an HxN network */
+#define HNBRDF_MAX_LAYERS 4  /* hidden layers N */
+#define HNBRDF_MAX_LATENT 16 /* floats of a latent code, l */
+#define HNBRDF_MAX_NAME 127  /* bytes of a material's name */
 #define HNBRDF_MAX_MATERIALS 65536
 
 /* The smallest roughness. Below it the GGX peak 1/(pi alpha^2) passes 3e7 and the half vector of
@@ -91,24 +91,27 @@ typedef enum hnbrdf_result {
 HNBRDF_API const char *hnbrdf_strerror(hnbrdf_result result);
 
 /* What a person is told: one line naming the file, the place, what was found and what was expected,
- * NUL-terminated, control characters made '?'. Filled on failure only. Pass NULL wherever an hnbrdf_error is taken to go without. */
+ * NUL-terminated, control characters made '?'. Filled on failure only. Pass NULL wherever an
+ * hnbrdf_error is taken to go without. */
 typedef struct hnbrdf_error {
     char text[384];
 } hnbrdf_error;
 
 /* ---- Materials ------------------------------------------------------------------------------- */
 
-/* Where hnbrdf_sample() looks for light besides the cosine lobe: two GGX lobes about the mirror direction, of
- * roughness clamp(|scale| alpha) (|scale| itself in a neural model, whose alpha means nothing) and in the
- * material's tangent frame. Each gets a share of the samples that depends on the view: given at wo.z = 0, 1/9,
- * 4/9 and 1, linear in sqrt(wo.z) between; what is left of 1 is cosine. The value f does not depend on them.
- * Made by hnbrdf_lobes_fit(); an edit of alpha carries them along. All zeros, as hnbrdf_material_init() has them:
- * one lobe of roughness alpha, whose share is guessed from kd and eta (none in a neural model). 40 bytes. */
+/* Where hnbrdf_sample() looks for light besides the cosine lobe: two GGX lobes about the mirror
+ * direction, of roughness clamp(|scale| alpha) (|scale| itself in a neural model, whose alpha
+ * means nothing) and in the material's tangent frame. Each gets a share of the samples that
+ * depends on the view: given at wo.z = 0, 1/9, 4/9 and 1, linear in sqrt(wo.z) between; what is
+ * left of 1 is cosine. The value f does not depend on them. Made by hnbrdf_lobes_fit(); an edit
+ * of alpha carries them along. All zeros, as hnbrdf_material_init() has them: one lobe of
+ * roughness alpha, whose share is guessed from kd and eta (none in a neural model). 40 bytes. */
 #define HNBRDF_LOBES 2
 #define HNBRDF_LOBE_KNOTS 4
 typedef struct hnbrdf_lobes {
-    float scale[HNBRDF_LOBES]; /* > 0: visible normals (bounded, Eto and Tokuyoshi 2023); < 0: all normals, as the
-                                  paper draws them; 0: no such lobe. |scale| in [1e-4, 1e4] */
+    /* > 0: visible normals (bounded, Eto and Tokuyoshi 2023); < 0: all normals, as the paper
+     * draws them; 0: no such lobe. |scale| in [1e-4, 1e4] */
+    float scale[HNBRDF_LOBES];
     float share[HNBRDF_LOBES][HNBRDF_LOBE_KNOTS]; /* [0, 1]; at each knot they sum to at most 1 */
 } hnbrdf_lobes;
 
@@ -129,35 +132,40 @@ HNBRDF_API void hnbrdf_material_init(hnbrdf_material *material);
 
 /* HNBRDF_OK if every field is finite and in its range; else HNBRDF_ERROR_ARGUMENT and a message
  * naming the first field that is not. */
-HNBRDF_API hnbrdf_result hnbrdf_material_check(const hnbrdf_material *material, hnbrdf_error *error);
+HNBRDF_API hnbrdf_result hnbrdf_material_check(const hnbrdf_material *material,
+                                               hnbrdf_error *error);
 
-/* The material between a and b: at t <= 0 (or NaN) *a and at t >= 1 *b, bit by bit. Each kd, the latent code
- * and the reflectance at normal incidence ((eta - 1)/(eta + 1))^2 go linearly: eta itself would turn to
- * metal within the first steps. alpha goes linearly in its logarithm; rotation the short way modulo pi, a
- * half turn being the same GGX lobe, and all at once where one end is isotropic and has none to speak of. Lobes
- * go like alpha, their shares linearly; where only one end has such a lobe, all are 0: fit them again.
- * Every field stays between its two ends, so two legal materials give a legal one. out may be a or b. */
+/* The material between a and b: at t <= 0 (or NaN) *a and at t >= 1 *b, bit by bit. Each kd, the
+ * latent code and the reflectance at normal incidence ((eta - 1)/(eta + 1))^2 go linearly: eta
+ * itself would turn to metal within the first steps. alpha goes linearly in its logarithm;
+ * rotation the short way modulo pi, a half turn being the same GGX lobe, and all at once where
+ * one end is isotropic and has none to speak of. Lobes go like alpha, their shares linearly;
+ * where only one end has such a lobe, all are 0: fit them again. Every field stays between its
+ * two ends, so two legal materials give a legal one. out may be a or b. */
 HNBRDF_API void hnbrdf_material_mix(const hnbrdf_material *a, const hnbrdf_material *b, float t,
                                     hnbrdf_material *out);
 
 /* ---- Models ---------------------------------------------------------------------------------- */
 
 typedef enum hnbrdf_kind {
-    HNBRDF_KIND_HYBRID = 0, /* f = max(0, exp(s c + m) + sigmoid(g) f_a - b), 6 network outputs c, g */
-    HNBRDF_KIND_NEURAL,     /* f = max(0, exp(s c + m) - b), 3 network outputs (Zeltner et al. 2024) */
-    HNBRDF_KIND_GGX         /* f = f_a, no network */
+    /* f = max(0, exp(s c + m) + sigmoid(g) f_a - b), 6 network outputs c, g */
+    HNBRDF_KIND_HYBRID = 0,
+    /* f = max(0, exp(s c + m) - b), 3 network outputs (Zeltner et al. 2024) */
+    HNBRDF_KIND_NEURAL,
+    HNBRDF_KIND_GGX /* f = f_a, no network */
 } hnbrdf_kind;
 
-/* What the network sees of a pair of directions: six numbers. th is the angle between n and the half
- * vector h, td that between h and wi. All but the first and the third are unchanged to the last bit when
- * wi and wo swap: reciprocal by construction. */
+/* What the network sees of a pair of directions: six numbers. th is the angle between n and the
+ * half vector h, td that between h and wi. All but the first and the third are unchanged to the
+ * last bit when wi and wo swap: reciprocal by construction. */
 typedef enum hnbrdf_encoding {
-    HNBRDF_ENCODING_DIRECTIONS = 0,    /* wi, wo: the paper's; not reciprocal */
-    HNBRDF_ENCODING_HALF_DIFFERENCE,   /* functions of th, td, wi.z wo.z and wi.z + wo.z */
-    HNBRDF_ENCODING_ANGLES_DIRECTED,   /* functions of th and td, then wi.z, wo.z; not reciprocal: for
-                                          measurements that are not */
-    HNBRDF_ENCODING_ANGLES,            /* the same with the smaller and the larger of wi.z, wo.z */
-    HNBRDF_ENCODING_ANGLES_ANISOTROPIC /* with |h.x|, |h.y|: sees the azimuth of h, mirror-symmetric */
+    HNBRDF_ENCODING_DIRECTIONS = 0,  /* wi, wo: the paper's; not reciprocal */
+    HNBRDF_ENCODING_HALF_DIFFERENCE, /* functions of th, td, wi.z wo.z and wi.z + wo.z */
+    /* functions of th and td, then wi.z, wo.z; not reciprocal: for measurements that are not */
+    HNBRDF_ENCODING_ANGLES_DIRECTED,
+    HNBRDF_ENCODING_ANGLES, /* the same with the smaller and the larger of wi.z, wo.z */
+    /* with |h.x|, |h.y|: sees the azimuth of h, mirror-symmetric */
+    HNBRDF_ENCODING_ANGLES_ANISOTROPIC
 } hnbrdf_encoding;
 
 /* "hybrid", "neural", "ggx"; "directions", "half-difference", "angles-directed", "angles",
@@ -165,9 +173,10 @@ typedef enum hnbrdf_encoding {
 HNBRDF_API const char *hnbrdf_kind_name(hnbrdf_kind kind);
 HNBRDF_API const char *hnbrdf_encoding_name(hnbrdf_encoding encoding);
 
-/* Which instructions evaluation uses. All give the same bits; only the time differs. Chosen once, when
- * a model is made: HNBRDF_VARIANT_AUTO takes the one that the environment variable HNBRDF_VARIANT names
- * ("plain", "avx2", ...; unset, empty and "auto" name none), else the fastest this machine runs. */
+/* Which instructions evaluation uses. All give the same bits; only the time differs. Chosen once,
+ * when a model is made: HNBRDF_VARIANT_AUTO takes the one that the environment variable
+ * HNBRDF_VARIANT names ("plain", "avx2", ...; unset, empty and "auto" name none), else the
+ * fastest this machine runs. */
 typedef enum hnbrdf_variant {
     HNBRDF_VARIANT_AUTO = 0,
     HNBRDF_VARIANT_PLAIN, /* portable C, the reference; always there */
@@ -179,7 +188,8 @@ typedef enum hnbrdf_variant {
 
 /* "auto", "plain", "sse2", "avx2", "avx512", "neon"; NULL for any other value. */
 HNBRDF_API const char *hnbrdf_variant_name(hnbrdf_variant variant);
-/* 1 if this build holds the variant and this machine runs it (HNBRDF_VARIANT_AUTO: always), else 0. */
+/* 1 if this build holds the variant and this machine runs it (HNBRDF_VARIANT_AUTO: always), else
+ * 0. */
 HNBRDF_API int hnbrdf_variant_available(hnbrdf_variant variant);
 
 /* An immutable network with its materials. */
@@ -196,16 +206,17 @@ typedef struct hnbrdf_model_desc {
     float shift;              /* m */
     float floor;              /* b, >= 0 */
     /* layers + 1 matrices and biases. weights[k] is [out][in], row-major: in = 6 + l for k = 0 (the
-     * encoded directions in order, then the latent code), else hidden; out = hidden, for the last one
-     * 6 (hybrid: c then g) or 3 (neural). biases[k] is [out]. All finite. */
+     * encoded directions in order, then the latent code), else hidden; out = hidden, for the last
+     * one 6 (hybrid: c then g) or 3 (neural). biases[k] is [out]. All finite. */
     const float *weights[HNBRDF_MAX_LAYERS + 1];
     const float *biases[HNBRDF_MAX_LAYERS + 1];
-    int material_count;                /* >= 1 */
-    const hnbrdf_material *materials;  /* [material_count], each passes hnbrdf_material_check() */
-    const char *const *names;          /* [material_count], UTF-8, unique, 1 to HNBRDF_MAX_NAME bytes,
-                                          no control characters */
-    hnbrdf_variant variant; /* asked for; from hnbrdf_model_describe() the one in use, never AUTO. It
-                               belongs to the process: model files do not hold it */
+    int material_count;               /* >= 1 */
+    const hnbrdf_material *materials; /* [material_count], each passes hnbrdf_material_check() */
+    /* [material_count], UTF-8, unique, 1 to HNBRDF_MAX_NAME bytes, no control characters */
+    const char *const *names;
+    /* asked for; from hnbrdf_model_describe() the one in use, never AUTO. It belongs to the
+     * process: model files do not hold it */
+    hnbrdf_variant variant;
 } hnbrdf_model_desc;
 
 /* Memory for a model. Both functions or neither; zero means malloc and free. */
@@ -224,18 +235,19 @@ typedef int (*hnbrdf_write_fn)(void *user, const void *data, size_t size);
 /* Zero-initialise for defaults. */
 typedef struct hnbrdf_load_options {
     hnbrdf_allocator allocator;
-    size_t max_bytes;      /* refuse larger input; 0 stands for 256 MiB. Whatever a file claims of itself, no block
-                              asked for while loading is larger than 24 times the input and 200000 bytes */
-    hnbrdf_read_fn read;   /* if set, bytes come from here and `path` is only a name for messages */
+    /* refuse larger input; 0 stands for 256 MiB. Whatever a file claims of itself, no block asked
+     * for while loading is larger than 24 times the input and 200000 bytes */
+    size_t max_bytes;
+    hnbrdf_read_fn read; /* if set, bytes come from here and `path` is only a name for messages */
     void *read_user;
     hnbrdf_variant variant;
 } hnbrdf_load_options;
 
-/* Build a model from a description; everything is checked and copied. allocator may be NULL. A variant
- * that is not available here, by desc or by HNBRDF_VARIANT, is HNBRDF_ERROR_UNSUPPORTED. */
+/* Build a model from a description; everything is checked and copied. allocator may be NULL. A
+ * variant that is not available here, by desc or by HNBRDF_VARIANT, is HNBRDF_ERROR_UNSUPPORTED. */
 HNBRDF_API hnbrdf_result hnbrdf_model_create(const hnbrdf_model_desc *desc,
-                                             const hnbrdf_allocator *allocator, hnbrdf_model **model,
-                                             hnbrdf_error *error);
+                                             const hnbrdf_allocator *allocator,
+                                             hnbrdf_model **model, hnbrdf_error *error);
 
 /* Read a model file (safetensors with hnbrdf metadata, see README "Model files"). options may be
  * NULL. A file is read whole, every size is checked against the bytes that are there. */
@@ -245,16 +257,17 @@ HNBRDF_API hnbrdf_result hnbrdf_model_load_memory(const void *data, size_t size,
                                                   const hnbrdf_load_options *options,
                                                   hnbrdf_model **model, hnbrdf_error *error);
 
-/* Write a model file. The file is written aside, as PATH.tmp, and renamed: an old file stays whole until the
- * new one is complete, whenever the process ends. A pipe or device is written as it is. Identical models give identical bytes. */
+/* Write a model file. The file is written aside, as PATH.tmp, and renamed: an old file stays
+ * whole until the new one is complete, whenever the process ends. A pipe or device is written as
+ * it is. Identical models give identical bytes. */
 HNBRDF_API hnbrdf_result hnbrdf_model_save(const hnbrdf_model *model, const char *path,
                                            hnbrdf_error *error);
 HNBRDF_API hnbrdf_result hnbrdf_model_write(const hnbrdf_model *model, hnbrdf_write_fn write,
                                             void *user, hnbrdf_error *error);
 
 /* Import published BRDF-Explorer .brdf shaders of this method: every text carries one material and
- * the same network, which is checked. names[i] becomes the material's name. 1 to HNBRDF_MAX_MATERIALS texts
- * of any size; memory depends on their number alone. */
+ * the same network, which is checked. names[i] becomes the material's name. 1 to
+ * HNBRDF_MAX_MATERIALS texts of any size; memory depends on their number alone. */
 HNBRDF_API hnbrdf_result hnbrdf_model_import_brdf(const char *const *texts, const size_t *sizes,
                                                   const char *const *names, int count,
                                                   const hnbrdf_allocator *allocator,
@@ -280,46 +293,48 @@ HNBRDF_API size_t hnbrdf_model_multiplications(const hnbrdf_model *model);
  * material need not belong to the model: any edited or interpolated copy will do.
  *
  * Edges: wi.z <= 0 or wo.z <= 0 (or a NaN there) gives 0. wi = -wo cannot happen above the horizon.
- * Directions that are not unit length give the value of the formulas as they stand (c = |wi + wo|/2 for
- * wi.h), as long as squares of their lengths are floats, clamped to [0, HNBRDF_MAX_VALUE]; a subnormal wi.z or
- * wo.z is below the horizon where the caller or the device flushes those; NaN or infinity in any argument gives a finite value, 0 where undefined.
+ * Directions that are not unit length give the value of the formulas as they stand (c = |wi +
+ * wo|/2 for wi.h), as long as squares of their lengths are floats, clamped to [0,
+ * HNBRDF_MAX_VALUE]; a subnormal wi.z or wo.z is below the horizon where the caller or the device
+ * flushes those; NaN or infinity in any argument gives a finite value, 0 where undefined.
  * Swapping wi and wo gives the same bits, unless the encoding is HNBRDF_ENCODING_DIRECTIONS. */
 
 /* f(wi, wo) without the cosine. */
 HNBRDF_API void hnbrdf_eval(const hnbrdf_model *model, const hnbrdf_material *material,
                             const float wi[3], const float wo[3], float f[3]);
 
-/* f_a alone: Lambert + GGX with the material's kd, eta and alpha. The cheapest level of detail. For a
- * neural model, which has none, it is 0. */
+/* f_a alone: Lambert + GGX with the material's kd, eta and alpha. The cheapest level of detail.
+ * For a neural model, which has none, it is 0. */
 HNBRDF_API void hnbrdf_eval_analytic(const hnbrdf_model *model, const hnbrdf_material *material,
                                      const float wi[3], const float wo[3], float f[3]);
 
-/* Batches: wi, wo and f point to the first of count float[3]; strides are in bytes from one to the next,
- * a multiple of sizeof(float), 0 stands for 3 * sizeof(float). f must not overlap what is read. Each value
- * has the bits that the call for a single pair gives. Side by side, 16 pairs at a time: several times
- * faster than pair by pair; best with some hundred pairs a call. */
+/* Batches: wi, wo and f point to the first of count float[3]; strides are in bytes from one to
+ * the next, a multiple of sizeof(float), 0 stands for 3 * sizeof(float). f must not overlap what
+ * is read. Each value has the bits that the call for a single pair gives. Side by side, 16 pairs
+ * at a time: several times faster than pair by pair; best with some hundred pairs a call. */
 
 /* count evaluations of one material. */
 HNBRDF_API void hnbrdf_eval_batch(const hnbrdf_model *model, const hnbrdf_material *material,
                                   size_t count, const float *wi, size_t wi_stride, const float *wo,
                                   size_t wo_stride, float *f, size_t f_stride);
 
-/* count evaluations, each of a material of its own: pair k has materials[index[k]], or materials[k] where
- * index is NULL. Fastest where neighbours share a material, but needs no order. */
+/* count evaluations, each of a material of its own: pair k has materials[index[k]], or
+ * materials[k] where index is NULL. Fastest where neighbours share a material, but needs no
+ * order. */
 HNBRDF_API void hnbrdf_eval_many(const hnbrdf_model *model, const hnbrdf_material *materials,
                                  const int *index, size_t count, const float *wi, size_t wi_stride,
                                  const float *wo, size_t wo_stride, float *f, size_t f_stride);
 
 /* count values of hnbrdf_eval_analytic(). */
-HNBRDF_API void hnbrdf_eval_analytic_batch(const hnbrdf_model *model, const hnbrdf_material *material,
-                                           size_t count, const float *wi, size_t wi_stride,
-                                           const float *wo, size_t wo_stride, float *f,
-                                           size_t f_stride);
+HNBRDF_API void hnbrdf_eval_analytic_batch(const hnbrdf_model *model,
+                                           const hnbrdf_material *material, size_t count,
+                                           const float *wi, size_t wi_stride, const float *wo,
+                                           size_t wo_stride, float *f, size_t f_stride);
 
 /* ---- Sampling --------------------------------------------------------------------------------
- * A mixture of a cosine lobe and the two GGX lobes of material->lobes: visible normals (Heitz 2018; spherical caps
- * of Dupuy and Benyoub 2023, bounded after Eto and Tokuyoshi 2023). hnbrdf_sample() and hnbrdf_pdf() share one
- * density function and agree to the last bit. */
+ * A mixture of a cosine lobe and the two GGX lobes of material->lobes: visible normals (Heitz
+ * 2018; spherical caps of Dupuy and Benyoub 2023, bounded after Eto and Tokuyoshi 2023).
+ * hnbrdf_sample() and hnbrdf_pdf() share one density function and agree to the last bit. */
 
 typedef struct hnbrdf_sample_result {
     float wi[3];     /* unit direction towards the light, wi.z > 0; (0, 0, 1) when pdf is 0 */
@@ -327,43 +342,47 @@ typedef struct hnbrdf_sample_result {
     float weight[3]; /* f wi.z / pdf per channel, finite, >= 0 */
 } hnbrdf_sample_result;
 
-/* Draw wi given wo. u is three numbers in [0, 1): make them as (u32 >> 8) * 2^-24. u[0] chooses a lobe, and what is
- * left of it turns the azimuth further than u[1]: where two numbers are stratified together (Sobol and the like), pass
- * them as u[0] and u[2], with u[1] = 0, and the samples of every lobe are stratified. */
+/* Draw wi given wo. u is three numbers in [0, 1): make them as (u32 >> 8) * 2^-24. u[0] chooses a
+ * lobe, and what is left of it turns the azimuth further than u[1]: where two numbers are
+ * stratified together (Sobol and the like), pass them as u[0] and u[2], with u[1] = 0, and the
+ * samples of every lobe are stratified. */
 HNBRDF_API void hnbrdf_sample(const hnbrdf_model *model, const hnbrdf_material *material,
                               const float wo[3], const float u[3], hnbrdf_sample_result *result);
 
-/* Density with which hnbrdf_sample() draws wi given wo; 0 below the horizon. Integrates to at most 1
- * (GGX reflections that would go below the horizon are rejected). */
+/* Density with which hnbrdf_sample() draws wi given wo; 0 below the horizon. Integrates to at
+ * most 1 (GGX reflections that would go below the horizon are rejected). */
 HNBRDF_API float hnbrdf_pdf(const hnbrdf_model *model, const hnbrdf_material *material,
                             const float wi[3], const float wo[3]);
 
-/* The lobes with which samples of this material have the least variance under even light: roughnesses and
- * shares that minimise the sum over views of the integral of (f wi.z)^2 / pdf, each view against its albedo. No
- * share is under 1/64, so that no weight exceeds 64 pi f. Always the same lobes for the same material; some
- * tens of milliseconds. Memory comes from the model's allocator. */
-HNBRDF_API hnbrdf_result hnbrdf_lobes_fit(const hnbrdf_model *model, const hnbrdf_material *material,
-                                          hnbrdf_lobes *lobes, hnbrdf_error *error);
-/* The paper's scheme, to compare with: half of the samples cosine, half GGX with normals drawn from D, all of them and
- * not only the visible ones; the density is that of the mixture (one-sample MIS, balance heuristic). */
+/* The lobes with which samples of this material have the least variance under even light:
+ * roughnesses and shares that minimise the sum over views of the integral of (f wi.z)^2 / pdf,
+ * each view against its albedo. No share is under 1/64, so that no weight exceeds 64 pi f. Always
+ * the same lobes for the same material; some tens of milliseconds. Memory comes from the model's
+ * allocator. */
+HNBRDF_API hnbrdf_result hnbrdf_lobes_fit(const hnbrdf_model *model,
+                                          const hnbrdf_material *material, hnbrdf_lobes *lobes,
+                                          hnbrdf_error *error);
+/* The paper's scheme, to compare with: half of the samples cosine, half GGX with normals drawn
+ * from D, all of them and not only the visible ones; the density is that of the mixture
+ * (one-sample MIS, balance heuristic). */
 HNBRDF_API void hnbrdf_lobes_paper(hnbrdf_lobes *lobes);
 
 /* ---- Prepared materials ----------------------------------------------------------------------
- * For renderers that shade one hit at a time: what depends on the material alone is worked out once. The
- * functions below give the bits of their namesakes above, and are as pure. */
+ * For renderers that shade one hit at a time: what depends on the material alone is worked out
+ * once. The functions below give the bits of their namesakes above, and are as pure. */
 
-/* Plain data that the caller owns; copy it freely. It holds what it needs of the material, and stays
- * valid as long as the model. The fields are the library's business and may change. */
+/* Plain data that the caller owns; copy it freely. It holds what it needs of the material, and
+ * stays valid as long as the model. The fields are the library's business and may change. */
 typedef struct hnbrdf_prepared {
     const hnbrdf_model *model;
     float cosine, sine; /* of the rotation */
     float alpha[2];
-    float area;       /* pi alpha_x alpha_y */
+    float area; /* pi alpha_x alpha_y */
     float lobe_alpha[HNBRDF_LOBES][2];
     float lobe_area[HNBRDF_LOBES];
-    hnbrdf_lobes lobes; /* never unfitted here */
-    float diffuse[4]; /* kd / pi; [3] repeats [2] */
-    float e[4];       /* eta^2 - 1; [3] repeats [2] */
+    hnbrdf_lobes lobes;             /* never unfitted here */
+    float diffuse[4];               /* kd / pi; [3] repeats [2] */
+    float e[4];                     /* eta^2 - 1; [3] repeats [2] */
     float first[HNBRDF_MAX_HIDDEN]; /* bias of the first layer with the latent code folded in */
 } hnbrdf_prepared;
 
@@ -374,21 +393,21 @@ HNBRDF_API void hnbrdf_prepared_eval(const hnbrdf_prepared *prepared, const floa
                                      const float wo[3], float f[3]);
 HNBRDF_API void hnbrdf_prepared_sample(const hnbrdf_prepared *prepared, const float wo[3],
                                        const float u[3], hnbrdf_sample_result *result);
-/* hnbrdf_prepared_sample() without the weight, for renderers that evaluate in batches: wi and the pdf, which is
- * returned; 0 with wi = (0, 0, 1) where there is no direction. */
-HNBRDF_API float hnbrdf_prepared_draw(const hnbrdf_prepared *prepared, const float wo[3], const float u[3],
-                                      float wi[3]);
+/* hnbrdf_prepared_sample() without the weight, for renderers that evaluate in batches: wi and the
+ * pdf, which is returned; 0 with wi = (0, 0, 1) where there is no direction. */
+HNBRDF_API float hnbrdf_prepared_draw(const hnbrdf_prepared *prepared, const float wo[3],
+                                      const float u[3], float wi[3]);
 HNBRDF_API float hnbrdf_prepared_pdf(const hnbrdf_prepared *prepared, const float wi[3],
                                      const float wo[3]);
 
 /* ---- Materials in textures -------------------------------------------------------------------
- * For scenes with a material of its own in every pixel: a material as a few RGBA texels, which the caller
- * keeps in as many textures (or layers) and samples as he likes. C packs; C or the exported shader unpacks
- * to the same material.
+ * For scenes with a material of its own in every pixel: a material as a few RGBA texels, which
+ * the caller keeps in as many textures (or layers) and samples as he likes. C packs; C or the
+ * exported shader unpacks to the same material.
  *
  * Channels follow each other through the texels without gaps: kd (3), eta (3), alpha (1, or 2 if
- * anisotropic), rotation (2, if rotated), latent (l). An isotropic material with l = 4 takes 11 channels: 3
- * texels. Numbers outside of a field's range are clamped to it.
+ * anisotropic), rotation (2, if rotated), latent (l). An isotropic material with l = 4 takes 11
+ * channels: 3 texels. Numbers outside of a field's range are clamped to it.
  *
  *               RGBA16F                             RGBA8 (UNORM, linear, never sRGB)
  *   stored      the number itself                   its place in the range of the field
@@ -399,10 +418,11 @@ HNBRDF_API float hnbrdf_prepared_pdf(const hnbrdf_prepared *prepared, const floa
  *   rotation    (cos, sin), 3.5e-4 rad              (cos, sin), 5.6e-3 rad
  *   latent      the number, relative 2^-11          the number, within w/510
  *
- * w is the width of the range along the curve, r^2 the reflectance at normal incidence. r is kept in
- * [1e-4, 0.998]: eta from 1.0002 to 999. Beside what is stated stands the rounding of float, 1e-6 relative;
- * half floats below 2^-14 are within 2^-25. The curves of RGBA8 are those that cost the fitted model in
- * examples/models least. Linear filtering of either gives a legal material, near hnbrdf_material_mix(). */
+ * w is the width of the range along the curve, r^2 the reflectance at normal incidence. r is kept
+ * in [1e-4, 0.998]: eta from 1.0002 to 999. Beside what is stated stands the rounding of float,
+ * 1e-6 relative; half floats below 2^-14 are within 2^-25. The curves of RGBA8 are those that
+ * cost the fitted model in examples/models least. Linear filtering of either gives a legal
+ * material, near hnbrdf_material_mix(). */
 typedef enum hnbrdf_texel_format {
     HNBRDF_TEXEL_RGBA16F = 0, /* 8 bytes a texel, IEEE half floats of the machine's byte order */
     HNBRDF_TEXEL_RGBA8        /* 4 bytes a texel */
@@ -420,53 +440,56 @@ typedef struct hnbrdf_packing {
     float kd[2], eta[2], alpha[2], latent_range[HNBRDF_MAX_LATENT][2];
 } hnbrdf_packing;
 
-/* What these materials of the model need (NULL: all): fields, and ranges that just hold them. Widen the
- * ranges for materials that are yet to be drawn. */
+/* What these materials of the model need (NULL: all): fields, and ranges that just hold them.
+ * Widen the ranges for materials that are yet to be drawn. */
 HNBRDF_API hnbrdf_result hnbrdf_packing_init(const hnbrdf_model *model, const int *materials,
                                              int material_count, hnbrdf_texel_format format,
                                              hnbrdf_packing *packing, hnbrdf_error *error);
-/* HNBRDF_OK if something is stored and every range is in order and legal, as the functions below trust. */
+/* HNBRDF_OK if something is stored and every range is in order and legal, as the functions below
+ * trust. */
 HNBRDF_API hnbrdf_result hnbrdf_packing_check(const hnbrdf_packing *packing, hnbrdf_error *error);
 
 /* Texels of one material, 1 to HNBRDF_MAX_TEXELS; bytes of one texel. */
 HNBRDF_API int hnbrdf_packing_texels(const hnbrdf_packing *packing);
 HNBRDF_API size_t hnbrdf_texel_bytes(hnbrdf_texel_format format);
 
-/* texels: hnbrdf_packing_texels() times hnbrdf_texel_bytes() bytes, any alignment. What a material does not
- * store comes back as hnbrdf_material_init() has it. Whatever bits texels hold, what comes back passes
- * hnbrdf_material_check(). */
+/* texels: hnbrdf_packing_texels() times hnbrdf_texel_bytes() bytes, any alignment. What a
+ * material does not store comes back as hnbrdf_material_init() has it. Whatever bits texels hold,
+ * what comes back passes hnbrdf_material_check(). */
 HNBRDF_API void hnbrdf_material_pack(const hnbrdf_packing *packing, const hnbrdf_material *material,
                                      void *texels);
 HNBRDF_API void hnbrdf_material_unpack(const hnbrdf_packing *packing, const void *texels,
                                        hnbrdf_material *material);
 /* The same from what a texture's sampler returns, filtered or not: channels is [4 * texels]. */
-HNBRDF_API void hnbrdf_material_unpack_channels(const hnbrdf_packing *packing, const float *channels,
-                                                hnbrdf_material *material);
+HNBRDF_API void hnbrdf_material_unpack_channels(const hnbrdf_packing *packing,
+                                                const float *channels, hnbrdf_material *material);
 
 /* ---- GLSL export ----------------------------------------------------------------------------- */
 
-/* How a shader holds the network. The sums go in the same order in each: the same bits, where the device
- * rounds + and * correctly and HNBRDF_EXACT is 1. */
+/* How a shader holds the network. The sums go in the same order in each: the same bits, where the
+ * device rounds + and * correctly and HNBRDF_EXACT is 1. */
 typedef enum hnbrdf_glsl_weights {
-    HNBRDF_GLSL_CONSTANTS = 0, /* literals, every unit an expression of its own: one shader a network;
-                                  compilers take the longer the larger it is, 64x3 many seconds */
-    HNBRDF_GLSL_COLUMNS,       /* the same literals, four units at a time as vec4 columns: as fast, less
-                                  SPIR-V */
-    HNBRDF_GLSL_UNIFORM        /* a uniform buffer read in loops: compiles soon whatever the size, ten times
-                                  slower to run on a CPU driver; one shader for every network of the same
-                                  kind, encoding, hidden, layers and latent, see hnbrdf_export_weights() */
+    /* literals, every unit an expression of its own: one shader a network; compilers take the
+     * longer the larger it is, 64x3 many seconds */
+    HNBRDF_GLSL_CONSTANTS = 0,
+    /* the same literals, four units at a time as vec4 columns: as fast, less SPIR-V */
+    HNBRDF_GLSL_COLUMNS,
+    /* a uniform buffer read in loops: compiles soon whatever the size, ten times slower to run on
+     * a CPU driver; one shader for every network of the same kind, encoding, hidden, layers and
+     * latent, see hnbrdf_export_weights() */
+    HNBRDF_GLSL_UNIFORM
 } hnbrdf_glsl_weights;
 
-/* What the hidden layers compute in. Encoding, last layer, exp, sigmoid and the analytic part are in single
- * precision either way. */
+/* What the hidden layers compute in. Encoding, last layer, exp, sigmoid and the analytic part are
+ * in single precision either way. */
 typedef enum hnbrdf_glsl_precision {
     HNBRDF_GLSL_FLOAT = 0, /* single: the values of hnbrdf_eval() */
-    HNBRDF_GLSL_HALF       /* float16_t in Vulkan GLSL (the device needs shaderFloat16), mediump in GLSL ES,
-                              single elsewhere or where HNBRDF_HALF_NATIVE is defined as 0. Weights are rounded
-                              to half, those of hidden layers clamped to 2048, biases to 8192, and units to
-                              what the next layer can sum without passing 65504: finite whatever the weights.
-                              SMAPE against measurements grew by at most 0.0003 on the models tried; the
-                              tests allow 0.002. */
+    /* float16_t in Vulkan GLSL (the device needs shaderFloat16), mediump in GLSL ES, single
+     * elsewhere or where HNBRDF_HALF_NATIVE is defined as 0. Weights are rounded to half, those
+     * of hidden layers clamped to 2048, biases to 8192, and units to what the next layer can sum
+     * without passing 65504: finite whatever the weights. SMAPE against measurements grew by at
+     * most 0.0003 on the models tried; the tests allow 0.002. */
+    HNBRDF_GLSL_HALF
 } hnbrdf_glsl_precision;
 
 /* "constants", "columns", "uniform"; "float", "half"; NULL for any other value. */
@@ -482,25 +505,26 @@ typedef enum hnbrdf_glsl_only {
 
 /* Zero-initialise for defaults. */
 typedef struct hnbrdf_glsl_options {
-    const int *materials;   /* indices of the materials to export; NULL means all */
-    int material_count;     /* how many; ignored when materials is NULL */
-    int standalone;         /* 1: put the text of shaders/hybrid_brdf.glsl first, so that the result
+    const int *materials; /* indices of the materials to export; NULL means all */
+    int material_count;   /* how many; ignored when materials is NULL */
+    int standalone;       /* 1: put the text of shaders/hybrid_brdf.glsl first, so that the result
                                can be pasted as it is; 0: the includer includes that file before */
     const hnbrdf_packing *packing; /* if set: write hnbrdf_material_unpack() for materials from
                                textures too; analytic and latent are those of the model */
     hnbrdf_glsl_weights weights;
     hnbrdf_glsl_precision precision;
-    hnbrdf_glsl_only only;  /* a standalone text also leaves out of hybrid_brdf.glsl what it does not use */
-    int fixed;              /* 1: the materials are constants that the shader does not change. What depends
-                               on the material alone is worked out here, and its latent code is folded into
-                               the first layer's bias (but for half precision and uniform weights): the same
-                               bits for less. hnbrdf_material then has no kd and eta to edit;
-                               hnbrdf_eval_NAME(wi, wo) takes none at all, NAME as in HNBRDF_MATERIAL_NAME.
-                               Not together with packing. */
-    const float *energy;    /* if set: a factor on all values of each exported material, in (0, 1], one over
-                               its albedo where that is above 1 (hnbrdf_physics_of() in metrics.h): the
-                               shader then gives off no more light than it gets. C does not do that. Not
-                               together with packing. */
+    /* a standalone text also leaves out of hybrid_brdf.glsl what it does not use */
+    hnbrdf_glsl_only only;
+    /* 1: the materials are constants that the shader does not change. What depends on the
+     * material alone is worked out here, and its latent code is folded into the first layer's
+     * bias (but for half precision and uniform weights): the same bits for less. hnbrdf_material
+     * then has no kd and eta to edit; hnbrdf_eval_NAME(wi, wo) takes none at all, NAME as in
+     * HNBRDF_MATERIAL_NAME. Not together with packing. */
+    int fixed;
+    /* if set: a factor on all values of each exported material, in (0, 1], one over its albedo
+     * where that is above 1 (hnbrdf_physics_of() in metrics.h): the shader then gives off no more
+     * light than it gets. C does not do that. Not together with packing. */
+    const float *energy;
 } hnbrdf_glsl_options;
 
 /* Write one GLSL include with the network, the chosen materials, and the functions
@@ -508,28 +532,34 @@ typedef struct hnbrdf_glsl_options {
  *   vec3 hnbrdf_eval(hnbrdf_material m, vec3 wi, vec3 wo)
  *   hnbrdf_sample_result hnbrdf_sample(hnbrdf_material m, vec3 wo, vec3 u)
  *   float hnbrdf_pdf(hnbrdf_material m, vec3 wi, vec3 wo)
- * whose values are those of their namesakes in C. Its first lines state what it holds. options may be NULL. */
+ * whose values are those of their namesakes in C. Its first lines state what it holds. options
+ * may be NULL. */
 HNBRDF_API hnbrdf_result hnbrdf_export_glsl(const hnbrdf_model *model,
                                             const hnbrdf_glsl_options *options,
                                             hnbrdf_write_fn write, void *user, hnbrdf_error *error);
 
-/* Bytes of the uniform block of a shader exported with HNBRDF_GLSL_UNIFORM; 0 for a ggx model, which has
- * none. At most 58000; every Vulkan, GL and GL ES 3 device takes 16384, desktop ones 65536. */
+/* Bytes of the uniform block of a shader exported with HNBRDF_GLSL_UNIFORM; 0 for a ggx model,
+ * which has none. At most 58000; every Vulkan, GL and GL ES 3 device takes 16384, desktop ones
+ * 65536. */
 HNBRDF_API size_t hnbrdf_weights_size(const hnbrdf_model *model);
 
-/* Write the contents of that block, std140: vec4 after vec4, floats in the byte order of this machine.
- *   vec4 0, 1         s, m, b of the model, and for half precision the largest input and the largest unit
- *                     of each hidden layer (else 0)
- *   then a layer      for every four outputs, the last group filled with zeros: their biases, then one vec4
- *   after the other   an input, the weights of that input to the four outputs. Inputs of the first layer:
- *                     the latent code, then the encoded directions; of the others the units of the layer
- *                     before, filled with zeros to a multiple of four.
+/* Write the contents of that block, std140: vec4 after vec4, floats in the byte order of this
+ *   machine.
+ *   vec4 0, 1         s, m, b of the model, and for half precision the largest input and the
+ *                     largest unit of each hidden layer (else 0)
+ *   then a layer      for every four outputs, the last group filled with zeros: their biases,
+ *                     then one vec4
+ *   after the other   an input, the weights of that input to the four outputs. Inputs of the
+ *                     first layer: the latent code, then the encoded directions; of the others
+ *                     the units of the layer before, filled with zeros to a multiple of four.
  * The shader's block is hnbrdf_weights_block; in Vulkan at set HNBRDF_WEIGHTS_SET, binding
- * HNBRDF_WEIGHTS_BINDING, both 0 unless defined before the include. Of the options, which may be NULL, only
- * the precision matters: it must be that of the shader. HNBRDF_ERROR_ARGUMENT for a ggx model. */
+ * HNBRDF_WEIGHTS_BINDING, both 0 unless defined before the include. Of the options, which may be
+ * NULL, only the precision matters: it must be that of the shader. HNBRDF_ERROR_ARGUMENT for a
+ * ggx model. */
 HNBRDF_API hnbrdf_result hnbrdf_export_weights(const hnbrdf_model *model,
                                                const hnbrdf_glsl_options *options,
-                                               hnbrdf_write_fn write, void *user, hnbrdf_error *error);
+                                               hnbrdf_write_fn write, void *user,
+                                               hnbrdf_error *error);
 
 #ifdef __cplusplus
 }

@@ -1,13 +1,13 @@
 /* measured.h: measured and procedural BRDFs behind one interface (libhnbrdf_measured).
  *
  * Convention, units and errors are those of hnbrdf.h: wi towards the light, wo towards the viewer,
- * both away from the surface; f in 1/sr without the cosine, linear RGB, never NaN, and never negative
- * unless rgl_signed asks for it.
+ * both away from the surface; f in 1/sr without the cosine, linear RGB, never NaN, and never
+ * negative unless rgl_signed asks for it.
  *
- * Formats: MERL .binary (Matusik et al. 2003), RGL .bsdf, isotropic and anisotropic, RGB and spectral
- * (Dupuy and Jakob 2018), UTIA .bin (Filip and Vavra 2014; the set of 150 anisotropic materials, not the
- * dense one of 1.5 GB a file), and built-in procedural materials. A file is recognised by its content; a
- * UTIA file, which has no header, by its size.
+ * Formats: MERL .binary (Matusik et al. 2003), RGL .bsdf, isotropic and anisotropic, RGB and
+ * spectral (Dupuy and Jakob 2018), UTIA .bin (Filip and Vavra 2014; the set of 150 anisotropic
+ * materials, not the dense one of 1.5 GB a file), and built-in procedural materials. A file is
+ * recognised by its content; a UTIA file, which has no header, by its size.
  */
 #ifndef HNBRDF_MEASURED_H
 #define HNBRDF_MEASURED_H
@@ -39,68 +39,81 @@ typedef enum hnbrdf_merl_lookup {
     HNBRDF_MERL_TRILINEAR    /* between 8 bins; those without a measurement are left out */
 } hnbrdf_merl_lookup;
 
-/* Where in its bin a sample counts as taken, for the trilinear lookup. No source settles it; the choice
- * moves theta_h by half a bin (21 % at 0.3, 5 % at 4.4 degrees), enough to bias a fitted roughness. */
+/* Where in its bin a sample counts as taken, for the trilinear lookup. No source settles it; the
+ * choice moves theta_h by half a bin (21 % at 0.3, 5 % at 4.4 degrees), enough to bias a fitted
+ * roughness. */
 typedef enum hnbrdf_merl_node {
     HNBRDF_MERL_CENTRE = 0,
     HNBRDF_MERL_EDGE /* the lower edge in all three angles */
 } hnbrdf_merl_node;
 
-/* What the numbers of a UTIA file mean. Public readers disagree, so the absolute scale of UTIA data is
- * uncertain. v: a sample; f is never negative. */
+/* What the numbers of a UTIA file mean. Public readers disagree, so the absolute scale of UTIA
+ * data is uncertain. v: a sample; f is never negative. */
 typedef enum hnbrdf_utia_mode {
-    HNBRDF_UTIA_DJB = 0, /* f = 100 decode(max(v, 0) / 140), decoded after interpolation (J. Dupuy's dj_brdf,
-                            which credits the data's author): v > 0.0375 ? ((v+0.055)/1.055)^2.4 : v/12.92 */
-    HNBRDF_UTIA_RAW,     /* f = v */
-    HNBRDF_UTIA_SRGB     /* f = v through the inverse sRGB curve, sample by sample */
+    /* f = 100 decode(max(v, 0) / 140), decoded after interpolation (J. Dupuy's dj_brdf, which
+     * credits the data's author): v > 0.0375 ? ((v+0.055)/1.055)^2.4 : v/12.92 */
+    HNBRDF_UTIA_DJB = 0,
+    HNBRDF_UTIA_RAW, /* f = v */
+    HNBRDF_UTIA_SRGB /* f = v through the inverse sRGB curve, sample by sample */
 } hnbrdf_utia_mode;
 
 /* Zero-initialise for defaults. A value outside its range is HNBRDF_ERROR_ARGUMENT on opening. */
 typedef struct hnbrdf_measured_options {
-    size_t max_bytes; /* refuse larger files; 0 stands for 1 GiB. Whatever a file claims of itself, opening takes at
-                         most 20 times its size in memory (RGL as published: about 4 times) */
+    /* refuse larger files; 0 stands for 1 GiB. Whatever a file claims of itself, opening takes at
+     * most 20 times its size in memory (RGL as published: about 4 times) */
+    size_t max_bytes;
     hnbrdf_merl_lookup merl_lookup;
     hnbrdf_merl_node merl_node;
     int merl_identify; /* 1: compare the SHA-256 of a MERL file with the published ones, see
                           hnbrdf_measured_published(); takes about 0.2 s a file */
-    int rgl_signed;    /* 1: keep negative colours, which lie outside the gamut, for colour transforms and
-                          for export; models and fits know no negative f */
-    int rgl_spectra;   /* 1: where a file has spectra, use them even if it has RGB too, and keep them for
-                          hnbrdf_measured_eval_spectrum() (as much memory as the file). 0: RGB if there is,
-                          otherwise spectra made RGB and dropped */
+    /* 1: keep negative colours, which lie outside the gamut, for colour transforms and for
+     * export; models and fits know no negative f */
+    int rgl_signed;
+    /* 1: where a file has spectra, use them even if it has RGB too, and keep them for
+     * hnbrdf_measured_eval_spectrum() (as much memory as the file). 0: RGB if there is, otherwise
+     * spectra made RGB and dropped */
+    int rgl_spectra;
     hnbrdf_utia_mode utia_mode;
-    double utia_scale;       /* f is multiplied by it; 0 stands for 1, negative is refused */
-    int utia_no_extrapolate; /* 1: beyond the last sample at 75 degrees use its value. 0: go on linearly
-                                from the last two, as all readers that descend from the author's do */
+    double utia_scale; /* f is multiplied by it; 0 stands for 1, negative is refused */
+    /* 1: beyond the last sample at 75 degrees use its value. 0: go on linearly from the last two,
+     * as all readers that descend from the author's do */
+    int utia_no_extrapolate;
 } hnbrdf_measured_options;
 
 /* Open a file; its material's name is the file's name without directory, extension and a trailing
- * "_rgb", cut to HNBRDF_MAX_NAME bytes; control characters and what is not UTF-8 become '_'. The file is
- * read whole, and never beyond the limit by more than the buffer that holds it. options may be NULL. */
-HNBRDF_API hnbrdf_result hnbrdf_measured_open(const char *path, const hnbrdf_measured_options *options,
+ * "_rgb", cut to HNBRDF_MAX_NAME bytes; control characters and what is not UTF-8 become '_'. The
+ * file is read whole, and never beyond the limit by more than the buffer that holds it. options
+ * may be NULL. */
+HNBRDF_API hnbrdf_result hnbrdf_measured_open(const char *path,
+                                              const hnbrdf_measured_options *options,
                                               hnbrdf_measured **measured, hnbrdf_error *error);
 
-/* The same from bytes in memory; `path` gives the name and is used in messages. The bytes are copied. */
-HNBRDF_API hnbrdf_result hnbrdf_measured_open_memory(const void *data, size_t size, const char *path,
+/* The same from bytes in memory; `path` gives the name and is used in messages. The bytes are
+ * copied. */
+HNBRDF_API hnbrdf_result hnbrdf_measured_open_memory(const void *data, size_t size,
+                                                     const char *path,
                                                      const hnbrdf_measured_options *options,
-                                                     hnbrdf_measured **measured, hnbrdf_error *error);
+                                                     hnbrdf_measured **measured,
+                                                     hnbrdf_error *error);
 
-/* The built-in procedural materials, index 0 to hnbrdf_measured_builtin_count() - 1: formulas that hold
- * what measurements contain and one GGX lobe cannot follow. NULL name when index is out of range. */
+/* The built-in procedural materials, index 0 to hnbrdf_measured_builtin_count() - 1: formulas
+ * that hold what measurements contain and one GGX lobe cannot follow. NULL name when index is out
+ * of range. */
 HNBRDF_API int hnbrdf_measured_builtin_count(void);
 HNBRDF_API const char *hnbrdf_measured_builtin_name(int index);
 HNBRDF_API hnbrdf_result hnbrdf_measured_open_builtin(int index, hnbrdf_measured **measured,
                                                       hnbrdf_error *error);
 
-/* A BRDF of your own, to be fitted and compared like a measurement: a formula, another renderer's table, a
- * larger model that a smaller one shall learn from. */
+/* A BRDF of your own, to be fitted and compared like a measurement: a formula, another renderer's
+ * table, a larger model that a smaller one shall learn from. */
 typedef struct hnbrdf_measured_custom {
-    const char *name;    /* of the material, UTF-8, 1 to HNBRDF_MAX_NAME bytes; copied */
-    const char *summary; /* one line for hnbrdf_measured_summary(), cut to 255 bytes; NULL: "custom"; copied */
-    int isotropic;       /* 1: turning wi and wo together about n never changes the value */
-    /* f of unit vectors above the horizon, convention as above. Returns 1, or 0 where there is no value. f is
-     * clamped to [0, HNBRDF_MAX_VALUE]; where a channel is not finite there is no value. Called from several
-     * threads at once. Never NULL. */
+    const char *name; /* of the material, UTF-8, 1 to HNBRDF_MAX_NAME bytes; copied */
+    /* one line for hnbrdf_measured_summary(), cut to 255 bytes; NULL: "custom"; copied */
+    const char *summary;
+    int isotropic; /* 1: turning wi and wo together about n never changes the value */
+    /* f of unit vectors above the horizon, convention as above. Returns 1, or 0 where there is no
+     * value. f is clamped to [0, HNBRDF_MAX_VALUE]; where a channel is not finite there is no
+     * value. Called from several threads at once. Never NULL. */
     int (*eval)(const void *user, const float wi[3], const float wo[3], float f[3]);
     void (*release)(void *user); /* called once by hnbrdf_measured_close(); may be NULL */
     void *user;
@@ -108,41 +121,46 @@ typedef struct hnbrdf_measured_custom {
 
 /* On failure `user` stays the caller's. */
 HNBRDF_API hnbrdf_result hnbrdf_measured_create_custom(const hnbrdf_measured_custom *custom,
-                                                       hnbrdf_measured **measured, hnbrdf_error *error);
+                                                       hnbrdf_measured **measured,
+                                                       hnbrdf_error *error);
 
 /* Free; NULL is allowed. */
 HNBRDF_API void hnbrdf_measured_close(hnbrdf_measured *measured);
 
 HNBRDF_API const char *hnbrdf_measured_name(const hnbrdf_measured *measured);
 HNBRDF_API hnbrdf_measured_format hnbrdf_measured_format_of(const hnbrdf_measured *measured);
-/* 1 if turning wi and wo together about n never changes the value. Of an RGL file: whether its tables
- * leave out the azimuth of wi altogether. */
+/* 1 if turning wi and wo together about n never changes the value. Of an RGL file: whether its
+ * tables leave out the azimuth of wi altogether. */
 HNBRDF_API int hnbrdf_measured_is_isotropic(const hnbrdf_measured *measured);
-/* One line about what the file holds and how it is read (grid sizes, valid share, negatives; of a UTIA file
- * also its directional albedo); for people. */
+/* One line about what the file holds and how it is read (grid sizes, valid share, negatives; of a
+ * UTIA file also its directional albedo); for people. */
 HNBRDF_API const char *hnbrdf_measured_summary(const hnbrdf_measured *measured);
-/* The material of the MERL database whose published file this is, to the last bit ("alum-bronze"); NULL if
- * it is none of the 100, or was opened without merl_identify. */
+/* The material of the MERL database whose published file this is, to the last bit
+ * ("alum-bronze"); NULL if it is none of the 100, or was opened without merl_identify. */
 HNBRDF_API const char *hnbrdf_measured_published(const hnbrdf_measured *measured);
 
-/* f(wi, wo). Returns 1 if this is a valid measurement; 0 with f = 0 if it is not: below the horizon,
- * a bin that was never measured, a half vector that an RGL file calls invisible, directions that are not
- * finite. Fits and error metrics skip those. Colours outside the gamut are clipped to 0 per channel
- * (unless rgl_signed) and are valid. The length of the directions is divided out.
- * Spectra become linear sRGB by the CIE 1931 2-degree observer under D65; a flat one has R = G = B. */
+/* f(wi, wo). Returns 1 if this is a valid measurement; 0 with f = 0 if it is not: below the
+ * horizon, a bin that was never measured, a half vector that an RGL file calls invisible,
+ * directions that are not finite. Fits and error metrics skip those. Colours outside the gamut
+ * are clipped to 0 per channel (unless rgl_signed) and are valid. The length of the directions is
+ * divided out. Spectra become linear sRGB by the CIE 1931 2-degree observer under D65; a flat one
+ * has R = G = B. */
 HNBRDF_API int hnbrdf_measured_eval(const hnbrdf_measured *measured, const float wi[3],
                                     const float wo[3], float f[3]);
 
-/* The wavelengths in nm, increasing, of an RGL material opened with rgl_spectra; 0 if it has no spectra. *nm
- * lives as long as the material; it is untouched if there is none, and nm may be NULL. */
+/* The wavelengths in nm, increasing, of an RGL material opened with rgl_spectra; 0 if it has no
+ * spectra. *nm lives as long as the material; it is untouched if there is none, and nm may be
+ * NULL. */
 HNBRDF_API size_t hnbrdf_measured_wavelengths(const hnbrdf_measured *measured, const float **nm);
-/* f at `count` wavelengths in nm, finite, in any order: linear between those of the file, the end values
- * beyond them. Never clipped at 0: noise makes some negative. Returns as hnbrdf_measured_eval(); 0 with f = 0
- * also if there are no spectra. */
+/* f at `count` wavelengths in nm, finite, in any order: linear between those of the file, the end
+ * values beyond them. Never clipped at 0: noise makes some negative. Returns as
+ * hnbrdf_measured_eval(); 0 with f = 0 also if there are no spectra. */
 HNBRDF_API int hnbrdf_measured_eval_spectrum(const hnbrdf_measured *measured, const float wi[3],
-                                             const float wo[3], size_t count, const float *nm, float *f);
+                                             const float wo[3], size_t count, const float *nm,
+                                             float *f);
 
-/* ---- Where to look: the three samplers every error figure must name ----------------------------- */
+/* ---- Where to look: the three samplers every error figure must name
+ * ----------------------------- */
 
 typedef enum hnbrdf_sampler {
     HNBRDF_SAMPLER_UNIFORM = 0, /* wi and wo uniform in solid angle over the hemisphere */
@@ -159,14 +177,16 @@ typedef struct hnbrdf_rng {
     uint64_t state, stream;
 } hnbrdf_rng;
 
-/* Different (seed, sequence) pairs give independent streams; the top bit of sequence is not used. */
+/* Different (seed, sequence) pairs give independent streams; the top bit of sequence is not used.
+ * */
 HNBRDF_API void hnbrdf_rng_seed(hnbrdf_rng *rng, uint64_t seed, uint64_t sequence);
 HNBRDF_API uint32_t hnbrdf_rng_u32(hnbrdf_rng *rng);
 /* (u32 >> 8) * 2^-24, in [0, 1). */
 HNBRDF_API float hnbrdf_rng_float(hnbrdf_rng *rng);
 
 /* Draw one pair of unit vectors with wi.z >= 0.01 and wo.z >= 0.01. */
-HNBRDF_API void hnbrdf_sampler_draw(hnbrdf_sampler sampler, hnbrdf_rng *rng, float wi[3], float wo[3]);
+HNBRDF_API void hnbrdf_sampler_draw(hnbrdf_sampler sampler, hnbrdf_rng *rng, float wi[3],
+                                    float wo[3]);
 
 #ifdef __cplusplus
 }

@@ -42,7 +42,8 @@ double bake_judged(const bake *b, const bake_row *row)
     return b->worst ? row->worst : row->smape;
 }
 
-/* ---- Rows ---------------------------------------------------------------------------------------- */
+/* ---- Rows
+ * ---------------------------------------------------------------------------------------- */
 
 /* errors [materials]: of the model's material at[m], or m. */
 static hnbrdf_result measure(const bake *b, const hnbrdf_model *model, const int *at, size_t pairs,
@@ -100,7 +101,8 @@ double bake_half_error(const bake *b)
     return b->worst ? worst : mean;
 }
 
-/* ---- GGX alone ----------------------------------------------------------------------------------- */
+/* ---- GGX alone
+ * ----------------------------------------------------------------------------------- */
 
 static int show_ggx(void *user, const hnbrdf_fit_progress *p)
 {
@@ -122,8 +124,8 @@ static hnbrdf_result fit_ggx(bake *b, hnbrdf_error *error)
                                   .progress = show_ggx,
                                   .progress_user = &line};
     cli_progress_begin(&line, "GGX");
-    hnbrdf_result result = hnbrdf_fit((const hnbrdf_measured *const *)b->reference, b->count, &options,
-                                      &model, NULL, error);
+    hnbrdf_result result = hnbrdf_fit((const hnbrdf_measured *const *)b->reference, b->count,
+                                      &options, &model, NULL, error);
     cli_progress_end(&line);
     if (result)
         return result;
@@ -136,8 +138,10 @@ static hnbrdf_result fit_ggx(bake *b, hnbrdf_error *error)
 static hnbrdf_result make_ggx_model(const bake *b, hnbrdf_model **model, hnbrdf_error *error)
 {
     const char **names = malloc((size_t)b->count * sizeof *names);
-    hnbrdf_model_desc desc = {
-        .kind = HNBRDF_KIND_GGX, .material_count = b->count, .materials = b->analytic, .names = names};
+    hnbrdf_model_desc desc = {.kind = HNBRDF_KIND_GGX,
+                              .material_count = b->count,
+                              .materials = b->analytic,
+                              .names = names};
     hnbrdf_result result = HNBRDF_ERROR_MEMORY;
     for (int m = 0; names && m < b->count; m++)
         names[m] = hnbrdf_measured_name(b->reference[m]);
@@ -188,7 +192,8 @@ int bake_ggx(bake *b)
     return cli_fail("%s", error.text);
 }
 
-/* ---- Waves --------------------------------------------------------------------------------------- */
+/* ---- Waves
+ * --------------------------------------------------------------------------------------- */
 
 typedef struct wave wave;
 

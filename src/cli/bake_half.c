@@ -1,12 +1,13 @@
-/* bake_half.c: what becomes of a baked network whose weights are rounded as an export in half precision
- * rounds them. */
+/* bake_half.c: what becomes of a baked network whose weights are rounded as an export in half
+ * precision rounds them. */
 #include "cli/bake.h"
 #include "model/half.h"
 
 #include <stdlib.h>
 
 /* The numbers of layer k, rounded, into *to, which moves on. */
-static void round_layer(const hnbrdf_model_desc *from, int k, float **to, hnbrdf_model_desc *rounded)
+static void round_layer(const hnbrdf_model_desc *from, int k, float **to,
+                        hnbrdf_model_desc *rounded)
 {
     int rows = hnbrdf_layer_outputs(from, k), columns = hnbrdf_layer_inputs(from, k);
     rounded->weights[k] = *to;

@@ -78,8 +78,8 @@ static void draw_rows(const bake *b, const svg_panel *p, names *n, FILE *file)
     for (int k = 0; k < b->row_count; k++) {
         const bake_row *row = &b->rows[k];
         int picked = k == b->picked;
-        svg_mark(file, row->candidate->hidden ? SVG_CIRCLE : SVG_SQUARE, svg_x(p, row->candidate->ns),
-                 svg_y(p, error_of(b, row)), picked ? 6.0 : 4.0,
+        svg_mark(file, row->candidate->hidden ? SVG_CIRCLE : SVG_SQUARE,
+                 svg_x(p, row->candidate->ns), svg_y(p, error_of(b, row)), picked ? 6.0 : 4.0,
                  picked                   ? svg_colors[2]
                  : row->candidate->hidden ? svg_colors[1]
                                           : svg_colors[0],
@@ -134,8 +134,9 @@ void bake_write_plot(const bake *b, FILE *file)
     svg_axis_pad(&p.y, 0.06);
     snprintf(title, sizeof title, "%d material%s: error against run time", b->count,
              b->count == 1 ? "" : "s");
-    snprintf(below, sizeof below, "%s SMAPE against the %s, %s sampler", b->worst ? "highest" : "mean",
-             b->from_data ? "measurements" : "model", hnbrdf_sampler_name((hnbrdf_sampler)b->sampler));
+    snprintf(below, sizeof below, "%s SMAPE against the %s, %s sampler",
+             b->worst ? "highest" : "mean", b->from_data ? "measurements" : "model",
+             hnbrdf_sampler_name((hnbrdf_sampler)b->sampler));
     svg_begin(file, LEFT + WIDTH + 24, TOP + HEIGHT + BELOW);
     svg_heading(file, LEFT, 22, title);
     draw_legend(b, file);

@@ -1,7 +1,7 @@
 /* bake_search.c: in which order candidates are tried, when to stop, and which one is picked.
  *
- * GGX first, then networks by their multiplications: a short fit of a few seeds tells which are worth a
- * full one. */
+ * GGX first, then networks by their multiplications: a short fit of a few seeds tells which are
+ * worth a full one. */
 #include "cli/bake.h"
 
 #include <math.h>
@@ -9,20 +9,23 @@
 enum {
     SHORT_SEEDS = 2, /* fits of a candidate in the first look */
     AT_ONCE =
-        2, /* candidates in it; a number of its own, so that the result does not depend on threads */
+        /* candidates in it; a number of its own, so that the result does not depend on threads */
+    2,
     MOST_JOBS = 32,
-    TIME_LOOKS = 6, /* candidates that a limit of time allows, from the largest down, that get a look */
-    FINALISTS = 2,  /* of them, and of `auto`, that get a full fit */
-    PATIENCE = 4    /* candidates without a better product after which `auto` stops looking */
+    /* candidates that a limit of time allows, from the largest down, that get a look */
+    TIME_LOOKS = 6,
+    FINALISTS = 2, /* of them, and of `auto`, that get a full fit */
+    PATIENCE = 4   /* candidates without a better product after which `auto` stops looking */
 };
-/* A full fit takes up to a fifth off the error of the better of two short ones (0.159 to 0.140, 0.137
- * to 0.117, 0.123 to 0.109 on six MERL stand-ins). */
+/* A full fit takes up to a fifth off the error of the better of two short ones (0.159 to 0.140,
+ * 0.137 to 0.117, 0.123 to 0.109 on six MERL stand-ins). */
 #define PROMISING 1.25
 #define LOOK_SHARE 0.3 /* of --seconds for short fits */
 #define FULL_SHARE 0.5 /* of the time that is left for one full fit */
 #define LEAST_SECONDS 0.5
 
-/* ---- Picking ------------------------------------------------------------------------------------- */
+/* ---- Picking
+ * ------------------------------------------------------------------------------------- */
 
 static double product(const bake *b, const bake_row *row)
 {
@@ -69,7 +72,8 @@ static void pick(bake *b)
     }
 }
 
-/* ---- Trying -------------------------------------------------------------------------------------- */
+/* ---- Trying
+ * -------------------------------------------------------------------------------------- */
 
 static double left(const bake *b)
 {
@@ -188,7 +192,8 @@ static int search_time(bake *b)
     return finish(b);
 }
 
-/* Where error times time is lowest: beyond, an evaluation gets slower by more than it gets better. */
+/* Where error times time is lowest: beyond, an evaluation gets slower by more than it gets
+ * better. */
 static int search_auto(bake *b)
 {
     double least = INFINITY; /* of networks: a step up from GGX costs more than its size tells */

@@ -1,4 +1,5 @@
-/* bake_sizes.c: which networks `bake` may try, and what an evaluation with each of them costs here. */
+/* bake_sizes.c: which networks `bake` may try, and what an evaluation with each of them costs
+ * here. */
 #include "cli/bake.h"
 #include "cli/bench.h"
 
@@ -44,8 +45,8 @@ static int by_mults(const void *a, const void *b)
     return x->mults < y->mults ? -1 : x->mults > y->mults ? 1 : y->latent - x->latent;
 }
 
-/* A latent code of one float less than there are materials lets the network treat each of them as it
- * likes; half of that, where they resemble each other, does too. */
+/* A latent code of one float less than there are materials lets the network treat each of them as
+ * it likes; half of that, where they resemble each other, does too. */
 static void add_latents(bake *b, int hidden, int layers)
 {
     size_t h = (size_t)hidden, fixed = h * (INPUTS + OUTPUTS) + h * h * ((size_t)layers - 1);
@@ -59,7 +60,8 @@ static void add_latents(bake *b, int hidden, int layers)
         add(b, hidden, layers, most / 2);
 }
 
-/* ---- Time ---------------------------------------------------------------------------------------- */
+/* ---- Time
+ * ---------------------------------------------------------------------------------------- */
 
 /* A network of this size with weights that mean nothing: time does not depend on them. */
 static hnbrdf_model *make_dummy(const bake *b, const bake_candidate *c)
@@ -116,15 +118,15 @@ static void between(void *user, double share)
 }
 
 /* All sizes in turn, the model last: `models` and `acts` have a place for each. */
-static void time_models(bake *b, stage *on, hnbrdf_model *const *models, act *acts, bench_probe *probes,
-                        bench_probe **list)
+static void time_models(bake *b, stage *on, hnbrdf_model *const *models, act *acts,
+                        bench_probe *probes, bench_probe **list)
 {
     cli_progress line;
     const bench_timing timing = {SAMPLE_NS, ROUNDS, between, &line};
     int count = b->candidate_count;
     for (int k = 0; k <= count; k++) {
-        acts[k] =
-            (act){on, k < count ? models[k] : b->model, hnbrdf_model_material(b->model, b->chosen[0])};
+        acts[k] = (act){on, k < count ? models[k] : b->model,
+                        hnbrdf_model_material(b->model, b->chosen[0])};
         probes[k] = bench_probe_make(run, &acts[k], TIMED_PAIRS);
         list[k] = &probes[k];
     }
@@ -143,7 +145,8 @@ static int time_all(bake *b)
     stage *on = malloc(sizeof *on);
     hnbrdf_model **models = calloc(count, sizeof *models);
     act *acts = calloc(count + 1, sizeof *acts);
-    bench_probe *probes = calloc(count + 1, sizeof *probes), **list = calloc(count + 1, sizeof *list);
+    bench_probe *probes = calloc(count + 1, sizeof *probes),
+                **list = calloc(count + 1, sizeof *list);
     int ready = on && models && acts && probes && list;
     hnbrdf_rng_seed(&rng, 1, 0);
     for (int k = 0; ready && k < TIMED_PAIRS; k++)

@@ -1,4 +1,5 @@
-/* bake_teacher.c: a material of a model, to be learned from and compared with like a measurement. */
+/* bake_teacher.c: a material of a model, to be learned from and compared with like a measurement.
+ * */
 #include "cli/bake.h"
 
 #include <stdlib.h>
@@ -15,8 +16,9 @@ static int eval(const void *user, const float wi[3], const float wo[3], float f[
     return 1;
 }
 
-/* Equal alphas, unless the network sees the azimuth of h. The encoding `directions` sees it too, but
- * only as far as training left a trace of it: such a material counts as isotropic if its GGX part is.
+/* Equal alphas, unless the network sees the azimuth of h. The encoding `directions` sees it too,
+ * but only as far as training left a trace of it: such a material counts as isotropic if its GGX
+ * part is.
  */
 static int is_isotropic(const teacher *t)
 {

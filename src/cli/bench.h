@@ -5,7 +5,8 @@
 
 #include "cli/cli.h"
 
-/* ---- bench_probe.c: timing ----------------------------------------------------------------------- */
+/* ---- bench_probe.c: timing
+ * ----------------------------------------------------------------------- */
 
 /* One thing that is timed. */
 typedef struct bench_probe {
@@ -35,7 +36,8 @@ void bench_time(const bench_timing *timing, bench_probe *const *probes, int coun
 /* Nanoseconds of this thread alone, in which others that want the processor do not count. */
 double bench_thread_ns(void);
 
-/* ---- The models and the table -------------------------------------------------------------------- */
+/* ---- The models and the table
+ * -------------------------------------------------------------------- */
 
 enum { BENCH_NAME = 96, BENCH_MODELS = 32, BENCH_ROWS = 512, BENCH_DEVICES = 8 };
 
@@ -46,7 +48,8 @@ typedef struct bench_model {
     const hnbrdf_material *material; /* the one that is evaluated */
     double smape, psnr;              /* means over the materials that have data; NaN: unknown */
     double half_smape;               /* of the network in half precision; NaN without Vulkan */
-    double peer_smape, peer_psnr; /* of bench_peer_model(); NaN unless the encoding is `directions` */
+    /* of bench_peer_model(); NaN unless the encoding is `directions` */
+    double peer_smape, peer_psnr;
 } bench_model;
 
 typedef struct bench_row {
@@ -62,8 +65,8 @@ typedef struct bench_row {
     double smape, psnr;
 } bench_row;
 
-/* What one thread can do with the instructions of this name, in FLOP/s: with fused multiply-adds, and
- * with multiplications and additions apart, as all of this library's arithmetic is. */
+/* What one thread can do with the instructions of this name, in FLOP/s: with fused multiply-adds,
+ * and with multiplications and additions apart, as all of this library's arithmetic is. */
 enum { BENCH_PEAKS = 6 };
 typedef struct bench_peak {
     const char *variant;
@@ -86,23 +89,26 @@ typedef struct bench {
 } bench;
 
 /* Another row, or NULL after a message. Numbers are NaN, nothing is timed. */
-bench_row *bench_add_row(bench *b, const bench_model *model, const char *backend, const char *variant,
-                         const char *weights, const char *precision);
+bench_row *bench_add_row(bench *b, const bench_model *model, const char *backend,
+                         const char *variant, const char *weights, const char *precision);
 /* "16x2", or "none" for ggx. */
 const char *bench_net(const bench_model *model, char text[16]);
 
-/* ns of one evaluation less those of its buffers; of the network alone likewise; NaN where unknown. */
+/* ns of one evaluation less those of its buffers; of the network alone likewise; NaN where
+ * unknown. */
 double bench_ns(const bench_row *row);
 double bench_network_ns(const bench_row *row);
-/* The row of GGX alone on the same backend, variant and precision as far as there is one; NULL: none.
+/* The row of GGX alone on the same backend, variant and precision as far as there is one; NULL:
+ * none.
  */
 const bench_row *bench_ggx(const bench *b, const bench_row *row);
-/* Multiplications and additions of the network in `ns`, as a share of what the row's threads could do
- * with its instructions (a software device's: with the widest there are), fused or not; NaN where
- * unknown. */
+/* Multiplications and additions of the network in `ns`, as a share of what the row's threads
+ * could do with its instructions (a software device's: with the widest there are), fused or not;
+ * NaN where unknown. */
 double bench_peak_fraction(const bench *b, const bench_row *row, double ns, int fused);
 
-/* ---- bench_cpu.c --------------------------------------------------------------------------------- */
+/* ---- bench_cpu.c
+ * --------------------------------------------------------------------------------- */
 
 typedef struct bench_cpu bench_cpu;
 /* Adds the rows of the C library. NULL after a message; close after bench_time(). */
@@ -111,7 +117,8 @@ void bench_cpu_close(bench_cpu *cpu);
 /* The processor's name, as far as the system tells. */
 const char *bench_cpu_name(void);
 
-/* ---- bench_gpu.c --------------------------------------------------------------------------------- */
+/* ---- bench_gpu.c
+ * --------------------------------------------------------------------------------- */
 
 typedef struct bench_gpu bench_gpu;
 typedef struct bench_gpu_options {
@@ -123,23 +130,27 @@ typedef struct bench_gpu_options {
 bench_gpu *bench_gpu_open(bench *b, const bench_gpu_options *options);
 void bench_gpu_close(bench_gpu *gpu);
 
-/* ---- bench_peer.c -------------------------------------------------------------------------------- */
+/* ---- bench_peer.c
+ * -------------------------------------------------------------------------------- */
 
-/* A shader in the style of the published ones for the first materials of a hybrid model whose hidden
- * size is a multiple of 4; malloc'ed, NULL when memory is short. It defines what an exported scene
- * does. */
+/* A shader in the style of the published ones for the first materials of a hybrid model whose
+ * hidden size is a multiple of 4; malloc'ed, NULL when memory is short. It defines what an
+ * exported scene does. */
 char *bench_peer_shader(const hnbrdf_model_desc *desc, int materials);
-/* The model whose values that shader gives: every number with three decimals, isotropic, no floor. NULL
- * when memory is short. */
+/* The model whose values that shader gives: every number with three decimals, isotropic, no
+ * floor. NULL when memory is short. */
 hnbrdf_model *bench_peer_model(const hnbrdf_model_desc *desc);
 
-/* ---- bench_quality.c ----------------------------------------------------------------------------- */
+/* ---- bench_quality.c
+ * ----------------------------------------------------------------------------- */
 
-/* Fills smape and psnr of the models, and of their peers if `peers`. 0, or CLI_FAILURE after a message.
+/* Fills smape and psnr of the models, and of their peers if `peers`. 0, or CLI_FAILURE after a
+ * message.
  */
 int bench_measure_quality(bench *b, const cli_data *data, int peers);
 
-/* ---- bench_write.c, bench_plot.c ------------------------------------------------------------------
+/* ---- bench_write.c, bench_plot.c
+ * ------------------------------------------------------------------
  */
 
 void bench_print(const bench *b);

@@ -1,4 +1,5 @@
-/* bench_cpu.c: what the C library takes on one thread: single evaluations, batches, the network alone.
+/* bench_cpu.c: what the C library takes on one thread: single evaluations, batches, the network
+ * alone.
  */
 #include "cli/bench.h"
 #include "core/network.h"
@@ -23,11 +24,13 @@ typedef struct cpu_work {
 
 struct bench_cpu {
     float wi[PAIRS][3], wo[PAIRS][3], f[PAIRS][3];
-    float inputs[BLOCKS][HNBRDF_ENCODING_SIZE][HNBRDF_LANES], outputs[HNBRDF_MAX_OUTPUTS][HNBRDF_LANES];
+    float inputs[BLOCKS][HNBRDF_ENCODING_SIZE][HNBRDF_LANES],
+        outputs[HNBRDF_MAX_OUTPUTS][HNBRDF_LANES];
     cpu_work *works; /* all that were made */
 };
 
-/* ---- What is timed ------------------------------------------------------------------------------- */
+/* ---- What is timed
+ * ------------------------------------------------------------------------------- */
 
 static double run_single(void *context, long repeats)
 {
@@ -67,8 +70,8 @@ static double run_many(void *context, long repeats)
     struct bench_cpu *cpu = w->cpu;
     double started = bench_thread_ns();
     for (long n = 0; n < repeats; n++)
-        hnbrdf_eval_many(w->model, w->table, w->index, PAIRS, cpu->wi[0], 0, cpu->wo[0], 0, cpu->f[0],
-                         0);
+        hnbrdf_eval_many(w->model, w->table, w->index, PAIRS, cpu->wi[0], 0, cpu->wo[0], 0,
+                         cpu->f[0], 0);
     return bench_thread_ns() - started;
 }
 
@@ -83,9 +86,11 @@ static double run_network(void *context, long repeats)
     return bench_thread_ns() - started;
 }
 
-/* ---- Rows ---------------------------------------------------------------------------------------- */
+/* ---- Rows
+ * ---------------------------------------------------------------------------------------- */
 
-/* Directions as a renderer has them, and inputs as a network sees them: numbers between -1 and 1. */
+/* Directions as a renderer has them, and inputs as a network sees them: numbers between -1 and 1.
+ * */
 static void fill(struct bench_cpu *cpu)
 {
     hnbrdf_rng rng;
@@ -93,11 +98,13 @@ static void fill(struct bench_cpu *cpu)
     for (int k = 0; k < PAIRS; k++) {
         hnbrdf_sampler_draw(HNBRDF_SAMPLER_UNIFORM, &rng, cpu->wi[k], cpu->wo[k]);
         for (int i = 0; i < HNBRDF_ENCODING_SIZE; i++)
-            cpu->inputs[k / HNBRDF_LANES][i][k % HNBRDF_LANES] = 2.0f * hnbrdf_rng_float(&rng) - 1.0f;
+            cpu->inputs[k / HNBRDF_LANES][i][k % HNBRDF_LANES] =
+                2.0f * hnbrdf_rng_float(&rng) - 1.0f;
     }
 }
 
-/* Some of the model's materials without any order, as the hits of a scattered ray batch have them. */
+/* Some of the model's materials without any order, as the hits of a scattered ray batch have
+ * them. */
 static void fill_table(cpu_work *work)
 {
     int count = hnbrdf_model_material_count(work->model);
@@ -137,7 +144,8 @@ typedef double (*runner)(void *context, long repeats);
 static int add_row(bench *b, const bench_model *model, cpu_work *work, hnbrdf_variant variant,
                    const char *backend, runner whole, int with_network)
 {
-    bench_row *row = bench_add_row(b, model, backend, hnbrdf_variant_name(variant), "model", "float");
+    bench_row *row =
+        bench_add_row(b, model, backend, hnbrdf_variant_name(variant), "model", "float");
     if (!row)
         return CLI_FAILURE;
     row->threads = 1;
@@ -152,7 +160,8 @@ static int add_row(bench *b, const bench_model *model, cpu_work *work, hnbrdf_va
 static int add_model(bench *b, struct bench_cpu *cpu, const bench_model *model)
 {
     int code = CLI_OK;
-    for (int v = HNBRDF_VARIANT_PLAIN; hnbrdf_variant_name((hnbrdf_variant)v) && code == CLI_OK; v++) {
+    for (int v = HNBRDF_VARIANT_PLAIN; hnbrdf_variant_name((hnbrdf_variant)v) && code == CLI_OK;
+         v++) {
         hnbrdf_variant variant = (hnbrdf_variant)v;
         int in_use = variant == model->desc.variant;
         if (!hnbrdf_variant_available(variant))

@@ -1,4 +1,5 @@
-/* bench_gpu.c: what exported shaders take on the machine's Vulkan devices, in every style there is. */
+/* bench_gpu.c: what exported shaders take on the machine's Vulkan devices, in every style there
+ * is. */
 #include "cli/bench.h"
 
 #ifdef HNBRDF_WITH_VULKAN
@@ -42,21 +43,23 @@ static double process_ns(void)
     return 1e9 * (double)now.tv_sec + (double)now.tv_nsec;
 }
 
-/* A device in software runs on this process's threads: what they use of the processors, shared out to
- * all of them, is what the device takes when nobody else wants the machine. Others tell by their
- * timestamps. */
+/* A device in software runs on this process's threads: what they use of the processors, shared
+ * out to all of them, is what the device takes when nobody else wants the machine. Others tell by
+ * their timestamps. */
 static double run_item(void *context, long repeats)
 {
     gpu_item *item = context;
     double ns = (double)NAN, used = -process_ns();
     hnbrdf_error error;
-    if (gpu_timed_run(&item->on->device, &item->on->buffers, &item->timed, (int)repeats, &ns, &error))
+    if (gpu_timed_run(&item->on->device, &item->on->buffers, &item->timed, (int)repeats, &ns,
+                      &error))
         return (double)NAN;
     used += process_ns();
     return item->on->is_cpu ? used / cli_processors() : ns;
 }
 
-/* ---- Scenes -------------------------------------------------------------------------------------- */
+/* ---- Scenes
+ * -------------------------------------------------------------------------------------- */
 
 /* NULL after a message. */
 static gpu_item *open_item(gpu_bench_device *on, const gpu_scene *scene, gpu_work work)
@@ -82,8 +85,8 @@ static bench_probe probe_of(gpu_item *item)
     return bench_probe_make(run_item, item, (long)item->on->buffers.count);
 }
 
-static int add_scene(bench *b, gpu_bench_device *on, const bench_model *model, const gpu_scene *scene,
-                     const char *weights, const char *precision)
+static int add_scene(bench *b, gpu_bench_device *on, const bench_model *model,
+                     const gpu_scene *scene, const char *weights, const char *precision)
 {
     bench_row *row = bench_add_row(b, model, on->name, "shader", weights, precision);
     gpu_item *whole = row ? open_item(on, scene, GPU_WORK_VALUE) : NULL;
@@ -129,8 +132,8 @@ static int export_scene(const bench_model *model, hnbrdf_glsl_weights weights,
     hnbrdf_result result =
         hnbrdf_export_glsl(model->model, &options, text_buffer_append, &scene->text, &error);
     if (!result && weights == HNBRDF_GLSL_UNIFORM)
-        result =
-            hnbrdf_export_weights(model->model, &options, text_buffer_append, &scene->weights, &error);
+        result = hnbrdf_export_weights(model->model, &options, text_buffer_append, &scene->weights,
+                                       &error);
     return result ? cli_fail("%s: %s", model->name, error.text) : CLI_OK;
 }
 
@@ -176,8 +179,8 @@ static int add_peer(bench *b, gpu_bench_device *on, const bench_model *model)
         return CLI_OK;
     char *text = bench_peer_shader(&model->desc, count < SCENE_MATERIALS ? count : SCENE_MATERIALS);
     const gpu_scene scene = {.text = text};
-    int code =
-        text ? add_scene(b, on, model, &scene, "published-style", "float") : cli_fail("out of memory");
+    int code = text ? add_scene(b, on, model, &scene, "published-style", "float")
+                    : cli_fail("out of memory");
     free(text);
     if (code != CLI_OK)
         return code;
@@ -188,7 +191,8 @@ static int add_peer(bench *b, gpu_bench_device *on, const bench_model *model)
     return CLI_OK;
 }
 
-/* ---- Devices ------------------------------------------------------------------------------------- */
+/* ---- Devices
+ * ------------------------------------------------------------------------------------- */
 
 /* Without what it says about its driver: "vulkan:llvmpipe (LLVM 15.0.6, 256 bits)" is
  * "vulkan:llvmpipe". */
@@ -254,8 +258,9 @@ static int choose(const gpu_instance *instance, const char *text, int *first, in
     char *end;
     long number = strtol(text, &end, 10);
     if (end == text || *end || number < 0 || number >= instance->count)
-        return cli_fail("--device %s: expected all, none, or a number below %d (hnbrdf verify --list)",
-                        text, instance->count);
+        return cli_fail(
+            "--device %s: expected all, none, or a number below %d (hnbrdf verify --list)", text,
+            instance->count);
     *first = (int)number;
     *count = 1;
     return CLI_OK;

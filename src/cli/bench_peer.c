@@ -1,6 +1,6 @@
 /* bench_peer.c: a shader in the style of the published ones, to have a peer in every run of the
- * benchmark: mat4 times vec4 chains, literals of three decimals, the microfacet formulas written out as
- * they stand. */
+ * benchmark: mat4 times vec4 chains, literals of three decimals, the microfacet formulas written
+ * out as they stand. */
 #include "cli/bench.h"
 #include "cli/text_buffer.h"
 
@@ -9,9 +9,9 @@
 #include <string.h>
 
 /* Where the published style differs from ours, and nothing else: the network's inputs are the
- * directions, D and G1 are full fractions in the tangent of the angle, Fresnel is taken per channel and
- * squares with pow, HardGELU blends with mix and step. pow takes an absolute value: of a negative one
- * it is undefined. */
+ * directions, D and G1 are full fractions in the tangent of the angle, Fresnel is taken per
+ * channel and squares with pow, HardGELU blends with mix and step. pow takes an absolute value:
+ * of a negative one it is undefined. */
 static const char formulas[] =
     "const float PI = 3.14159265;\n"
     "\n"
@@ -62,7 +62,8 @@ static const char evaluation[] = "vec3 hnbrdf_eval(hnbrdf_material m, vec3 wi, v
                                  "    vec3 neural_output, gate;\n"
                                  "    hnbrdf_network(m, wi, wo, neural_output, gate);\n";
 
-/* ---- Numbers ------------------------------------------------------------------------------------- */
+/* ---- Numbers
+ * ------------------------------------------------------------------------------------- */
 
 static float rounded(float value)
 {
@@ -91,7 +92,8 @@ static void put_thousandths(text_buffer *text, float value)
                       labs(thousandths) % 1000);
 }
 
-static void put_numbers(text_buffer *text, const char *type, const float *values, int count, int given)
+static void put_numbers(text_buffer *text, const char *type, const float *values, int count,
+                        int given)
 {
     text_buffer_print(text, "%s(", type);
     for (int k = 0; k < count; k++) {
@@ -101,7 +103,8 @@ static void put_numbers(text_buffer *text, const char *type, const float *values
     text_buffer_print(text, ")");
 }
 
-/* ---- The network --------------------------------------------------------------------------------- */
+/* ---- The network
+ * --------------------------------------------------------------------------------- */
 
 static int inputs_of(const hnbrdf_model_desc *desc, int layer)
 {
@@ -113,10 +116,11 @@ static int outputs_of(const hnbrdf_model_desc *desc, int layer)
     return layer == desc->layers ? 6 : desc->hidden;
 }
 
-/* mat4(...) * fL_B: `rows` rows from `row` on, four columns or what is left of them; column by column.
+/* mat4(...) * fL_B: `rows` rows from `row` on, four columns or what is left of them; column by
+ * column.
  */
-static void put_product(text_buffer *text, const hnbrdf_model_desc *desc, int layer, int row, int rows,
-                        int block)
+static void put_product(text_buffer *text, const hnbrdf_model_desc *desc, int layer, int row,
+                        int rows, int block)
 {
     int inputs = inputs_of(desc, layer), columns = inputs - 4 * block;
     columns = columns < 4 ? columns : 4;
@@ -128,7 +132,8 @@ static void put_product(text_buffer *text, const hnbrdf_model_desc *desc, int la
         text_buffer_print(text, "mat%dx%d(", columns, rows);
     for (int k = 0; k < rows * columns; k++) {
         text_buffer_print(text, "%s", k ? ", " : "");
-        put_thousandths(text, desc->weights[layer][(row + k % rows) * inputs + 4 * block + k / rows]);
+        put_thousandths(text,
+                        desc->weights[layer][(row + k % rows) * inputs + 4 * block + k / rows]);
     }
     text_buffer_print(text, ") * f%d_%d + ", layer, block);
 }
@@ -138,7 +143,8 @@ static void put_rows(text_buffer *text, const hnbrdf_model_desc *desc, int layer
     int hidden = layer < desc->layers;
     char type[8];
     snprintf(type, sizeof type, "vec%d", rows);
-    text_buffer_print(text, "    %s f%d_%d = %s", type, layer + 1, row / 4, hidden ? "hardGeLU(" : "");
+    text_buffer_print(text, "    %s f%d_%d = %s", type, layer + 1, row / 4,
+                      hidden ? "hardGeLU(" : "");
     for (int block = 0; 4 * block < inputs_of(desc, layer); block++)
         put_product(text, desc, layer, row, rows, block);
     put_numbers(text, type, desc->biases[layer] + row, rows, rows);
@@ -167,9 +173,9 @@ static void put_inputs(text_buffer *text, const hnbrdf_model_desc *desc)
 static void put_network(text_buffer *text, const hnbrdf_model_desc *desc)
 {
     int last = desc->layers + 1;
-    text_buffer_print(text,
-                      "void hnbrdf_network(hnbrdf_material m, vec3 wi, vec3 wo, out vec3 c, out vec3 "
-                      "g)\n{\n");
+    text_buffer_print(
+        text, "void hnbrdf_network(hnbrdf_material m, vec3 wi, vec3 wo, out vec3 c, out vec3 "
+              "g)\n{\n");
     put_inputs(text, desc);
     for (int layer = 0; layer <= desc->layers; layer++)
         for (int row = 0; row < outputs_of(desc, layer); row += 4)
@@ -178,7 +184,8 @@ static void put_network(text_buffer *text, const hnbrdf_model_desc *desc)
                       last);
 }
 
-/* ---- The whole ----------------------------------------------------------------------------------- */
+/* ---- The whole
+ * ----------------------------------------------------------------------------------- */
 
 static void put_materials(text_buffer *text, const hnbrdf_model_desc *desc, int materials)
 {

@@ -1,5 +1,5 @@
-/* bench_plot.c: error against run time: a pair of panels (SMAPE, PSNR) for each backend, with Pareto
- * fronts. */
+/* bench_plot.c: error against run time: a pair of panels (SMAPE, PSNR) for each backend, with
+ * Pareto fronts. */
 #include "cli/bench.h"
 #include "cli/svg.h"
 
@@ -23,7 +23,8 @@ typedef enum plot_kind { PLOT_GGX, PLOT_HYBRID, PLOT_NEURAL, PLOT_PEER, PLOT_KIN
 
 static const char *const kind_titles[PLOT_KINDS] = {"GGX alone", "hybrid", "neural",
                                                     "published-style shader"};
-static const svg_shape kind_shapes[PLOT_KINDS] = {SVG_DIAMOND, SVG_CIRCLE, SVG_TRIANGLE, SVG_SQUARE};
+static const svg_shape kind_shapes[PLOT_KINDS] = {SVG_DIAMOND, SVG_CIRCLE, SVG_TRIANGLE,
+                                                  SVG_SQUARE};
 
 typedef struct plot_point {
     const bench_row *row;
@@ -51,14 +52,16 @@ static plot_kind kind_of(const bench_row *row)
                                                          : PLOT_HYBRID;
 }
 
-/* ---- Choosing ------------------------------------------------------------------------------------ */
+/* ---- Choosing
+ * ------------------------------------------------------------------------------------ */
 
 static int same_point(const bench_row *a, const bench_row *b)
 {
     return a->model == b->model && kind_of(a) == kind_of(b);
 }
 
-/* Of the rows of one model on a backend, which differ in variant, storage and precision, the fastest.
+/* Of the rows of one model on a backend, which differ in variant, storage and precision, the
+ * fastest.
  */
 static void add_point(plot_panel *panel, const bench_row *row, double error)
 {
@@ -96,8 +99,8 @@ static int choose_backends(const bench *b, const char *backends[PLOT_BACKENDS])
 {
     int count = 0;
     for (int k = 0; k < b->row_count; k++) {
-        int known =
-            strcmp(b->rows[k].backend, "c-single") == 0 || strcmp(b->rows[k].backend, "c-many") == 0;
+        int known = strcmp(b->rows[k].backend, "c-single") == 0 ||
+                    strcmp(b->rows[k].backend, "c-many") == 0;
         for (int i = 0; i < count; i++)
             known = known || strcmp(backends[i], b->rows[k].backend) == 0;
         if (!known && count < PLOT_BACKENDS)
@@ -106,7 +109,8 @@ static int choose_backends(const bench *b, const char *backends[PLOT_BACKENDS])
     return count;
 }
 
-/* ---- Drawing ------------------------------------------------------------------------------------- */
+/* ---- Drawing
+ * ------------------------------------------------------------------------------------- */
 
 /* The points, in order of time, that no faster one beats. */
 static void draw_front(const plot_panel *panel, const svg_panel *axes, FILE *file)
@@ -146,11 +150,13 @@ static void draw_labels(const plot_panel *panel, const svg_panel *axes, FILE *fi
         char text[64];
         const plot_point *p = &panel->points[k];
         label_of(p->row, text, sizeof text);
-        double length = 6.4 * (double)strlen(text), x = svg_x(axes, p->ns), y = svg_y(axes, p->error);
+        double length = 6.4 * (double)strlen(text), x = svg_x(axes, p->ns),
+               y = svg_y(axes, p->error);
         int left = x + length + 14.0 > axes->left + axes->width;
         double from = left ? x - 8.0 - length : x + 8.0, at = y - 7.0;
         for (int i = 0; i < k; i++)
-            if (from < taken[i][1] && from + length > taken[i][0] && fabs(at - taken[i][2]) < 12.0) {
+            if (from < taken[i][1] && from + length > taken[i][0] &&
+                fabs(at - taken[i][2]) < 12.0) {
                 at = taken[i][2] - 12.0;
                 i = -1;
             }
@@ -168,7 +174,8 @@ static void draw_panel(const bench *b, const char *backend, int psnr, double lef
     char title[64];
     plot_panel panel;
     choose_points(b, backend, psnr, &panel);
-    snprintf(title, sizeof title, "SMAPE, %s sampler", hnbrdf_sampler_name((hnbrdf_sampler)b->sampler));
+    snprintf(title, sizeof title, "SMAPE, %s sampler",
+             hnbrdf_sampler_name((hnbrdf_sampler)b->sampler));
     svg_panel axes = {.left = left,
                       .top = top,
                       .width = WIDTH,
@@ -186,7 +193,8 @@ static void draw_panel(const bench *b, const char *backend, int psnr, double lef
     draw_labels(&panel, &axes, file); /* under the marks, which their rims would hide */
     for (int k = 0; k < panel.count; k++)
         svg_mark(file, kind_shapes[kind_of(panel.points[k].row)], svg_x(&axes, panel.points[k].ns),
-                 svg_y(&axes, panel.points[k].error), 5.0, kind_color(kind_of(panel.points[k].row)), 0);
+                 svg_y(&axes, panel.points[k].error), 5.0, kind_color(kind_of(panel.points[k].row)),
+                 0);
 }
 
 static int has_kind(const bench *b, plot_kind kind)
@@ -217,7 +225,8 @@ static void title_of(const bench *b, const char *backend, char *text, size_t siz
     while (strcmp(row->backend, backend) != 0)
         row++;
     if (row->io)
-        snprintf(text, size, "%s, buffers subtracted%s", backend, row->threads ? ", all threads" : "");
+        snprintf(text, size, "%s, buffers subtracted%s", backend,
+                 row->threads ? ", all threads" : "");
     else
         snprintf(text, size, "%s, one thread, %s", backend, b->cpu);
 }

@@ -1,4 +1,5 @@
-/* bench_probe.c: timing on a machine that others use too: many short samples in turn, the least counts.
+/* bench_probe.c: timing on a machine that others use too: many short samples in turn, the least
+ * counts.
  */
 #include "cli/bench.h"
 
@@ -10,7 +11,8 @@ enum { MOST_REPEATS = 1 << 24 };
 bench_probe bench_probe_make(double (*run)(void *context, long repeats), void *context,
                              long evaluations)
 {
-    return (bench_probe){.run = run, .context = context, .evaluations = evaluations, .ns = (double)NAN};
+    return (bench_probe){
+        .run = run, .context = context, .evaluations = evaluations, .ns = (double)NAN};
 }
 
 double bench_thread_ns(void)

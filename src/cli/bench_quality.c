@@ -30,7 +30,8 @@ typedef struct quality {
     cli_progress line;
 } quality;
 
-/* ---- Half precision, as the exported shaders compute where + and * round correctly -----------------
+/* ---- Half precision, as the exported shaders compute where + and * round correctly
+ * -----------------
  */
 
 #ifdef HNBRDF_WITH_VULKAN
@@ -67,7 +68,8 @@ static double smape_added_by_half(const quality *q, const hnbrdf_model *model,
     return valid ? sum / (3.0 * (double)valid) : (double)NAN;
 }
 
-/* ---- Who is measured ------------------------------------------------------------------------------
+/* ---- Who is measured
+ * ------------------------------------------------------------------------------
  */
 
 static void add_subject(quality *q, const subject *s)
@@ -98,7 +100,8 @@ static const hnbrdf_material *material_of(const quality *q, int s, int m)
                                  hnbrdf_model_find(model, hnbrdf_measured_name(q->data->items[m])));
 }
 
-/* ---- SMAPE --------------------------------------------------------------------------------------- */
+/* ---- SMAPE
+ * --------------------------------------------------------------------------------------- */
 
 static void compare_one(void *context, int index, int worker)
 {
@@ -107,12 +110,12 @@ static void compare_one(void *context, int index, int worker)
     const hnbrdf_material *material = material_of(q, s, m);
     hnbrdf_comparison error;
     (void)worker;
-    if (material &&
-        hnbrdf_compare(q->subjects[s].model, material, q->data->items[m], (hnbrdf_sampler)q->b->sampler,
-                       (size_t)q->b->pairs, 1, &error, NULL) == HNBRDF_OK)
+    if (material && hnbrdf_compare(q->subjects[s].model, material, q->data->items[m],
+                                   (hnbrdf_sampler)q->b->sampler, (size_t)q->b->pairs, 1, &error,
+                                   NULL) == HNBRDF_OK)
         q->smape[index] =
-            error.smape + (q->subjects[s].half ? smape_added_by_half(q, q->subjects[s].model, material,
-                                                                     q->data->items[m])
+            error.smape + (q->subjects[s].half ? smape_added_by_half(q, q->subjects[s].model,
+                                                                     material, q->data->items[m])
                                                : 0.0);
 }
 
@@ -129,7 +132,8 @@ static int measure_smape(quality *q)
     return CLI_OK;
 }
 
-/* ---- PSNR ---------------------------------------------------------------------------------------- */
+/* ---- PSNR
+ * ---------------------------------------------------------------------------------------- */
 
 static int render(quality *q, const render_surface *surface, render_image *image)
 {
@@ -140,7 +144,8 @@ static int render(quality *q, const render_surface *surface, render_image *image
     return CLI_OK;
 }
 
-/* Spheres of one material: the measurement, then every subject, along the same random directions. */
+/* Spheres of one material: the measurement, then every subject, along the same random directions.
+ * */
 static int compare_spheres(quality *q, int m, render_surface *surfaces, const render_surface **all)
 {
     int count = 0;
@@ -189,7 +194,8 @@ static int measure_psnr(quality *q)
     return code;
 }
 
-/* ---- Both ---------------------------------------------------------------------------------------- */
+/* ---- Both
+ * ---------------------------------------------------------------------------------------- */
 
 /* Over the materials that have a value; NaN without any. */
 static double mean(const double *values, int count)

@@ -5,12 +5,14 @@
 #include <math.h>
 #include <string.h>
 
-static const char columns[] =
-    "model,net,encoding,latent,backend,variant,weights,precision,ns_per_eval,evals_per_s,peak_fraction,"
-    "ratio_to_ggx,compile_ms,bytes,mults,smape,psnr,io_ns,net_ns,net_peak_fraction,first_dispatch_ms,"
-    "threads,net_muladd_fraction";
+static const char columns[] = "model,net,encoding,latent,backend,variant,weights,precision,ns_per_"
+                              "eval,evals_per_s,peak_fraction,"
+                              "ratio_to_ggx,compile_ms,bytes,mults,smape,psnr,io_ns,net_ns,net_"
+                              "peak_fraction,first_dispatch_ms,"
+                              "threads,net_muladd_fraction";
 
-/* ---- What follows from a row --------------------------------------------------------------------- */
+/* ---- What follows from a row
+ * --------------------------------------------------------------------- */
 
 typedef struct figures {
     double ns, network_ns, io_ns, per_second, peak_fraction, network_peak_fraction,
@@ -38,7 +40,8 @@ static const char *encoding_of(const bench_row *row)
     return row->model->desc.kind == HNBRDF_KIND_GGX ? "none" : hnbrdf_encoding_name(row->encoding);
 }
 
-/* ---- For people ---------------------------------------------------------------------------------- */
+/* ---- For people
+ * ---------------------------------------------------------------------------------- */
 
 /* A number with `digits` decimals in `width` columns; a dash where it is unknown. */
 static void print_number(int width, int digits, double value)
@@ -76,17 +79,18 @@ static void print_heading(const bench *b)
     printf("%s, %d threads in this machine; CPU rows on one thread, in its own CPU time\n", b->cpu,
            cli_processors());
     for (int k = 0; k < b->peak_count; k++)
-        printf("%s %s: %.1f GFLOP/s fused, %.1f with additions apart", k ? "," : "peak of one thread,",
-               b->peaks[k].variant, b->peaks[k].fma * 1e-9, b->peaks[k].muladd * 1e-9);
+        printf("%s %s: %.1f GFLOP/s fused, %.1f with additions apart",
+               k ? "," : "peak of one thread,", b->peaks[k].variant, b->peaks[k].fma * 1e-9,
+               b->peaks[k].muladd * 1e-9);
     printf("\n");
-    printf(
-        "least of %ld rounds over all rows; ns/eval without buffers (io), network: the network alone\n",
-        b->rounds);
+    printf("least of %ld rounds over all rows; ns/eval without buffers (io), network: the network "
+           "alone\n",
+           b->rounds);
     if (isfinite(b->models[0].smape))
-        printf(
-            "SMAPE by the %s sampler, %ld pairs a material; PSNR in dB of spheres %ld pixels wide, %ld "
-            "samples a pixel\n",
-            hnbrdf_sampler_name((hnbrdf_sampler)b->sampler), b->pairs, b->size, b->spp);
+        printf("SMAPE by the %s sampler, %ld pairs a material; PSNR in dB of spheres %ld pixels "
+               "wide, %ld "
+               "samples a pixel\n",
+               hnbrdf_sampler_name((hnbrdf_sampler)b->sampler), b->pairs, b->size, b->spp);
     printf("\n");
 }
 
@@ -103,8 +107,8 @@ static void print_ratios(const bench *b, const bench_row *row)
                100.0 * f.network_peak_fraction, 100.0 * f.network_muladd_fraction);
     for (int k = 0; k < b->row_count; k++) {
         const bench_row *peer = &b->rows[k];
-        if (strcmp(peer->weights, "published-style") == 0 && peer != row && peer->model == row->model &&
-            strcmp(peer->backend, row->backend) == 0)
+        if (strcmp(peer->weights, "published-style") == 0 && peer != row &&
+            peer->model == row->model && strcmp(peer->backend, row->backend) == 0)
             printf(", %.2f times the published style", f.ns / bench_ns(peer));
     }
     printf("\n");
@@ -119,12 +123,12 @@ void bench_print(const bench *b)
         backend = other > backend ? other : backend;
     }
     print_heading(b);
-    printf(
-        "%-*s  %-5s  %-18s  %-*s  %-7s  %-15s  %-5s  %8s  %7s  %7s  %6s  %8s  %6s  %6s  %7s  %7s  %7s  "
-        "%6s  %5s\n",
-        name, "model", "net", "encoding", backend, "backend", "variant", "weights", "prec.", "ns/eval",
-        "M/s", "x GGX", "% peak", "network", "% peak", "io", "compile", "first", "bytes", "SMAPE",
-        "PSNR");
+    printf("%-*s  %-5s  %-18s  %-*s  %-7s  %-15s  %-5s  %8s  %7s  %7s  %6s  %8s  %6s  %6s  %7s  "
+           "%7s  %7s  "
+           "%6s  %5s\n",
+           name, "model", "net", "encoding", backend, "backend", "variant", "weights", "prec.",
+           "ns/eval", "M/s", "x GGX", "% peak", "network", "% peak", "io", "compile", "first",
+           "bytes", "SMAPE", "PSNR");
     for (int k = 0; k < b->row_count; k++)
         print_row(b, &b->rows[k], name, backend);
     printf("\nratios:\n");
@@ -132,7 +136,8 @@ void bench_print(const bench *b)
         print_ratios(b, &b->rows[k]);
 }
 
-/* ---- For programs -------------------------------------------------------------------------------- */
+/* ---- For programs
+ * -------------------------------------------------------------------------------- */
 
 static void write_csv_number(FILE *file, double value)
 {
@@ -147,7 +152,8 @@ static void write_csv_row(const bench *b, const bench_row *row, FILE *file)
     char net[16];
     figures f = figures_of(b, row);
     csv_write_text(file, row->model->name);
-    fprintf(file, ",%s,%s,%d,", bench_net(row->model, net), encoding_of(row), row->model->desc.latent);
+    fprintf(file, ",%s,%s,%d,", bench_net(row->model, net), encoding_of(row),
+            row->model->desc.latent);
     csv_write_text(file, row->backend);
     fprintf(file, ",%s,%s,%s", row->variant, row->weights, row->precision);
     const double before[] = {f.ns, f.per_second, f.peak_fraction, f.ratio, row->compile_ms};

@@ -11,7 +11,8 @@
 
 enum { HELP_COLUMNS = 100, MESSAGE_SIZE = 1024 };
 
-/* ---- Messages ------------------------------------------------------------------------------------ */
+/* ---- Messages
+ * ------------------------------------------------------------------------------------ */
 
 /* One line whatever file names and contents hold: control characters become '?'. */
 static void print_line(const char *before, const char *format, va_list arguments)
@@ -59,7 +60,8 @@ int cli_processors(void)
     return count < 1 ? 1 : count > 1024 ? 1024 : (int)count;
 }
 
-/* ---- Suggestions --------------------------------------------------------------------------------- */
+/* ---- Suggestions
+ * --------------------------------------------------------------------------------- */
 
 static size_t min3(size_t a, size_t b, size_t c)
 {
@@ -116,7 +118,8 @@ const char *cli_guess_nearest(const cli_guess *guess)
     return guess->nearest && guess->distance <= 1 + strlen(guess->word) / 4 ? guess->nearest : NULL;
 }
 
-/* ---- Help ---------------------------------------------------------------------------------------- */
+/* ---- Help
+ * ---------------------------------------------------------------------------------------- */
 
 /* Words of text from `column` on, wrapped at HELP_COLUMNS and indented to `column`. */
 static void print_wrapped(const char *text, int column)
@@ -186,7 +189,8 @@ static void print_help(const cli_command *command, const cli_option *options)
     print_indented(command->examples);
 }
 
-/* ---- Parsing ------------------------------------------------------------------------------------- */
+/* ---- Parsing
+ * ------------------------------------------------------------------------------------- */
 
 int cli_parse_real(const char *text, double *value)
 {
@@ -263,10 +267,11 @@ static int set_option(const cli_command *command, const cli_option *option, cons
     case CLI_NET:
         if (parse_net(text, option->value))
             return -1;
-        return cli_usage(command,
-                         "--%s: '%s' is not HxN, as in 32x2: H units from 1 to %d in each of N hidden "
-                         "layers from 1 to %d",
-                         option->name, text, HNBRDF_MAX_HIDDEN, HNBRDF_MAX_LAYERS);
+        return cli_usage(
+            command,
+            "--%s: '%s' is not HxN, as in 32x2: H units from 1 to %d in each of N hidden "
+            "layers from 1 to %d",
+            option->name, text, HNBRDF_MAX_HIDDEN, HNBRDF_MAX_LAYERS);
     case CLI_CHOICE:
         if (find_choice(option->argument, text) < 0)
             return cli_usage(command, "--%s: found '%s', expected %s", option->name, text,

@@ -10,7 +10,8 @@
 /* Exit codes: 0 done, 1 failure (bad data, out of bounds, I/O), 2 wrong usage. */
 enum { CLI_OK = 0, CLI_FAILURE = 1, CLI_USAGE = 2 };
 
-/* ---- Subcommands: one file each, cmd_NAME.c. argv[0] is the subcommand's name. ------------------- */
+/* ---- Subcommands: one file each, cmd_NAME.c. argv[0] is the subcommand's name.
+ * ------------------- */
 int cmd_fit(int argc, char **argv);
 int cmd_eval(int argc, char **argv);
 int cmd_compare(int argc, char **argv);
@@ -30,20 +31,21 @@ int cmd_import(int argc, char **argv);
 int cmd_info(int argc, char **argv);
 int cmd_stability(int argc, char **argv);
 
-/* ---- Options ---------------------------------------------------------------------------------------
- * A command describes itself once; --help, parsing and messages come from that. */
+/* ---- Options
+ * --------------------------------------------------------------------------------------- A
+ * command describes itself once; --help, parsing and messages come from that. */
 typedef enum cli_type {
-    CLI_FLAG,   /* int *: set to 1 */
-    CLI_TEXT,   /* const char **: points into argv */
-    CLI_INT,    /* long *: decimal integer */
-    CLI_REAL,   /* double *: finite decimal number, '.' whatever the locale */
-    CLI_NET,    /* int[2]: HxN, as in 32x2 */
-    CLI_CHOICE  /* int *: which word of `argument`, "a|b|c", from 0 */
+    CLI_FLAG,  /* int *: set to 1 */
+    CLI_TEXT,  /* const char **: points into argv */
+    CLI_INT,   /* long *: decimal integer */
+    CLI_REAL,  /* double *: finite decimal number, '.' whatever the locale */
+    CLI_NET,   /* int[2]: HxN, as in 32x2 */
+    CLI_CHOICE /* int *: which word of `argument`, "a|b|c", from 0 */
 } cli_type;
 
 typedef struct cli_option {
-    const char *name;     /* long name without "--"; NULL ends the table */
-    char letter;          /* short name, or 0 */
+    const char *name; /* long name without "--"; NULL ends the table */
+    char letter;      /* short name, or 0 */
     cli_type type;
     void *value;
     double low, high;     /* accepted range of CLI_INT and CLI_REAL; both 0: any */
@@ -58,9 +60,10 @@ typedef struct cli_command {
     const char *examples; /* lines that can be pasted; --help indents them */
 } cli_command;
 
-/* Parses argv[1..]. `--name value`, `--name=value`, `-o value`; "--" ends options; "-" is positional.
- * Positionals are moved to argv[1..*positionals] in order. Returns -1 to go on; otherwise the exit code
- * the command must return (0 after --help, 2 after an error, whose message has been printed). */
+/* Parses argv[1..]. `--name value`, `--name=value`, `-o value`; "--" ends options; "-" is
+ * positional. Positionals are moved to argv[1..*positionals] in order. Returns -1 to go on;
+ * otherwise the exit code the command must return (0 after --help, 2 after an error, whose
+ * message has been printed). */
 int cli_parse(const cli_command *command, const cli_option *options, int argc, char **argv,
               int *positionals);
 
@@ -72,8 +75,8 @@ int cli_fail(const char *format, ...) __attribute__((format(printf, 1, 2)));
 /* The same after "hnbrdf: warning: ". */
 void cli_warn(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
-/* What the person may have meant: offer every candidate, then ask. The nearest one by edit distance if
- * it is near enough to be a slip of the keys, otherwise NULL. */
+/* What the person may have meant: offer every candidate, then ask. The nearest one by edit
+ * distance if it is near enough to be a slip of the keys, otherwise NULL. */
 typedef struct cli_guess {
     const char *word, *nearest;
     size_t distance;
@@ -88,8 +91,9 @@ int cli_parse_real(const char *text, double *value);
 /* What a 0 for --threads stands for: the processors that are online. */
 int cli_processors(void);
 
-/* ---- Reading measured files ------------------------------------------------------------------------
- * The options of measured.h, as the commands that open measured files offer them. What is set here holds for
+/* ---- Reading measured files
+ * ------------------------------------------------------------------------ The options of
+ * measured.h, as the commands that open measured files offer them. What is set here holds for
  * every file the process opens; each such command has CLI_READING_OPTIONS in its table. */
 typedef struct cli_reading {
     int merl, merl_node, utia; /* values of the enums of measured.h */
@@ -104,28 +108,29 @@ hnbrdf_measured_options cli_reading_options(void);
 void cli_print_reading(void);
 
 /* clang-format off */
-#define CLI_READING_OPTIONS                                                                         \
-    {"merl", 0, CLI_CHOICE, &cli_read.merl, 0, 0, "nearest|trilinear",                              \
-     "lookup in MERL files (default nearest)"},                                                     \
-    {"merl-node", 0, CLI_CHOICE, &cli_read.merl_node, 0, 0, "centre|edge",                          \
-     "where in its bin a MERL sample lies, for trilinear (default centre)"},                        \
-    {"utia", 0, CLI_CHOICE, &cli_read.utia, 0, 0, "djb|raw|srgb",                                   \
-     "what the numbers in UTIA files mean; their scale is uncertain (default djb)"},                \
-    {"utia-scale", 0, CLI_REAL, &cli_read.utia_scale, 1e-6, 1e6, "X",                               \
-     "factor on UTIA values (default 1)"},                                                          \
-    {"utia-no-extrapolate", 0, CLI_FLAG, &cli_read.utia_no_extrapolate, 0, 0, NULL,                 \
-     "hold UTIA values beyond 75 degrees (default: go on linearly)"},                               \
-    {"spectra", 0, CLI_FLAG, &cli_read.spectra, 0, 0, NULL,                                         \
+#define CLI_READING_OPTIONS \
+    {"merl", 0, CLI_CHOICE, &cli_read.merl, 0, 0, "nearest|trilinear", \
+     "lookup in MERL files (default nearest)"}, \
+    {"merl-node", 0, CLI_CHOICE, &cli_read.merl_node, 0, 0, "centre|edge", \
+     "where in its bin a MERL sample lies, for trilinear (default centre)"}, \
+    {"utia", 0, CLI_CHOICE, &cli_read.utia, 0, 0, "djb|raw|srgb", \
+     "what the numbers in UTIA files mean; their scale is uncertain (default djb)"}, \
+    {"utia-scale", 0, CLI_REAL, &cli_read.utia_scale, 1e-6, 1e6, "X", \
+     "factor on UTIA values (default 1)"}, \
+    {"utia-no-extrapolate", 0, CLI_FLAG, &cli_read.utia_no_extrapolate, 0, 0, NULL, \
+     "hold UTIA values beyond 75 degrees (default: go on linearly)"}, \
+    {"spectra", 0, CLI_FLAG, &cli_read.spectra, 0, 0, NULL, \
      "RGL files that have RGB and spectra: use the spectra"}
 /* Not for `fit`: a model is never negative. */
-#define CLI_SIGNED_OPTION                                                                           \
-    {"signed", 0, CLI_FLAG, &cli_read.keep_sign, 0, 0, NULL,                                        \
+#define CLI_SIGNED_OPTION \
+    {"signed", 0, CLI_FLAG, &cli_read.keep_sign, 0, 0, NULL, \
      "keep negative values of RGL files: colours outside the gamut (default: clipped to 0)"}
 /* clang-format on */
 
-/* ---- Sources and data ------------------------------------------------------------------------------
- * DATA arguments: "builtin" (all built-in materials), "builtin:NAME", files, or directories (every
- * .bsdf, .binary and .bin file in them, in byte order of their names). */
+/* ---- Sources and data
+ * ------------------------------------------------------------------------------ DATA arguments:
+ * "builtin" (all built-in materials), "builtin:NAME", files, or directories (every .bsdf, .binary
+ * and .bin file in them, in byte order of their names). */
 typedef struct cli_data {
     hnbrdf_measured **items;
     int count;
@@ -137,7 +142,8 @@ int cli_open_data(char *const *arguments, int count, cli_data *data);
 const hnbrdf_measured *cli_find_data(const cli_data *data, const char *name);
 void cli_close_data(cli_data *data);
 
-/* A SOURCE is a model file or one measured material (file or "builtin:NAME"): exactly one is set. */
+/* A SOURCE is a model file or one measured material (file or "builtin:NAME"): exactly one is set.
+ * */
 typedef struct cli_source {
     hnbrdf_model *model;
     hnbrdf_measured *measured;
@@ -146,35 +152,39 @@ typedef struct cli_source {
 /* Recognised by content. Returns 0, or CLI_FAILURE after a message. */
 int cli_open_source(const char *path, cli_source *source);
 void cli_close_source(cli_source *source);
-/* The number of the material to use: as cli_choose_material() for a model; 0 for a measured file, whose
- * name must then be `name` or name NULL. -1 after a message. */
+/* The number of the material to use: as cli_choose_material() for a model; 0 for a measured file,
+ * whose name must then be `name` or name NULL. -1 after a message. */
 int cli_choose_source_material(const cli_source *source, const char *name);
 
 /* Index of the material to use: by name; with name NULL the only one (several: a message listing
  * them). -1 after a message. */
 int cli_choose_material(const hnbrdf_model *model, const char *name);
-/* "A,B,C" to indices, NULL to all; *indices is malloc'ed. Returns 0, or CLI_FAILURE after a message. */
+/* "A,B,C" to indices, NULL to all; *indices is malloc'ed. Returns 0, or CLI_FAILURE after a
+ * message. */
 int cli_choose_materials(const hnbrdf_model *model, const char *list, int **indices, int *count);
 
-/* ---- Output ----------------------------------------------------------------------------------------
- * Files are written aside and renamed when complete; the old file stays until then. "-" is stdout; it
+/* ---- Output
+ * ---------------------------------------------------------------------------------------- Files
+ * are written aside and renamed when complete; the old file stays until then. "-" is stdout; it
  * and what is no regular file (a pipe, a device) are written directly, aside is then NULL. */
 typedef struct cli_output {
-    FILE *file;           /* write here */
+    FILE *file; /* write here */
     char *path, *aside;
 } cli_output;
-int cli_output_open(const char *path, cli_output *output);  /* 0, or CLI_FAILURE after a message */
-int cli_output_close(cli_output *output);                   /* flush, check, rename; likewise */
-int cli_output_check(const char *path);                     /* can it be written? before long work; likewise */
-void cli_output_discard(cli_output *output);                /* drop what was written */
-int cli_make_folder(const char *path);                      /* unless it is there; likewise */
+int cli_output_open(const char *path, cli_output *output); /* 0, or CLI_FAILURE after a message */
+int cli_output_close(cli_output *output);                  /* flush, check, rename; likewise */
+/* can it be written? before long work; likewise */
+int cli_output_check(const char *path);
+void cli_output_discard(cli_output *output); /* drop what was written */
+int cli_make_folder(const char *path);       /* unless it is there; likewise */
 
 /* Text as a JSON string with its quotes. */
 void cli_write_json_text(FILE *file, const char *text);
 
-/* ---- Progress --------------------------------------------------------------------------------------
- * One line on stderr, rewritten in place on a terminal, a line every 10 s elsewhere; nothing for
- * anything that ends within 2 s. share is 0 to 1. Call as often as you like. */
+/* ---- Progress
+ * -------------------------------------------------------------------------------------- One line
+ * on stderr, rewritten in place on a terminal, a line every 10 s elsewhere; nothing for anything
+ * that ends within 2 s. share is 0 to 1. Call as often as you like. */
 typedef struct cli_progress {
     double started, shown;
     const char *what;

@@ -1,4 +1,5 @@
-/* cmd_bake.c: `hnbrdf bake`: the smallest network that is good enough for the materials of one scene.
+/* cmd_bake.c: `hnbrdf bake`: the smallest network that is good enough for the materials of one
+ * scene.
  */
 #include "cli/bake.h"
 
@@ -10,11 +11,14 @@ static const cli_command command = {
     "MODEL (--max-error E | --max-ns T | --net auto|HxN) [-m A,B] [--data DATA...] -o OUT",
     "Refits a small network to only the materials that a scene uses. A network shared by a whole "
     "database\n"
-    "is larger than a few of its materials need. They are learned from the measurements (--data), else "
+    "is larger than a few of its materials need. They are learned from the measurements (--data), "
+    "else "
     "from\n"
-    "MODEL itself. Prints what was tried: SMAPE of the whole and of the analytic part alone against "
+    "MODEL itself. Prints what was tried: SMAPE of the whole and of the analytic part alone "
+    "against "
     "what was\n"
-    "learned from, multiplications, and the time of an evaluation by the batch call on this machine.\n"
+    "learned from, multiplications, and the time of an evaluation by the batch call on this "
+    "machine.\n"
     "  --max-error E  the fewest multiplications whose SMAPE is at most E, on average over the "
     "materials\n"
     "                 (--worst: for each of them). Where GGX alone is within E the network is "
@@ -27,7 +31,8 @@ static const cli_command command = {
     "several seeds. kd, eta and alpha stay MODEL's when it is the teacher, edits included, and are "
     "fitted\n"
     "anew to measurements; --analytic decides otherwise. The network never takes them over.\n"
-    "The exit code is 0 only if what is saved is what was asked for. Otherwise, after Ctrl-C too, the "
+    "The exit code is 0 only if what is saved is what was asked for. Otherwise, after Ctrl-C too, "
+    "the "
     "best of\n"
     "what was tried is saved, if a network was.",
     "hnbrdf bake rgl.safetensors -m vch_silk_blue,cc_nothern_aurora --max-error 0.15 -o "
@@ -50,7 +55,8 @@ static int told(const bake *b, const bake_row *row)
     return CLI_OK;
 }
 
-/* ---- What is learned from ------------------------------------------------------------------------ */
+/* ---- What is learned from
+ * ------------------------------------------------------------------------ */
 
 /* The measurements of the chosen materials, by name; they stay data's. */
 static int take_measurements(bake *b, const cli_data *data)
@@ -59,9 +65,9 @@ static int take_measurements(bake *b, const cli_data *data)
         const char *name = hnbrdf_model_material_name(b->model, b->chosen[m]);
         const hnbrdf_measured *found = cli_find_data(data, name);
         if (!found)
-            return cli_fail(
-                "no measurement of %s among the %d of --data: materials go by the names of their files",
-                name, data->count);
+            return cli_fail("no measurement of %s among the %d of --data: materials go by the "
+                            "names of their files",
+                            name, data->count);
         for (int k = 0; k < data->count; k++)
             if (data->items[k] == found)
                 b->reference[m] = data->items[k];
@@ -77,7 +83,8 @@ static int make_teachers(bake *b)
     return CLI_OK;
 }
 
-/* ---- Results ------------------------------------------------------------------------------------- */
+/* ---- Results
+ * ------------------------------------------------------------------------------------- */
 
 static int write_file(const bake *b, const char *path, void (*write)(const bake *b, FILE *file))
 {
@@ -100,10 +107,11 @@ static int answer(const bake *b, const char *output)
     if (b->stopped)
         return cli_fail("the %g s are over; %s has the best of what was tried", b->seconds, output);
     if (b->wish == BAKE_ERROR && !b->from_data)
-        return cli_fail("no network that is clearly smaller than the model's comes within %g of it; %s "
-                        "has the most "
-                        "accurate one",
-                        b->max_error, output);
+        return cli_fail(
+            "no network that is clearly smaller than the model's comes within %g of it; %s "
+            "has the most "
+            "accurate one",
+            b->max_error, output);
     if (b->wish == BAKE_ERROR)
         return cli_fail("no network tried is within %g; %s has the most accurate one", b->max_error,
                         output);
@@ -145,7 +153,8 @@ static void release(bake *b)
     free(b->reference);
 }
 
-/* ---- Command ------------------------------------------------------------------------------------- */
+/* ---- Command
+ * ------------------------------------------------------------------------------------- */
 
 static int search(bake *b, const cli_data *data, const outputs *o)
 {
@@ -219,8 +228,8 @@ static int read_wish(bake *b, const char *net)
         b->net[0] < 1 || b->net[0] > HNBRDF_MAX_HIDDEN || b->net[1] < 1 ||
         b->net[1] > HNBRDF_MAX_LAYERS)
         return cli_usage(&command,
-                         "--net %s, expected auto or HxN with H from 1 to %d and N from 1 to %d", net,
-                         HNBRDF_MAX_HIDDEN, HNBRDF_MAX_LAYERS);
+                         "--net %s, expected auto or HxN with H from 1 to %d and N from 1 to %d",
+                         net, HNBRDF_MAX_HIDDEN, HNBRDF_MAX_LAYERS);
     b->wish = BAKE_NET;
     return -1;
 }
@@ -265,7 +274,8 @@ int cmd_bake(int argc, char **argv)
         {"data", 0, CLI_TEXT, &data, 0, 0, "DATA...",
          "measurements to learn from and be judged by; further ones behind it, MODEL before"},
         {"analytic", 0, CLI_CHOICE, &analytic, 0, 0, "keep|fit",
-         "kd, eta, alpha: MODEL's, or fitted to what is learned from (default keep, with --data fit)"},
+         "kd, eta, alpha: MODEL's, or fitted to what is learned from (default keep, with --data "
+         "fit)"},
         {"encoding", 0, CLI_TEXT, &encoding, 0, 0, "NAME",
          "as of `fit` (default: by what is learned from)"},
         {"seconds", 0, CLI_REAL, &b.seconds, 1, 1e7, "S",
@@ -280,7 +290,8 @@ int cmd_bake(int argc, char **argv)
          "pairs a material that errors are measured on (default 200000; short fits 20000)"},
         {"pool", 0, CLI_INT, &b.pool, 64, 1 << 26, "N",
          "pairs drawn a material for training (default 131072, short fits 32768)"},
-        {"seed", 0, CLI_INT, &b.seed, 0, 9e15, "N", "the first seed of everything random (default 1)"},
+        {"seed", 0, CLI_INT, &b.seed, 0, 9e15, "N",
+         "the first seed of everything random (default 1)"},
         {"csv", 0, CLI_TEXT, &o.csv, 0, 0, "FILE", "write what was tried, a row a model"},
         {"json", 0, CLI_TEXT, &o.json, 0, 0, "FILE", "the same with the errors of each material"},
         {"plot", 0, CLI_TEXT, &o.plot, 0, 0, "FILE", "write error against time as an SVG"},
@@ -295,7 +306,8 @@ int cmd_bake(int argc, char **argv)
         return cli_usage(&command, "no MODEL given");
     if (given > 1 && !data)
         return cli_usage(&command,
-                         "found %d arguments, expected one MODEL; measurements go after --data", given);
+                         "found %d arguments, expected one MODEL; measurements go after --data",
+                         given);
     if (!o.model)
         return cli_usage(&command, "no output file given, expected -o SCENE.safetensors");
     if ((code = read_wish(&b, net)) >= 0)

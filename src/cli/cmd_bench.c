@@ -1,4 +1,5 @@
-/* cmd_bench.c: `hnbrdf bench`: run time beside error, for models, backends and styles of one run. */
+/* cmd_bench.c: `hnbrdf bench`: run time beside error, for models, backends and styles of one run.
+ * */
 #include "cli/bench.h"
 #include "cli/peak.h"
 #include "hnbrdf/fit.h"
@@ -20,32 +21,39 @@ static const cli_command command = {
     "Backends: c-single (hnbrdf_eval), c-single-prepared (hnbrdf_prepared_eval), c-batch\n"
     "(hnbrdf_eval_batch; a row a variant), c-many (hnbrdf_eval_many, a material drawn for every "
     "pair),\n"
-    "vulkan:DEVICE (the exported shader, fast build, two materials). CPU rows are of one thread, in "
+    "vulkan:DEVICE (the exported shader, fast build, two materials). CPU rows are of one thread, "
+    "in "
     "its\n"
     "CPU time. Vulkan rows are by the device's timestamps, those of a software device by the "
     "process's\n"
     "CPU time over the number of processors, less the time of an empty kernel on the same buffers "
     "(io).\n"
     "\n"
-    "Weights: model (as loaded); constants, columns, uniform: of `hnbrdf export --weights`, constants "
+    "Weights: model (as loaded); constants, columns, uniform: of `hnbrdf export --weights`, "
+    "constants "
     "in\n"
     "half precision too where the device has it; published-style (a peer: the same\n"
-    "network with the directions as inputs, mat4 chains with literals of three decimals, microfacet\n"
+    "network with the directions as inputs, mat4 chains with literals of three decimals, "
+    "microfacet\n"
     "formulas with full fractions and pow, as published viewer shaders have them; made by this "
     "command).\n"
     "\n"
-    "CSV: ns_per_eval is without buffers; peak_fraction: multiplications and additions of the network "
+    "CSV: ns_per_eval is without buffers; peak_fraction: multiplications and additions of the "
+    "network "
     "in\n"
     "that time (on the CPU without the latent code's, which is folded into the first bias), of the "
     "FMA\n"
     "peak measured in the same run with the row's instructions and threads;\n"
-    "ratio_to_ggx: to ns_per_eval of GGX alone on the same backend; compile_ms: GLSL to SPIR-V; bytes: "
+    "ratio_to_ggx: to ns_per_eval of GGX alone on the same backend; compile_ms: GLSL to SPIR-V; "
+    "bytes: "
     "of\n"
-    "the weights; of a shader: of the SPIR-V with evaluation alone in it, and of the uniform block; "
+    "the weights; of a shader: of the SPIR-V with evaluation alone in it, and of the uniform "
+    "block; "
     "mults:\n"
     "of the network, an evaluation; smape, psnr: means over the materials that DATA has, blank "
     "without;\n"
-    "io_ns: of the buffers; net_ns and net_peak_fraction: of the network alone; first_dispatch_ms:\n"
+    "io_ns: of the buffers; net_ns and net_peak_fraction: of the network alone; "
+    "first_dispatch_ms:\n"
     "pipeline and first run; threads; net_muladd_fraction: of the peak without fusing.",
     "hnbrdf bench --quick\n"
     "hnbrdf bench model.safetensors\n"
@@ -63,10 +71,11 @@ typedef struct settings {
     bench_gpu_options gpu;
 } settings;
 
-/* ---- Rows ---------------------------------------------------------------------------------------- */
+/* ---- Rows
+ * ---------------------------------------------------------------------------------------- */
 
-bench_row *bench_add_row(bench *b, const bench_model *model, const char *backend, const char *variant,
-                         const char *weights, const char *precision)
+bench_row *bench_add_row(bench *b, const bench_model *model, const char *backend,
+                         const char *variant, const char *weights, const char *precision)
 {
     if (b->row_count == BENCH_ROWS) {
         cli_fail("more than %d rows: fewer models, please", BENCH_ROWS);
@@ -131,7 +140,8 @@ double bench_peak_fraction(const bench *b, const bench_row *row, double ns, int 
     return (double)NAN;
 }
 
-/* ---- Models -------------------------------------------------------------------------------------- */
+/* ---- Models
+ * -------------------------------------------------------------------------------------- */
 
 static int has_name(const bench *b, const char *name)
 {
@@ -166,12 +176,13 @@ static int load_model(bench *b, const char *path)
         return CLI_FAILURE;
     if (!source.model) {
         cli_close_source(&source);
-        return cli_fail("%s: a measurement, expected a model; data to compare with go behind --data",
-                        path);
+        return cli_fail(
+            "%s: a measurement, expected a model; data to compare with go behind --data", path);
     }
     const char *slash = strrchr(path, '/'), *base = slash ? slash + 1 : path;
     const char *dot = strrchr(base, '.');
-    snprintf(name, sizeof name, "%.*s", dot && dot > base ? (int)(dot - base) : BENCH_NAME - 1, base);
+    snprintf(name, sizeof name, "%.*s", dot && dot > base ? (int)(dot - base) : BENCH_NAME - 1,
+             base);
     return add_model(b, source.model, name);
 }
 
@@ -221,7 +232,8 @@ static int fit_models(bench *b, const cli_data *data, const settings *set)
     return CLI_OK;
 }
 
-/* GGX alone goes first: the analytic part of the first model that has one, else of default materials.
+/* GGX alone goes first: the analytic part of the first model that has one, else of default
+ * materials.
  */
 static int add_ggx(bench *b)
 {
@@ -244,7 +256,8 @@ static int add_ggx(bench *b)
     return code;
 }
 
-/* ---- Data ---------------------------------------------------------------------------------------- */
+/* ---- Data
+ * ---------------------------------------------------------------------------------------- */
 
 /* "A,B" as DATA arguments. */
 static int open_data(const char *list, cli_data *data)
@@ -258,7 +271,8 @@ static int open_data(const char *list, cli_data *data)
     return code;
 }
 
-/* ---- Timing -------------------------------------------------------------------------------------- */
+/* ---- Timing
+ * -------------------------------------------------------------------------------------- */
 
 typedef struct watch {
     bench *b;
@@ -314,7 +328,8 @@ static int time_rows(bench *b, const settings *set)
     return CLI_OK;
 }
 
-/* ---- Output -------------------------------------------------------------------------------------- */
+/* ---- Output
+ * -------------------------------------------------------------------------------------- */
 
 static int write_file(const bench *b, const char *path, void (*write)(const bench *b, FILE *file))
 {
@@ -342,7 +357,8 @@ static int write_results(const bench *b, const settings *set)
     return code == CLI_OK ? write_file(b, set->plot, bench_write_plot) : code;
 }
 
-/* ---- Command ------------------------------------------------------------------------------------- */
+/* ---- Command
+ * ------------------------------------------------------------------------------------- */
 
 static int measure(bench *b, const settings *set)
 {
@@ -359,7 +375,8 @@ static int measure(bench *b, const settings *set)
 static int run(bench *b, const settings *set, char **paths, int count)
 {
     cli_data data = {NULL, 0};
-    int code = set->data || count == 0 ? open_data(set->data ? set->data : "builtin", &data) : CLI_OK;
+    int code =
+        set->data || count == 0 ? open_data(set->data ? set->data : "builtin", &data) : CLI_OK;
     b->model_count = 1; /* room for GGX */
     for (int k = 0; k < count && code == CLI_OK; k++)
         code = load_model(b, paths[k]);
@@ -440,7 +457,8 @@ int cmd_bench(int argc, char **argv)
         {"data", 0, CLI_TEXT, &set.data, 0, 0, "DATA",
          "measurements to compare with, by name; several with commas between"},
         {"csv", 0, CLI_TEXT, &set.csv, 0, 0, "FILE", "the table as CSV; - is standard output"},
-        {"json", 0, CLI_TEXT, &set.json, 0, 0, "FILE", "the table and the machine as JSON; - likewise"},
+        {"json", 0, CLI_TEXT, &set.json, 0, 0, "FILE",
+         "the table and the machine as JSON; - likewise"},
         {"plot", 0, CLI_TEXT, &set.plot, 0, 0, "FILE",
          "SVG: error against run time; c-batch, c-single-prepared and Vulkan (with MODEL needs "
          "--data)"},

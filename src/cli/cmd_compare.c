@@ -12,23 +12,30 @@
 static const cli_command command = {
     "compare",
     "MODEL DATA... [--sampler grid] [--pairs N] [--csv FILE]",
-    "Prints the error of a model, and of its analytic part (GGX) alone, against measured materials of\n"
-    "the same names: SMAPE, 0 is perfect and 2 the worst, mean over N pairs of directions and RGB.\n"
+    "Prints the error of a model, and of its analytic part (GGX) alone, against measured materials "
+    "of\n"
+    "the same names: SMAPE, 0 is perfect and 2 the worst, mean over N pairs of directions and "
+    "RGB.\n"
     "DATA is builtin, builtin:NAME, files (MERL .binary, RGL .bsdf, UTIA .bin) or directories.\n"
     "\n"
-    "Samplers: uniform (wi and wo uniform in solid angle), cosine, grid (theta_h = u^2 pi/2, theta_d "
+    "Samplers: uniform (wi and wo uniform in solid angle), cosine, grid (theta_h = u^2 pi/2, "
+    "theta_d "
     "and\n"
-    "phi_d uniform, as MERL's own grid). The same seed gives the same pairs, whatever the threads.\n"
+    "phi_d uniform, as MERL's own grid). The same seed gives the same pairs, whatever the "
+    "threads.\n"
     "CSV columns: material,smape,smape_analytic,pairs; the last row is named mean.\n"
     "\n"
-    "With --images, pictures instead: IMAGE... REFERENCE, OpenEXR or Radiance files of one size. MAE "
+    "With --images, pictures instead: IMAGE... REFERENCE, OpenEXR or Radiance files of one size. "
+    "MAE "
     "and "
     "MSE\n"
     "are means over R, G and B of the linear values as they are, without exposure; PSNR takes the "
     "reference's\n"
-    "largest value as its peak, as a rendering has no white. Pixels with alpha 0 in both are left out; "
+    "largest value as its peak, as a rendering has no white. Pixels with alpha 0 in both are left "
+    "out; "
     "values\n"
-    "with alpha are premultiplied and compared so. --difference draws where they differ. There is no "
+    "with alpha are premultiplied and compared so. --difference draws where they differ. There is "
+    "no "
     "FLIP: "
     "no\n"
     "library of it is packaged; NVIDIA's own `flip` reads the same files.\n"
@@ -62,13 +69,14 @@ typedef struct job {
     cli_progress progress;
 } job;
 
-/* ---- Measuring ----------------------------------------------------------------------------------- */
+/* ---- Measuring
+ * ----------------------------------------------------------------------------------- */
 
 static hnbrdf_result measure(const job *j, row *r, hnbrdf_error *message)
 {
     hnbrdf_result result =
-        hnbrdf_compare(j->model, hnbrdf_model_material(j->model, r->material), r->measured, j->sampler,
-                       (size_t)j->pairs, (uint64_t)j->seed, &r->error, message);
+        hnbrdf_compare(j->model, hnbrdf_model_material(j->model, r->material), r->measured,
+                       j->sampler, (size_t)j->pairs, (uint64_t)j->seed, &r->error, message);
     if (result == HNBRDF_OK && j->against)
         result = hnbrdf_compare(j->against, hnbrdf_model_material(j->against, r->material_against),
                                 r->measured, j->sampler, (size_t)j->pairs, (uint64_t)j->seed,
@@ -133,7 +141,8 @@ static int measure_all(job *j, int threads)
     return CLI_OK;
 }
 
-/* ---- Which materials ----------------------------------------------------------------------------- */
+/* ---- Which materials
+ * ----------------------------------------------------------------------------- */
 
 /* 1 if both models have the material; else 0, or -1 after a message if that is an error. */
 static int find_material(const job *j, row *r, int skip_missing)
@@ -163,10 +172,12 @@ static int choose_rows(job *j, const cli_data *data, int skip_missing)
             return CLI_FAILURE;
         j->count += found;
     }
-    return j->count ? CLI_OK : cli_fail("%s: the model has none of the materials of the data", j->path);
+    return j->count ? CLI_OK
+                    : cli_fail("%s: the model has none of the materials of the data", j->path);
 }
 
-/* ---- Output -------------------------------------------------------------------------------------- */
+/* ---- Output
+ * -------------------------------------------------------------------------------------- */
 
 static void write_number(FILE *file, const char *before, double value)
 {
@@ -258,7 +269,8 @@ static void write_json(const job *j, FILE *file)
         fputs(",\n  \"against\": ", file);
         cli_write_json_text(file, j->path_against);
     }
-    fprintf(file, ",\n  \"sampler\": \"%s\",\n  \"pairs\": %ld,\n  \"seed\": %ld,\n  \"materials\": [",
+    fprintf(file,
+            ",\n  \"sampler\": \"%s\",\n  \"pairs\": %ld,\n  \"seed\": %ld,\n  \"materials\": [",
             hnbrdf_sampler_name(j->sampler), j->pairs, j->seed);
     for (int k = 0; k < j->count; k++) {
         fprintf(file, "%s\n    {\"name\": ", k ? "," : "");
@@ -283,7 +295,8 @@ static int write_file(const job *j, const char *path, void (*write)(const job *j
     return cli_output_close(&output);
 }
 
-/* ---- Command ------------------------------------------------------------------------------------- */
+/* ---- Command
+ * ------------------------------------------------------------------------------------- */
 
 static int parse_sampler(const char *name, hnbrdf_sampler *sampler)
 {
@@ -297,8 +310,9 @@ static int parse_sampler(const char *name, hnbrdf_sampler *sampler)
         cli_guess_offer(&guess, hnbrdf_sampler_name(s));
     }
     const char *nearest = cli_guess_nearest(&guess);
-    return cli_usage(&command, "--sampler: found '%s', expected uniform, cosine or grid%s%s%s", name,
-                     nearest ? " (did you mean " : "", nearest ? nearest : "", nearest ? "?)" : "");
+    return cli_usage(&command, "--sampler: found '%s', expected uniform, cosine or grid%s%s%s",
+                     name, nearest ? " (did you mean " : "", nearest ? nearest : "",
+                     nearest ? "?)" : "");
 }
 
 static int open_model(const char *path, hnbrdf_model **model)
@@ -345,17 +359,19 @@ static int run(job *j, char **data_arguments, int data_count, int skip_missing, 
 }
 
 /* Returns -1 to go on, as cli_parse() does. */
-static int check_images(int images, const compare_images_options *pictures, int count, int of_models)
+static int check_images(int images, const compare_images_options *pictures, int count,
+                        int of_models)
 {
     if (!images && (pictures->difference || pictures->top > 0.0))
         return cli_usage(&command, "--difference and --scale belong to --images");
     if (images && of_models)
         return cli_usage(&command, "--against and --skip-missing are for models, not for --images");
     if (images && count < 2)
-        return cli_usage(&command, "--images: found %d picture%s, expected IMAGE... REFERENCE", count,
-                         count == 1 ? "" : "s");
+        return cli_usage(&command, "--images: found %d picture%s, expected IMAGE... REFERENCE",
+                         count, count == 1 ? "" : "s");
     if (images && pictures->difference && count != 2)
-        return cli_usage(&command, "--difference: found %d pictures, expected IMAGE REFERENCE", count);
+        return cli_usage(&command, "--difference: found %d pictures, expected IMAGE REFERENCE",
+                         count);
     return pictures->difference ? picture_check_output(&command, pictures->difference) : -1;
 }
 
@@ -370,7 +386,8 @@ int cmd_compare(int argc, char **argv)
         {"sampler", 0, CLI_TEXT, &sampler, 0, 0, "NAME", "uniform, cosine or grid (default grid)"},
         {"pairs", 'n', CLI_INT, &j.pairs, 1, 1e10, "N",
          "valid pairs of directions a material (default 200000; 1e6 may be written)"},
-        {"seed", 0, CLI_INT, &j.seed, 0, 9007199254740992.0, "N", "of the random pairs (default 1)"},
+        {"seed", 0, CLI_INT, &j.seed, 0, 9007199254740992.0, "N",
+         "of the random pairs (default 1)"},
         {"threads", 't', CLI_INT, &threads, 0, 1024, "N", "default 0: all processors"},
         {"against", 0, CLI_TEXT, &j.path_against, 0, 0, "MODEL",
          "a second model: its SMAPE beside, and which of the two is better for how many materials"},
@@ -378,11 +395,13 @@ int cmd_compare(int argc, char **argv)
          "leave out data that the model has no material for (default: an error)"},
         {"images", 0, CLI_FLAG, &images, 0, 0, NULL, "compare pictures, the reference last"},
         {"difference", 0, CLI_TEXT, &pictures.difference, 0, 0, "FILE",
-         "with --images: false colours and their scale as FILE.png, or FILE.exr and a PNG beside it"},
+         "with --images: false colours and their scale as FILE.png, or FILE.exr and a PNG beside "
+         "it"},
         {"scale", 0, CLI_REAL, &pictures.top, 1e-30, 1e30, "X",
          "where its colours end (default: at most one pixel in a hundred is beyond)"},
         {"csv", 0, CLI_TEXT, &csv, 0, 0, "FILE", "write the table as CSV; - is standard output"},
-        {"json", 0, CLI_TEXT, &json, 0, 0, "FILE", "write it as JSON, with MAE and MSE; - likewise"},
+        {"json", 0, CLI_TEXT, &json, 0, 0, "FILE",
+         "write it as JSON, with MAE and MSE; - likewise"},
         CLI_READING_OPTIONS,
         CLI_SIGNED_OPTION,
         {0},
@@ -395,7 +414,8 @@ int cmd_compare(int argc, char **argv)
     if (result >= 0)
         return result;
     if (count < 2)
-        return cli_usage(&command, "%s", count ? "no DATA to compare with" : "no MODEL and no DATA");
+        return cli_usage(&command, "%s",
+                         count ? "no DATA to compare with" : "no MODEL and no DATA");
     if (csv && json && is_stdout(csv) && is_stdout(json))
         return cli_usage(&command, "--csv and --json both to standard output");
     if ((csv && (result = cli_output_check(csv))) || (json && (result = cli_output_check(json))))
@@ -408,6 +428,6 @@ int cmd_compare(int argc, char **argv)
         return compare_images(&pictures);
     }
     j.path = argv[1];
-    return run(&j, argv + 2, count - 1, skip_missing, threads ? (int)threads : cli_processors(), csv,
-               json);
+    return run(&j, argv + 2, count - 1, skip_missing, threads ? (int)threads : cli_processors(),
+               csv, json);
 }

@@ -9,12 +9,15 @@
 static const cli_command command = {
     "edit",
     "MODEL --set FIELD=VALUE[,...] [--material A] [--as B] [-o OUT]",
-    "Changes fields of a material's analytic part; the network and the latent code stay as they are.\n"
+    "Changes fields of a material's analytic part; the network and the latent code stay as they "
+    "are.\n"
     "Without --as the material itself changes, with it a copy is added under that name.\n"
     "\n"
-    "Fields: kd (diffuse albedo, 0 to 1) and eta (index of refraction, above 1), one value or three "
+    "Fields: kd (diffuse albedo, 0 to 1) and eta (index of refraction, above 1), one value or "
+    "three "
     "for\n"
-    "R:G:B; alpha (roughness, 0.0001 to 1), one value or two for x:y; alpha_x; alpha_y; rotation of x "
+    "R:G:B; alpha (roughness, 0.0001 to 1), one value or two for x:y; alpha_x; alpha_y; rotation "
+    "of x "
     "and\n"
     "y about the normal, counter-clockwise, in radians or as in 30deg. FIELD*=VALUE multiplies,\n"
     "FIELD+=VALUE adds. Two different alphas make an isotropic material anisotropic.",
@@ -48,7 +51,8 @@ typedef struct edit {
     int count; /* 1: the same for every float of the field */
 } edit;
 
-/* ---- Reading --set ------------------------------------------------------------------------------- */
+/* ---- Reading --set
+ * ------------------------------------------------------------------------------- */
 
 static const field *find_field(const char *name, size_t length)
 {
@@ -63,12 +67,13 @@ static const field *find_field(const char *name, size_t length)
     }
     const char *nearest = cli_guess_nearest(&guess);
     cli_usage(&command,
-              "--set: no field '%s', expected kd, eta, alpha, alpha_x, alpha_y or rotation%s%s%s", word,
-              nearest ? " (did you mean " : "", nearest ? nearest : "", nearest ? "?)" : "");
+              "--set: no field '%s', expected kd, eta, alpha, alpha_x, alpha_y or rotation%s%s%s",
+              word, nearest ? " (did you mean " : "", nearest ? nearest : "", nearest ? "?)" : "");
     return NULL;
 }
 
-/* One number, of an angle also with a unit. NULL if there is none that goes up to ':' or the end. */
+/* One number, of an angle also with a unit. NULL if there is none that goes up to ':' or the end.
+ * */
 static const char *read_value(const edit *e, const char *from, const char *end, float *value)
 {
     int is_angle = e->field->offset == offsetof(hnbrdf_material, rotation) && e->operation != '*';
@@ -139,7 +144,8 @@ static int read_edits(const char *list, edit *edits, int *count)
     }
 }
 
-/* ---- Applying ------------------------------------------------------------------------------------ */
+/* ---- Applying
+ * ------------------------------------------------------------------------------------ */
 
 static void apply(const edit *e, hnbrdf_material *material)
 {
@@ -175,8 +181,8 @@ static void print_changes(const hnbrdf_material *before, const hnbrdf_material *
     }
 }
 
-static int run(const char *path, const char *output, const char *material, const char *as, int replace,
-               const edit *edits, int edit_count)
+static int run(const char *path, const char *output, const char *material, const char *as,
+               int replace, const edit *edits, int edit_count)
 {
     palette p;
     if (palette_open(&p, path) != CLI_OK)
@@ -189,14 +195,16 @@ static int run(const char *path, const char *output, const char *material, const
         hnbrdf_model_desc desc;
         hnbrdf_model_describe(p.model, &desc);
         if (desc.kind == HNBRDF_KIND_NEURAL)
-            cli_warn("%s: a neural model has no analytic part; kd, eta and alpha do not show", path);
+            cli_warn("%s: a neural model has no analytic part; kd, eta and alpha do not show",
+                     path);
         for (int k = 0; k < edit_count; k++)
             apply(&edits[k], &after);
         result = palette_put(&p, as ? as : from, &after, replace || !as || strcmp(as, from) == 0);
         if (result == CLI_OK)
             result = palette_save(&p, output);
         if (result == CLI_OK) {
-            printf("%s: %s%s%s\n", output, as ? as : from, as ? " from " : " changed", as ? from : "");
+            printf("%s: %s%s%s\n", output, as ? as : from, as ? " from " : " changed",
+                   as ? from : "");
             print_changes(before, &after);
         }
     }
@@ -213,8 +221,10 @@ int cmd_edit(int argc, char **argv)
         {"material", 'm', CLI_TEXT, &material, 0, 0, "NAME",
          "the material to start from; needed when the model has several"},
         {"set", 's', CLI_TEXT, &set, 0, 0, "LIST", "what to change (required)"},
-        {"as", 0, CLI_TEXT, &as, 0, 0, "NAME", "keep the material, add the edited one under this name"},
-        {"replace", 0, CLI_FLAG, &replace, 0, 0, NULL, "--as may overwrite a material of that name"},
+        {"as", 0, CLI_TEXT, &as, 0, 0, "NAME",
+         "keep the material, add the edited one under this name"},
+        {"replace", 0, CLI_FLAG, &replace, 0, 0, NULL,
+         "--as may overwrite a material of that name"},
         {"output", 'o', CLI_TEXT, &output, 0, 0, "OUT",
          "the model file to write (default: MODEL, rewritten)"},
         {0},

@@ -16,12 +16,16 @@ static const cli_command command = {
     "\n"
     "In:  CSV with the columns wi_x,wi_y,wi_z,wo_x,wo_y,wo_z: unit vectors in the shading frame "
     "(normal\n"
-    "     +z), wi towards the light, wo towards the viewer. A header may name them in any order among\n"
-    "     other columns; without one there are these six. With a model and a column `material`, each\n"
+    "     +z), wi towards the light, wo towards the viewer. A header may name them in any order "
+    "among\n"
+    "     other columns; without one there are these six. With a model and a column `material`, "
+    "each\n"
     "     line is evaluated for the material it names, unless --material is given.\n"
-    "Out: CSV with the header f_r,f_g,f_b: the BRDF in 1/sr, linear RGB, without the cosine; one line "
+    "Out: CSV with the header f_r,f_g,f_b: the BRDF in 1/sr, linear RGB, without the cosine; one "
+    "line "
     "for\n"
-    "     each line of input, 0 where wi or wo is below the horizon or there is no valid measurement.",
+    "     each line of input, 0 where wi or wo is below the horizon or there is no valid "
+    "measurement.",
     "echo 0,0,1,0.6,0,0.8 | hnbrdf eval builtin:velvet-crimson\n"
     "hnbrdf eval model.safetensors --material velvet-crimson -i pairs.csv -o values.csv\n"
     "hnbrdf eval gold.binary < pairs.csv > values.csv",
@@ -45,7 +49,8 @@ typedef struct eval_job {
     long not_unit, first_not_unit; /* lines with directions that are no unit vectors */
 } eval_job;
 
-/* ---- Columns ------------------------------------------------------------------------------------- */
+/* ---- Columns
+ * ------------------------------------------------------------------------------------- */
 
 static int read_header(eval_job *job)
 {
@@ -76,7 +81,8 @@ static int is_number(const char *text)
     return cli_parse_real(text, &value);
 }
 
-/* ---- Lines --------------------------------------------------------------------------------------- */
+/* ---- Lines
+ * --------------------------------------------------------------------------------------- */
 
 static int read_pair(const eval_job *job, float pair[6])
 {
@@ -152,7 +158,8 @@ static int evaluate_lines(eval_job *job)
 {
     int more = csv_next(&job->in);
     if (more == 0)
-        return cli_fail("%s: empty, expected lines with wi_x,wi_y,wi_z,wo_x,wo_y,wo_z", job->in.name);
+        return cli_fail("%s: empty, expected lines with wi_x,wi_y,wi_z,wo_x,wo_y,wo_z",
+                        job->in.name);
     if (more < 0)
         return CLI_FAILURE;
     if (is_number(job->in.fields[0])) {
@@ -169,7 +176,8 @@ static int evaluate_lines(eval_job *job)
     return more == 0 ? CLI_OK : CLI_FAILURE;
 }
 
-/* ---- Command ------------------------------------------------------------------------------------- */
+/* ---- Command
+ * ------------------------------------------------------------------------------------- */
 
 static int run(eval_job *job, const char *in, const char *out)
 {

@@ -14,26 +14,33 @@ static const cli_command command = {
     "  vec3 hnbrdf_eval(hnbrdf_material m, vec3 wi, vec3 wo)      1/sr, without the cosine\n"
     "  hnbrdf_sample_result hnbrdf_sample(hnbrdf_material m, vec3 wo, vec3 u)\n"
     "  float hnbrdf_pdf(hnbrdf_material m, vec3 wi, vec3 wo)\n"
-    "for m = hnbrdf_scene_material(HNBRDF_MATERIAL_NAME). Include shaders/hybrid_brdf.glsl before it, "
+    "for m = hnbrdf_scene_material(HNBRDF_MATERIAL_NAME). Include shaders/hybrid_brdf.glsl before "
+    "it, "
     "or take\n"
     "--standalone. The text compiles as Vulkan GLSL 450, desktop GLSL 330 and GLSL ES 300; put it "
     "after\n"
     "#version. Its first lines state what it holds and what was left out: always what the chosen "
     "materials do\n"
-    "not need (anisotropy, rotation); with --only what is not asked for, in a standalone text also of\n"
-    "hybrid_brdf.glsl; with --fixed the means to change a material, whose latent code is then folded "
+    "not need (anisotropy, rotation); with --only what is not asked for, in a standalone text also "
+    "of\n"
+    "hybrid_brdf.glsl; with --fixed the means to change a material, whose latent code is then "
+    "folded "
     "into the\n"
     "first layer. hnbrdf_eval_NAME(wi, wo) of a fixed material takes no material at all. Whatever\n"
     "is left out, the values are the same to the last bit.\n"
     "\n"
-    "--weights constants is the fastest, one shader a network; columns are the same constants in vec4.\n"
-    "uniform reads them from a buffer whose bytes --weights-out writes: slower, but compiled soon, and any\n"
-    "network of the same size can be loaded at run time (hnbrdf.h tells the layout). --precision half\n"
+    "--weights constants is the fastest, one shader a network; columns are the same constants in "
+    "vec4.\n"
+    "uniform reads them from a buffer whose bytes --weights-out writes: slower, but compiled soon, "
+    "and any\n"
+    "network of the same size can be loaded at run time (hnbrdf.h tells the layout). --precision "
+    "half\n"
     "computes the hidden layers in float16 (GLSL 450) or mediump (ES).\n"
     "\n"
     "--pack is for scenes with a material of its own in every pixel: the include also has\n"
     "  hnbrdf_material hnbrdf_material_unpack(vec4 t0, vec4 t1, ...)      HNBRDF_TEXELS texels\n"
-    "for what textures return: RGBA16F (half) or RGBA8 (byte). The ranges of RGBA8 are those of the\n"
+    "for what textures return: RGBA16F (half) or RGBA8 (byte). The ranges of RGBA8 are those of "
+    "the\n"
     "exported materials. What the packing costs in SMAPE is printed. --texels writes the packed "
     "materials,\n"
     "a row of texels each, without a header, numbers in the byte order of the machine.",
@@ -63,21 +70,25 @@ static void print_summary(FILE *file, const hnbrdf_model *model, const hnbrdf_gl
     int materials = options->material_count;
     hnbrdf_model_desc desc;
     hnbrdf_model_describe(model, &desc);
-    /* As the heading of the text counts them: without those of latent codes folded into the bias. */
+    /* As the heading of the text counts them: without those of latent codes folded into the bias.
+     * */
     int folded = options->fixed && options->weights != HNBRDF_GLSL_UNIFORM &&
                  options->precision == HNBRDF_GLSL_FLOAT;
     size_t saved = folded ? (size_t)desc.hidden * (size_t)desc.latent : 0;
     fprintf(file, "%s: %s", path, hnbrdf_kind_name(desc.kind));
     if (desc.kind != HNBRDF_KIND_GGX)
-        fprintf(file, " %dx%d, %s, %zu weights (%s, %s), %zu multiplications per evaluation", desc.hidden,
-                desc.layers, hnbrdf_encoding_name(desc.encoding), hnbrdf_model_weight_count(model) - saved,
-                hnbrdf_glsl_weights_name(options->weights), hnbrdf_glsl_precision_name(options->precision),
+        fprintf(file, " %dx%d, %s, %zu weights (%s, %s), %zu multiplications per evaluation",
+                desc.hidden, desc.layers, hnbrdf_encoding_name(desc.encoding),
+                hnbrdf_model_weight_count(model) - saved,
+                hnbrdf_glsl_weights_name(options->weights),
+                hnbrdf_glsl_precision_name(options->precision),
                 hnbrdf_model_multiplications(model) - saved);
     fprintf(file, ", %d material%s, %zu bytes\n", materials, materials == 1 ? "" : "s", bytes);
 }
 
-/* Measured with lavapipe (Mesa 22.3, `hnbrdf verify --weights STYLE`, one run): the first dispatch of
- * 64x3, 9414 constants, takes 5.5 times as long as that of its uniform form; 64x4 has 13574. */
+/* Measured with lavapipe (Mesa 22.3, `hnbrdf verify --weights STYLE`, one run): the first
+ * dispatch of 64x3, 9414 constants, takes 5.5 times as long as that of its uniform form; 64x4 has
+ * 13574. */
 enum { MANY_CONSTANTS = 12000, SMALL_BLOCK = 16384 };
 
 /* Why another style may be wanted; what was asked for is written all the same. */
@@ -85,17 +96,18 @@ static void warn(const hnbrdf_model *model, const hnbrdf_glsl_options *options)
 {
     size_t numbers = hnbrdf_model_weight_count(model), bytes = hnbrdf_weights_size(model);
     if (options->weights == HNBRDF_GLSL_UNIFORM && bytes > SMALL_BLOCK)
+        fprintf(stderr,
+                "hnbrdf export: a uniform block of %zu bytes; devices need not take more than %d "
+                "(desktop "
+                "ones do, 65536)\n",
+                bytes, SMALL_BLOCK);
+    if (options->weights != HNBRDF_GLSL_UNIFORM && numbers > MANY_CONSTANTS)
         fprintf(
             stderr,
-            "hnbrdf export: a uniform block of %zu bytes; devices need not take more than %d (desktop "
-            "ones do, 65536)\n",
-            bytes, SMALL_BLOCK);
-    if (options->weights != HNBRDF_GLSL_UNIFORM && numbers > MANY_CONSTANTS)
-        fprintf(stderr,
-                "hnbrdf export: %zu constants: with 9414 a software driver's first dispatch took 5.5 "
-                "times as long "
-                "as with --weights uniform (`hnbrdf verify` measures it here)\n",
-                numbers);
+            "hnbrdf export: %zu constants: with 9414 a software driver's first dispatch took 5.5 "
+            "times as long "
+            "as with --weights uniform (`hnbrdf verify` measures it here)\n",
+            numbers);
 }
 
 /* The buffer of --weights uniform. */
@@ -113,8 +125,8 @@ static int write_weights(const hnbrdf_model *model, const hnbrdf_glsl_options *o
     return cli_fail("%s: %s", path, error.text);
 }
 
-static int export_to(const hnbrdf_model *model, const hnbrdf_glsl_options *options, const char *path,
-                     const cli_texels *texels)
+static int export_to(const hnbrdf_model *model, const hnbrdf_glsl_options *options,
+                     const char *path, const cli_texels *texels)
 {
     cli_output output;
     if (cli_output_open(path, &output) != CLI_OK)
@@ -141,9 +153,10 @@ typedef struct settings {
     int weights, precision, conserve;
 } settings;
 
-/* A factor for each material that keeps its albedo at most 1, a little less as that is known to 0.5 %; says which.
- * malloc'ed, NULL after a message. */
-static float *conserving_factors(const hnbrdf_model *model, const int *materials, int count, FILE *told)
+/* A factor for each material that keeps its albedo at most 1, a little less as that is known to
+ * 0.5 %; says which. malloc'ed, NULL after a message. */
+static float *conserving_factors(const hnbrdf_model *model, const int *materials, int count,
+                                 FILE *told)
 {
     float *factors = malloc((size_t)count * sizeof *factors);
     if (!factors)
@@ -153,8 +166,8 @@ static float *conserving_factors(const hnbrdf_model *model, const int *materials
         hnbrdf_physics_of(model, hnbrdf_model_material(model, materials[k]), &p);
         factors[k] = p.albedo > 1.0 ? (float)(0.995 / p.albedo) : 1.0f;
         if (p.albedo > 1.0)
-            fprintf(told, "%s: albedo %.3f, values times %.4f\n", hnbrdf_model_material_name(model, materials[k]),
-                    p.albedo, (double)factors[k]);
+            fprintf(told, "%s: albedo %.3f, values times %.4f\n",
+                    hnbrdf_model_material_name(model, materials[k]), p.albedo, (double)factors[k]);
     }
     return factors;
 }
@@ -164,8 +177,9 @@ static int export_materials(const hnbrdf_model *model, const settings *set, cons
 {
     cli_texels texels = {.model = model, .materials = materials, .count = count};
     hnbrdf_error error;
-    if (set->pack >= 0 && hnbrdf_packing_init(model, materials, count, (hnbrdf_texel_format)set->pack,
-                                              &texels.packing, &error))
+    if (set->pack >= 0 &&
+        hnbrdf_packing_init(model, materials, count, (hnbrdf_texel_format)set->pack,
+                            &texels.packing, &error))
         return cli_fail("%s", error.text);
     const hnbrdf_glsl_options options = {.materials = materials,
                                          .material_count = count,
@@ -193,7 +207,8 @@ int cmd_export(int argc, char **argv)
          "names of the materials (default: all)"},
         {"only", 0, CLI_CHOICE, &set.only, 0, 0, "eval|eval+sample",
          "leave out what else there is (default: everything)"},
-        {"fixed", 0, CLI_FLAG, &set.fixed, 0, 0, NULL, "materials are constants, not to be changed"},
+        {"fixed", 0, CLI_FLAG, &set.fixed, 0, 0, NULL,
+         "materials are constants, not to be changed"},
         {"standalone", 0, CLI_FLAG, &set.standalone, 0, 0, NULL,
          "put the text of hybrid_brdf.glsl first"},
         {"weights", 'w', CLI_CHOICE, &set.weights, 0, 0, "constants|columns|uniform",
@@ -204,7 +219,8 @@ int cmd_export(int argc, char **argv)
          "of the hidden layers (default float)"},
         {"conserve", 0, CLI_FLAG, &set.conserve, 0, 0, NULL,
          "scale materials whose albedo (hnbrdf info) is above 1"},
-        {"pack", 0, CLI_CHOICE, &set.pack, 0, 0, "half|byte", "with a function that unpacks texels"},
+        {"pack", 0, CLI_CHOICE, &set.pack, 0, 0, "half|byte",
+         "with a function that unpacks texels"},
         {"texels", 0, CLI_TEXT, &set.texels, 0, 0, "FILE",
          "with --pack: where to write the materials as texels"},
         {"output", 'o', CLI_TEXT, &set.path, 0, 0, "FILE", "where to write; - is standard output"},
@@ -233,7 +249,8 @@ int cmd_export(int argc, char **argv)
     result = cli_choose_materials(model, set.materials, &materials, &chosen);
     float *energy = NULL;
     if (result == CLI_OK && set.conserve) {
-        energy = conserving_factors(model, materials, chosen, strcmp(set.path, "-") == 0 ? stderr : stdout);
+        energy = conserving_factors(model, materials, chosen,
+                                    strcmp(set.path, "-") == 0 ? stderr : stdout);
         result = energy ? CLI_OK : CLI_FAILURE;
     }
     if (result == CLI_OK)

@@ -12,12 +12,16 @@
 
 static const cli_command command = {
     "fit", "DATA... [options] -o MODEL.safetensors",
-    "Fit one model to measured materials: GGX for each of them, then a small network and latent codes\n"
+    "Fit one model to measured materials: GGX for each of them, then a small network and latent "
+    "codes\n"
     "that learn what GGX misses. DATA is `builtin`, builtin:NAME, files (.bsdf, .binary, .bin)\n"
     "or directories.\n"
-    "The result depends on the data, the options and the seed, not on the number of threads; a fit\n"
-    "limited by --seconds prints the steps it made, to be repeated with --steps. Ctrl-C ends a fit\n"
-    "after the step, saves the model so far, and leaves OUTPUT.checkpoint, from which --resume goes "
+    "The result depends on the data, the options and the seed, not on the number of threads; a "
+    "fit\n"
+    "limited by --seconds prints the steps it made, to be repeated with --steps. Ctrl-C ends a "
+    "fit\n"
+    "after the step, saves the model so far, and leaves OUTPUT.checkpoint, from which --resume "
+    "goes "
     "on.",
     "  hnbrdf fit builtin -o builtin.safetensors\n"
     "  hnbrdf fit rgl/ --net 32x2 --latent 4 --seconds 120 -o rgl.safetensors\n"
@@ -54,8 +58,8 @@ static int show(void *user, const hnbrdf_fit_progress *p)
         d->stage = p->stage;
         cli_progress_begin(&d->line, strcmp(p->stage, "sampling") == 0 ? "drawing data"
                                      : strcmp(p->stage, "ggx") == 0    ? "fitting GGX"
-                                     : strcmp(p->stage, "lobes") == 0  ? "fitting lobes for sampling"
-                                                                       : "training the network");
+                                     : strcmp(p->stage, "lobes") == 0 ? "fitting lobes for sampling"
+                                                                      : "training the network");
     }
     if (isfinite(p->loss))
         snprintf(detail, sizeof detail, "step %ld  loss %.4f  %.2f M pairs/s", p->step, p->loss,
@@ -102,7 +106,8 @@ static void summarise(const job *j, const hnbrdf_model *model, const hnbrdf_fit_
                desc.latent);
     printf(", %d material%s", desc.material_count, desc.material_count == 1 ? "" : "s");
     if (j->fit.freeze) {
-        int replaced = hnbrdf_model_material_count(j->fit.freeze) + j->data.count - desc.material_count;
+        int replaced =
+            hnbrdf_model_material_count(j->fit.freeze) + j->data.count - desc.material_count;
         printf(" (%d fitted on a frozen network, %.2f s each", j->data.count,
                report->seconds / j->data.count);
         if (replaced > 0)
@@ -114,7 +119,8 @@ static void summarise(const job *j, const hnbrdf_model *model, const hnbrdf_fit_
     printf(", %.1f s\n", report->seconds);
     cli_print_reading();
     if (report->stopped)
-        printf("interrupted; the model so far is saved. Repeat the command with --resume to go on.\n");
+        printf(
+            "interrupted; the model so far is saved. Repeat the command with --resume to go on.\n");
 }
 
 /* What is odd about the data: a person should know before trusting the model. */
@@ -124,17 +130,20 @@ static void tell_about_data(const job *j)
         const hnbrdf_fit_drawn *d = &j->fit.drawn[m];
         const char *name = hnbrdf_measured_name(j->data.items[m]);
         if (d->valid < FEW_VALID)
-            printf("note: %s: %.3g %% of the directions drawn are valid measurements; what the model "
-                   "says of the others is a guess\n",
-                   name, 100.0 * d->valid);
+            printf(
+                "note: %s: %.3g %% of the directions drawn are valid measurements; what the model "
+                "says of the others is a guess\n",
+                name, 100.0 * d->valid);
         if (d->cut > 0.0)
-            printf("note: %s: %.3g %% of its values are above 1e15 1/sr, the largest %.3g; no BRDF is, "
+            printf("note: %s: %.3g %% of its values are above 1e15 1/sr, the largest %.3g; no BRDF "
+                   "is, "
                    "they were taken as 1e15\n",
                    name, 100.0 * d->cut, d->largest);
         if (d->largest <= 0.0)
             printf("note: %s: every value is 0, negative ones counted as 0\n", name);
         else if (d->dark >= 1.0)
-            printf("note: %s: no value above %.3g 1/sr, which the loss hardly tells from black; is the "
+            printf("note: %s: no value above %.3g 1/sr, which the loss hardly tells from black; is "
+                   "the "
                    "unit 1/sr?\n",
                    name, d->largest);
     }
@@ -148,16 +157,18 @@ static void tell_about_training(const hnbrdf_fit_report *r)
                "rate, in the end %.3g; give a lower --rate\n",
                r->set_backs, r->set_backs == 1 ? "" : "s", r->rate);
     if (r->ggx_alone)
-        printf("note: no state of the training was better than GGX alone, loss %.4f: the network saved "
+        printf("note: no state of the training was better than GGX alone, loss %.4f: the network "
+               "saved "
                "leaves GGX as it is; give more --steps or a lower --rate\n",
                r->ggx_loss);
     else if (r->best_step < r->steps)
         printf("note: the state of step %ld is saved, loss %.4f; what came later was worse\n",
                r->best_step, r->best_loss);
     if (r->best_loss > POOR_LOSS)
-        printf("note: the model does not follow these data: loss %.2f, where 0 is perfect and 2 the "
-               "worst\n",
-               r->best_loss);
+        printf(
+            "note: the model does not follow these data: loss %.2f, where 0 is perfect and 2 the "
+            "worst\n",
+            r->best_loss);
 }
 
 static int write_speed(const job *j, const hnbrdf_fit_report *report)
@@ -272,9 +283,11 @@ int cmd_fit(int argc, char **argv)
          "angles for reciprocal data, else angles-directed; angles-anisotropic if a material is)"},
         {"analytic", 0, CLI_TEXT, &analytic, 0, 0, "HOW",
          "faithful: keep the GGX fit; joint: train it along (default faithful)"},
-        {"floor", 0, CLI_REAL, &floor, 0, 0.999, "B", "the floor b, 1/sr; 0 for none (default 0.003)"},
+        {"floor", 0, CLI_REAL, &floor, 0, 0.999, "B",
+         "the floor b, 1/sr; 0 for none (default 0.003)"},
         {"steps", 0, CLI_INT, &steps, 1, 1e9, "N", "training steps (default 32000)"},
-        {"seconds", 0, CLI_REAL, &seconds, 0.1, 1e7, "S", "train the network for this long instead"},
+        {"seconds", 0, CLI_REAL, &seconds, 0.1, 1e7, "S",
+         "train the network for this long instead"},
         {"batch", 0, CLI_INT, &batch, 1, 1 << 24, "N", "direction pairs a step (default 2048)"},
         {"pool", 0, CLI_INT, &pool, 64, 1 << 26, "N",
          "direction pairs drawn a material (default 131072)"},
@@ -326,7 +339,8 @@ int cmd_fit(int argc, char **argv)
     if (schedule_index < 0)
         return cli_usage(&command, "--schedule %s, expected cosine, linear or constant", schedule);
     if (freeze && (net[0] || latent || encoding))
-        return cli_usage(&command, "--net, --latent and --encoding are those of the model to --freeze");
+        return cli_usage(&command,
+                         "--net, --latent and --encoding are those of the model to --freeze");
     if (steps && seconds > 0.0)
         return cli_usage(&command, "--steps and --seconds exclude each other");
 

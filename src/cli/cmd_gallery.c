@@ -12,7 +12,8 @@ static const cli_command command = {
     "Renders what can be done with fitted materials, as pages of spheres: edits-NAME.png with\n"
     "another roughness, diffuse colour and index of refraction, the hybrid above GGX alone;\n"
     "anisotropy.png with isotropic materials brushed; mixes.png with the way from one material to\n"
-    "another. EXR beside each, and gallery.md with the commands that make the same edits. DATA, if\n"
+    "another. EXR beside each, and gallery.md with the commands that make the same edits. DATA, "
+    "if\n"
     "given, shows the measurement beside its model. Where no materials or pairs are named, those\n"
     "are taken in which GGX and network both matter, and pairs that are far apart.\n"
     "\n"
@@ -24,14 +25,16 @@ static const cli_command command = {
     "hnbrdf gallery merl.safetensors --pairs gold-paint:blue-fabric,nickel:pvc -o gallery",
 };
 
-/* ---- The model ----------------------------------------------------------------------------------- */
+/* ---- The model
+ * ----------------------------------------------------------------------------------- */
 
 /* 1 if this argument is DATA, 0 if it is a model file, -1 after a message. */
 static int is_data(gallery *g, const char *argument)
 {
     struct stat status;
     cli_source source;
-    if (strcmp(argument, "builtin") == 0 || (stat(argument, &status) == 0 && S_ISDIR(status.st_mode)))
+    if (strcmp(argument, "builtin") == 0 ||
+        (stat(argument, &status) == 0 && S_ISDIR(status.st_mode)))
         return 1;
     if (cli_open_source(argument, &source) != CLI_OK)
         return -1;
@@ -68,7 +71,8 @@ static int fit(gallery *g, double seconds)
     return CLI_OK;
 }
 
-/* ---- What is shown ------------------------------------------------------------------------------- */
+/* ---- What is shown
+ * ------------------------------------------------------------------------------- */
 
 static int name_materials(gallery *g, const char *list)
 {
@@ -117,13 +121,15 @@ static int choose(gallery *g, const char *materials, const char *pairs)
     return code;
 }
 
-/* ---- Command ------------------------------------------------------------------------------------- */
+/* ---- Command
+ * ------------------------------------------------------------------------------------- */
 
 static int open_all(gallery *g, char **arguments, int count, double seconds, char *fitted_path)
 {
     hnbrdf_error error;
     int data = is_data(g, arguments[0]), skip = data ? 0 : 1;
-    if (data < 0 || (count > skip && cli_open_data(arguments + skip, count - skip, &g->data) != CLI_OK))
+    if (data < 0 ||
+        (count > skip && cli_open_data(arguments + skip, count - skip, &g->data) != CLI_OK))
         return CLI_FAILURE;
     if (cli_make_folder(g->directory) != CLI_OK)
         return CLI_FAILURE;
@@ -147,7 +153,8 @@ int cmd_gallery(int argc, char **argv)
          "the folder to write (required); made if missing"},
         {"materials", 0, CLI_TEXT, &materials, 0, 0, "A,B", "whose edits to show (default: two)"},
         {"pairs", 0, CLI_TEXT, &pairs, 0, 0, "A:B,C:D", "what to mix (default: up to six pairs)"},
-        {"seconds", 0, CLI_REAL, &seconds, 0.1, 1e6, "S", "DATA alone: how long to fit (default 40)"},
+        {"seconds", 0, CLI_REAL, &seconds, 0.1, 1e6, "S",
+         "DATA alone: how long to fit (default 40)"},
         {"size", 0, CLI_INT, &g.size, 32, 1024, "N", "pixels of a sphere's side, default 160"},
         PICTURE_OPTIONS(g.light, "64"),
         CLI_READING_OPTIONS,

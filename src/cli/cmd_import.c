@@ -85,9 +85,9 @@ static int import_and_save(const brdf_texts *texts, const char *out)
 {
     hnbrdf_model *model = NULL;
     hnbrdf_error error;
-    hnbrdf_result result =
-        hnbrdf_model_import_brdf((const char *const *)texts->texts, texts->sizes,
-                                 (const char *const *)texts->names, texts->count, NULL, &model, &error);
+    hnbrdf_result result = hnbrdf_model_import_brdf((const char *const *)texts->texts, texts->sizes,
+                                                    (const char *const *)texts->names, texts->count,
+                                                    NULL, &model, &error);
     if (result != HNBRDF_OK)
         return cli_fail("%s", error.text);
     int failed = lobes_set_all(&model, LOBES_FITTED);

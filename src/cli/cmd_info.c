@@ -10,14 +10,19 @@ static const cli_command command = {
     "info",
     "SOURCE [--json]",
     "Tells what SOURCE holds: a model file, a measured file (MERL .binary, RGL .bsdf, UTIA .bin),\n"
-    "builtin:NAME, builtin, or a directory of measured files. The checksum of a single MERL file is compared\n"
+    "builtin:NAME, builtin, or a directory of measured files. The checksum of a single MERL file "
+    "is compared\n"
     "with those of the 100 published ones.\n"
     "\n"
-    "Weights are the numbers shared by all materials, mults the multiplications of the network for one\n"
-    "evaluation. Of each material of a model also: its directional albedo (above 1 it gives off more light\n"
+    "Weights are the numbers shared by all materials, mults the multiplications of the network for "
+    "one\n"
+    "evaluation. Of each material of a model also: its directional albedo (above 1 it gives off "
+    "more light\n"
     "than it gets), how far it is from reciprocal, how many of its values are 0.\n"
-    "JSON keys of a model: kind, net, encoding, latent, materials, weights, mults, scale, shift, floor,\n"
-    "parameters; of a measured file: kind, format, name, isotropic, summary, of a single MERL file also\n"
+    "JSON keys of a model: kind, net, encoding, latent, materials, weights, mults, scale, shift, "
+    "floor,\n"
+    "parameters; of a measured file: kind, format, name, isotropic, summary, of a single MERL file "
+    "also\n"
     "published: the material's name, or null.",
     "hnbrdf info builtin\n"
     "hnbrdf info model.safetensors\n"
@@ -25,7 +30,8 @@ static const cli_command command = {
     "hnbrdf info model.safetensors --json",
 };
 
-/* ---- Models -------------------------------------------------------------------------------------- */
+/* ---- Models
+ * -------------------------------------------------------------------------------------- */
 
 static const char *net_name(const hnbrdf_model_desc *desc, char text[16])
 {
@@ -43,8 +49,9 @@ static const char *encoding_name(const hnbrdf_model_desc *desc)
 static void print_material(const hnbrdf_material *m, const char *name, int width)
 {
     printf("%-*s  %6.4f %6.4f %6.4f  %7.4g %7.4g %7.4g  %7.4g %7.4g  %8.4g\n", width, name,
-           (double)m->kd[0], (double)m->kd[1], (double)m->kd[2], (double)m->eta[0], (double)m->eta[1],
-           (double)m->eta[2], (double)m->alpha[0], (double)m->alpha[1], (double)m->rotation);
+           (double)m->kd[0], (double)m->kd[1], (double)m->kd[2], (double)m->eta[0],
+           (double)m->eta[1], (double)m->eta[2], (double)m->alpha[0], (double)m->alpha[1],
+           (double)m->rotation);
 }
 
 static void print_model(const char *path, const hnbrdf_model *model)
@@ -99,7 +106,8 @@ static void json_names(const char *const *names, int count)
     fputs("],\n", stdout);
 }
 
-static void json_material(const hnbrdf_model *model, const hnbrdf_material *m, const char *name, int latent)
+static void json_material(const hnbrdf_model *model, const hnbrdf_material *m, const char *name,
+                          int latent)
 {
     fputs("    {\"name\": ", stdout);
     cli_write_json_text(stdout, name);
@@ -138,7 +146,8 @@ static void json_model(const hnbrdf_model *model)
     fputs("  ]\n}\n", stdout);
 }
 
-/* ---- Measured ------------------------------------------------------------------------------------ */
+/* ---- Measured
+ * ------------------------------------------------------------------------------------ */
 
 static const char *format_name(const hnbrdf_measured *measured)
 {
@@ -191,7 +200,8 @@ static void print_data(const cli_data *data)
     printf("%-*s  %-7s  %-9s  %s\n", width, "material", "format", "isotropic", "summary");
     for (int k = 0; k < data->count; k++)
         printf("%-*s  %-7s  %-9s  %s\n", width, hnbrdf_measured_name(data->items[k]),
-               format_name(data->items[k]), hnbrdf_measured_is_isotropic(data->items[k]) ? "yes" : "no",
+               format_name(data->items[k]),
+               hnbrdf_measured_is_isotropic(data->items[k]) ? "yes" : "no",
                hnbrdf_measured_summary(data->items[k]));
 }
 
@@ -210,7 +220,8 @@ static void json_data(const cli_data *data)
     fputs("\n]}\n", stdout);
 }
 
-/* ---- Command ------------------------------------------------------------------------------------- */
+/* ---- Command
+ * ------------------------------------------------------------------------------------- */
 
 static int is_collection(const char *path)
 {
@@ -264,6 +275,7 @@ int cmd_info(int argc, char **argv)
     if (result >= 0)
         return result;
     if (count != 1)
-        return cli_usage(&command, "%s", count ? "more than one SOURCE" : "no SOURCE to tell about");
+        return cli_usage(&command, "%s",
+                         count ? "more than one SOURCE" : "no SOURCE to tell about");
     return is_collection(argv[1]) ? tell_collection(argv + 1, json) : tell_source(argv[1], json);
 }

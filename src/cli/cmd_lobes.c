@@ -1,4 +1,5 @@
-/* cmd_lobes.c: `hnbrdf lobes`: fit the lobes with which the materials of a model are sampled, and show them. */
+/* cmd_lobes.c: `hnbrdf lobes`: fit the lobes with which the materials of a model are sampled, and
+ * show them. */
 #include "cli/csv.h"
 #include "cli/lobes.h"
 
@@ -8,11 +9,15 @@
 static const cli_command command = {
     "lobes",
     "MODEL [--scheme fitted|paper|guess] [-o OUT] [--show] [--csv FILE]",
-    "Makes the lobes with which hnbrdf_sample() draws the materials of a model, and writes them into it:\n"
-    "two GGX lobes a material, of their own roughness, and the share of the samples that each gets at\n"
-    "wo.z = 0, 1/9, 4/9 and 1; the rest is a cosine lobe. The values of the BRDF do not change. `fit`,\n"
+    "Makes the lobes with which hnbrdf_sample() draws the materials of a model, and writes them "
+    "into it:\n"
+    "two GGX lobes a material, of their own roughness, and the share of the samples that each gets "
+    "at\n"
+    "wo.z = 0, 1/9, 4/9 and 1; the rest is a cosine lobe. The values of the BRDF do not change. "
+    "`fit`,\n"
     "`edit`, `mix`, `bake` and `import` make them by themselves: this is for older files and for\n"
-    "comparisons. A roughness of 0 stands for no such lobe, one with a minus draws from all normals.",
+    "comparisons. A roughness of 0 stands for no such lobe, one with a minus draws from all "
+    "normals.",
     "hnbrdf lobes old.safetensors\n"
     "hnbrdf lobes model.safetensors --show --csv -\n"
     "hnbrdf lobes model.safetensors --scheme paper -o paper.safetensors",
@@ -29,8 +34,8 @@ static double roughness(const hnbrdf_model_desc *desc, const hnbrdf_material *m,
 
 static void print_table(const hnbrdf_model_desc *desc)
 {
-    printf("%-28s %7s  %9s %5s %5s %5s %5s  %9s %5s %5s %5s %5s\n", "material", "alpha", "lobe 1", "0", "1/9", "4/9",
-           "1", "lobe 2", "0", "1/9", "4/9", "1");
+    printf("%-28s %7s  %9s %5s %5s %5s %5s  %9s %5s %5s %5s %5s\n", "material", "alpha", "lobe 1",
+           "0", "1/9", "4/9", "1", "lobe 2", "0", "1/9", "4/9", "1");
     for (int i = 0; i < desc->material_count; i++) {
         const hnbrdf_material *m = &desc->materials[i];
         printf("%-28s %7.4f", desc->names[i], (double)m->alpha[0]);
@@ -50,7 +55,8 @@ static int write_csv(const char *path, const hnbrdf_model_desc *desc)
     cli_output output;
     if (cli_output_open(path, &output) != CLI_OK)
         return CLI_FAILURE;
-    fputs("material,alpha_x,alpha_y,roughness1,share1_0,share1_1,share1_2,share1_3,roughness2,share2_0,share2_1,"
+    fputs("material,alpha_x,alpha_y,roughness1,share1_0,share1_1,share1_2,share1_3,roughness2,"
+          "share2_0,share2_1,"
           "share2_2,share2_3\n",
           output.file);
     for (int i = 0; i < desc->material_count; i++) {
@@ -67,13 +73,14 @@ static int write_csv(const char *path, const hnbrdf_model_desc *desc)
     return cli_output_close(&output);
 }
 
-static int run(hnbrdf_model **model, const char *path, lobes_scheme scheme, int show, const char *csv,
-               const char *output)
+static int run(hnbrdf_model **model, const char *path, lobes_scheme scheme, int show,
+               const char *csv, const char *output)
 {
     hnbrdf_model_desc desc;
     hnbrdf_error error;
     int to_stdout = csv && csv[0] == '-' && !csv[1];
-    if (!show && (cli_output_check(output ? output : path) != CLI_OK || lobes_set_all(model, scheme) != CLI_OK))
+    if (!show && (cli_output_check(output ? output : path) != CLI_OK ||
+                  lobes_set_all(model, scheme) != CLI_OK))
         return CLI_FAILURE;
     hnbrdf_model_describe(*model, &desc);
     if (!show && hnbrdf_model_save(*model, output ? output : path, &error) != HNBRDF_OK)
@@ -90,9 +97,11 @@ int cmd_lobes(int argc, char **argv)
     const cli_option options[] = {
         {"scheme", 0, CLI_CHOICE, &scheme, 0, 0, "fitted|paper|guess",
          "least variance (default); half cosine, half all normals; none"},
-        {"output", 'o', CLI_TEXT, &output, 0, 0, "OUT", "the model file to write (default: MODEL, rewritten)"},
+        {"output", 'o', CLI_TEXT, &output, 0, 0, "OUT",
+         "the model file to write (default: MODEL, rewritten)"},
         {"show", 0, CLI_FLAG, &show, 0, 0, NULL, "show those it has, change nothing"},
-        {"csv", 0, CLI_TEXT, &csv, 0, 0, "FILE", "write the table as CSV; - is stdout, then without the table"},
+        {"csv", 0, CLI_TEXT, &csv, 0, 0, "FILE",
+         "write the table as CSV; - is stdout, then without the table"},
         {0},
     };
     int result = cli_parse(&command, options, argc, argv, &count);

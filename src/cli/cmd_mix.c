@@ -8,7 +8,8 @@
 static const cli_command command = {
     "mix",
     "MODEL A B --t 0:1:0.25 [--as PREFIX] [-o OUT]",
-    "Adds materials on the way from A (t = 0) to B (t = 1) to a model: albedo, reflectance and latent "
+    "Adds materials on the way from A (t = 0) to B (t = 1) to a model: albedo, reflectance and "
+    "latent "
     "code\n"
     "go linearly, the logarithm of the roughness too, the tangent frame turns the short way.\n"
     "They are named PREFIX-T, as in gold-chrome-0.25. FIRST:LAST:STEP is a sweep, ends included.",
@@ -36,8 +37,9 @@ static int read_sweep(const char *text, sweep *s)
         at++;
     }
     if (!at || at != end || (n != 1 && n != 3))
-        return cli_usage(
-            &command, "--t: '%s' is neither T, as in 0.5, nor FIRST:LAST:STEP, as in 0:1:0.25", text);
+        return cli_usage(&command,
+                         "--t: '%s' is neither T, as in 0.5, nor FIRST:LAST:STEP, as in 0:1:0.25",
+                         text);
     double last = n == 3 ? values[1] : values[0];
     if (values[0] < 0.0 || values[0] > 1.0 || last < 0.0 || last > 1.0)
         return cli_usage(&command, "--t: %s leaves the range from 0 (A) to 1 (B)", text);
@@ -55,8 +57,10 @@ static int read_sweep(const char *text, sweep *s)
     return -1;
 }
 
-/* The name of the material at t, "A-B-0.25" unless there is a prefix; 0 after a message if too long. */
-static int make_name(char *name, size_t size, const char *const ends[2], const char *prefix, double t)
+/* The name of the material at t, "A-B-0.25" unless there is a prefix; 0 after a message if too
+ * long. */
+static int make_name(char *name, size_t size, const char *const ends[2], const char *prefix,
+                     double t)
 {
     int length = prefix ? snprintf(name, size, "%s-%.6g", prefix, t)
                         : snprintf(name, size, "%s-%s-%.6g", ends[0], ends[1], t);
@@ -97,8 +101,8 @@ static int run(const char *path, const char *output, const sweep *s, const char 
     if (result == CLI_OK)
         result = palette_save(&p, output);
     if (result == CLI_OK) {
-        printf("%s: %d material%s from %s to %s, %d new\n", output, s->count, s->count == 1 ? "" : "s",
-               ends[0], ends[1], p.count - before);
+        printf("%s: %d material%s from %s to %s, %d new\n", output, s->count,
+               s->count == 1 ? "" : "s", ends[0], ends[1], p.count - before);
         for (int k = before; k < p.count; k++)
             printf("  %s\n", p.names[k]);
     }
@@ -112,7 +116,8 @@ int cmd_mix(int argc, char **argv)
     int replace = 0, count;
     sweep s;
     const cli_option options[] = {
-        {"t", 't', CLI_TEXT, &t, 0, 0, "T", "0 is A, 1 is B; FIRST:LAST:STEP for several (required)"},
+        {"t", 't', CLI_TEXT, &t, 0, 0, "T",
+         "0 is A, 1 is B; FIRST:LAST:STEP for several (required)"},
         {"as", 0, CLI_TEXT, &as, 0, 0, "PREFIX", "what the names begin with (default A-B)"},
         {"replace", 0, CLI_FLAG, &replace, 0, 0, NULL, "overwrite materials of these names"},
         {"output", 'o', CLI_TEXT, &output, 0, 0, "OUT",
@@ -123,8 +128,8 @@ int cmd_mix(int argc, char **argv)
     if (result >= 0)
         return result;
     if (count != 3)
-        return cli_usage(&command, "found %d arguments, expected MODEL and the names of two materials",
-                         count);
+        return cli_usage(
+            &command, "found %d arguments, expected MODEL and the names of two materials", count);
     if (!t)
         return cli_usage(&command, "no --t T");
     result = read_sweep(t, &s);

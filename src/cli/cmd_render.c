@@ -1,4 +1,5 @@
-/* cmd_render.c: `hnbrdf render`: a sphere or a mesh of one material, as OpenEXR with a PNG beside it. */
+/* cmd_render.c: `hnbrdf render`: a sphere or a mesh of one material, as OpenEXR with a PNG beside
+ * it. */
 #include "cli/render_gpu.h"
 #include "cli/render_mesh.h"
 
@@ -7,19 +8,25 @@
 static const cli_command command = {
     "render",
     "SOURCE [--material NAME] [--mesh FILE.obj] [options] -o FILE.exr",
-    "Renders a sphere, or a mesh, under an environment, one bounce of light. SOURCE is a model file, a\n"
-    "measured file or builtin:NAME. FILE.exr gets linear radiance (float, ZIP), FILE.png beside it the\n"
-    "same times 2^exposure, clamped to [0, 1] and through the sRGB curve. With -o FILE.png there is no EXR.\n"
+    "Renders a sphere, or a mesh, under an environment, one bounce of light. SOURCE is a model "
+    "file, a\n"
+    "measured file or builtin:NAME. FILE.exr gets linear radiance (float, ZIP), FILE.png beside it "
+    "the\n"
+    "same times 2^exposure, clamped to [0, 1] and through the sRGB curve. With -o FILE.png there "
+    "is no EXR.\n"
     "The camera looks along -z, y is up; the middle column of a map lies straight ahead of it.",
     "hnbrdf render builtin:clear-coat-red -o red.exr\n"
     "hnbrdf render model.safetensors --material gold-two-lobe --spp 256 -o gold.exr\n"
     "hnbrdf render model.safetensors --material gold-two-lobe --analytic -o gold_ggx.png\n"
     "hnbrdf render model.safetensors --material gold-two-lobe --env furnace --exposure -1 \\\n"
-    "    --background env -o furnace.exr    # brighter than the ground: gives off more than it gets\n"
+    "    --background env -o furnace.exr    # brighter than the ground: gives off more than it "
+    "gets\n"
     "hnbrdf render chrome.binary --env studio.hdr --rotate 90 --background env -o chrome.exr\n"
     "hnbrdf render model.safetensors --material gold-two-lobe --device 0 --check -o gold.exr\n"
-    "hnbrdf render --mesh bunny.obj model.safetensors --material gold-two-lobe --turn 30 -o bunny.exr\n"
-    "hnbrdf render --mesh bunny.obj model.safetensors --material gold-two-lobe --bounces 8 --time 60 \\\n"
+    "hnbrdf render --mesh bunny.obj model.safetensors --material gold-two-lobe --turn 30 -o "
+    "bunny.exr\n"
+    "hnbrdf render --mesh bunny.obj model.safetensors --material gold-two-lobe --bounces 8 --time "
+    "60 \\\n"
     "    --spp 65536 -o bunny.exr           # light between its parts too; a minute's worth of it",
 };
 
@@ -114,7 +121,8 @@ static int render_on_device(render_job *job)
                                         .seed = (uint64_t)job->picture.seed,
                                         .threads = (int)job->picture.threads}};
     if (!job->source.model)
-        return cli_fail("%s is no model: --device renders what `hnbrdf export` can write", job->path);
+        return cli_fail("%s is no model: --device renders what `hnbrdf export` can write",
+                        job->path);
     return render_gpu_run(&gpu, &job->image);
 }
 
@@ -122,9 +130,10 @@ static int render_on_device(render_job *job)
 static int render_mesh_view(render_job *job)
 {
     const hnbrdf_model *model = job->source.model;
-    render_surface surface = model && !job->analytic
-                                 ? render_surface_model(model, hnbrdf_model_material(model, job->index))
-                                 : make_surface(job, job->analytic);
+    render_surface surface =
+        model && !job->analytic
+            ? render_surface_model(model, hnbrdf_model_material(model, job->index))
+            : make_surface(job, job->analytic);
     job->scene.output = job->output;
     job->scene.spp = job->picture.spp;
     job->scene.seed = job->picture.seed;
@@ -171,7 +180,8 @@ static int write_picture(render_job *job)
 static int run(render_job *job)
 {
     hnbrdf_error error;
-    if (open_source(job) != CLI_OK || picture_open_light(&job->picture, &job->environment) != CLI_OK)
+    if (open_source(job) != CLI_OK ||
+        picture_open_light(&job->picture, &job->environment) != CLI_OK)
         return CLI_FAILURE;
     if (render_guide_model(&job->guide, &error) != HNBRDF_OK)
         return cli_fail("%s", error.text);
@@ -181,7 +191,9 @@ static int run(render_job *job)
 
 int cmd_render(int argc, char **argv)
 {
-    render_job job = {.background = "backdrop", .size = 512, .picture = PICTURE_DEFAULTS(64),
+    render_job job = {.background = "backdrop",
+                      .size = 512,
+                      .picture = PICTURE_DEFAULTS(64),
                       .mesh = MESH_VIEW_DEFAULTS,
                       .scene = {.bounces = 1}};
     const cli_option options[] = {
@@ -215,14 +227,17 @@ int cmd_render(int argc, char **argv)
     if (positionals != 1)
         return cli_usage(&command, "expected one SOURCE, found %d", positionals);
     if (!is_one_of(job.background, "backdrop", "env", "none"))
-        return cli_usage(&command, "--background %s: expected backdrop, env or none", job.background);
+        return cli_usage(&command, "--background %s: expected backdrop, env or none",
+                         job.background);
     if (job.check && !job.device)
-        return cli_usage(&command, "--check compares a device with the CPU: expected --device N too");
+        return cli_usage(&command,
+                         "--check compares a device with the CPU: expected --device N too");
     if (job.device && (job.analytic || job.layers))
         return cli_usage(&command, "--analytic and --layers are for the CPU, without --device");
     if (!job.mesh.path && (job.scene.bounces > 1 || job.scene.seconds > 0.0 || job.scene.resume ||
                            job.mesh.smooth || job.scene.clamp > 0.0))
-        return cli_usage(&command, "--bounces, --time, --resume, --clamp and --smooth are for --mesh");
+        return cli_usage(&command,
+                         "--bounces, --time, --resume, --clamp and --smooth are for --mesh");
     if (job.mesh.path && (job.layers || job.device))
         return cli_usage(&command, "--layers and --device are for the sphere, without --mesh");
     code = picture_check_output(&command, job.output);

@@ -1,5 +1,5 @@
-/* cmd_report.c: `hnbrdf report accuracy`: the error of a grid of networks and baselines, as tables and
- * plots. */
+/* cmd_report.c: `hnbrdf report accuracy`: the error of a grid of networks and baselines, as
+ * tables and plots. */
 #include "cli/report.h"
 
 #include <stdlib.h>
@@ -8,10 +8,13 @@
 static const cli_command command = {
     "report",
     "accuracy DATA... -o DIR [options]",
-    "Trains a grid of networks on the same data with the same trainer, and measures them: the hybrid; "
+    "Trains a grid of networks on the same data with the same trainer, and measures them: the "
+    "hybrid; "
     "the\n"
-    "paper's form of it (encoding directions, no floor); neural models that store as many numbers a\n"
-    "material (l = 4 against 12, 8 against 16); GGX alone. DIR gets report.md, accuracy.csv (a row a "
+    "paper's form of it (encoding directions, no floor); neural models that store as many numbers "
+    "a\n"
+    "material (l = 4 against 12, 8 against 16); GGX alone. DIR gets report.md, accuracy.csv (a row "
+    "a "
     "model),\n"
     "materials.csv (a row a material and model), ggx.csv and ggx.svg (how the fits of GGX went),\n"
     "errors-NET.svg, and the models in models/. Beside SMAPE stands the PSNR of spheres under the\n"
@@ -22,10 +25,12 @@ static const cli_command command = {
     "goes on with it. A model made with other settings is not reused.",
     "hnbrdf report accuracy builtin --quick -o quick\n"
     "hnbrdf report accuracy rgl/ --seconds 300 --sampler uniform -o rgl-report\n"
-    "hnbrdf report accuracy merl/ --seconds 600 --latents 4 --nets 16x2,32x2 --resume -o merl-report",
+    "hnbrdf report accuracy merl/ --seconds 600 --latents 4 --nets 16x2,32x2 --resume -o "
+    "merl-report",
 };
 
-/* ---- Output ---------------------------------------------------------------------------------------
+/* ---- Output
+ * ---------------------------------------------------------------------------------------
  */
 
 static int write_results(const report *r)
@@ -59,7 +64,8 @@ static int finished(const report *r, const report_entry *e)
     return write_results(r);
 }
 
-/* ---- Command ------------------------------------------------------------------------------------- */
+/* ---- Command
+ * ------------------------------------------------------------------------------------- */
 
 static int run(report *r, char **data, int count)
 {
@@ -72,7 +78,8 @@ static int run(report *r, char **data, int count)
     if (result == CLI_OK)
         result = report_run(r, finished);
     if (result == CLI_OK)
-        printf("\n%s/report.md: tables and plots; SMAPE, 0 is perfect, 2 the worst\n", r->directory);
+        printf("\n%s/report.md: tables and plots; SMAPE, 0 is perfect, 2 the worst\n",
+               r->directory);
     report_free_entries(r);
     cli_close_data(&r->data);
     return result;
@@ -109,7 +116,8 @@ int cmd_report(int argc, char **argv)
         {"output", 'o', CLI_TEXT, &r.directory, 0, 0, "DIR",
          "the folder to write (required); made if missing"},
         {"nets", 0, CLI_TEXT, &nets, 0, 0, "LIST", "default 16x2,16x3,32x2,32x3,64x2,64x3"},
-        {"latents", 0, CLI_TEXT, &latents, 0, 0, "LIST", "latent sizes of the hybrids (default 4,8)"},
+        {"latents", 0, CLI_TEXT, &latents, 0, 0, "LIST",
+         "latent sizes of the hybrids (default 4,8)"},
         {"models", 0, CLI_TEXT, &models, 0, 0, "LIST",
          "of hybrid, paper and neural (default all); GGX always"},
         {"seconds", 0, CLI_REAL, &r.budget, 0.1, 1e6, "S",
@@ -136,12 +144,14 @@ int cmd_report(int argc, char **argv)
         {0},
     };
     char *line = report_join(argc, argv);
-    int result = line ? cli_parse(&command, options, argc, argv, &count) : cli_fail("out of memory");
+    int result =
+        line ? cli_parse(&command, options, argc, argv, &count) : cli_fail("out of memory");
     r.command_line = line;
     if (result < 0 && count < 1)
         result = cli_usage(&command, "no report named, expected accuracy, images or sampling");
     if (result < 0 && strcmp(argv[1], "accuracy") != 0)
-        result = cli_usage(&command, "no report is called '%s', expected accuracy, images or sampling", argv[1]);
+        result = cli_usage(
+            &command, "no report is called '%s', expected accuracy, images or sampling", argv[1]);
     if (result < 0 && count < 2)
         result = cli_usage(&command, "no DATA given");
     if (result < 0 && !r.directory)

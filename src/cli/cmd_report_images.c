@@ -1,5 +1,6 @@
-/* cmd_report_images.c: `hnbrdf report images`: PSNR of spheres for a grid of networks and baselines,
- * with picture rows, material by material, so that what an interrupted run has done stays. */
+/* cmd_report_images.c: `hnbrdf report images`: PSNR of spheres for a grid of networks and
+ * baselines, with picture rows, material by material, so that what an interrupted run has done
+ * stays. */
 #include "cli/csv.h"
 #include "cli/report.h"
 #include "model/text.h"
@@ -10,15 +11,20 @@
 static const cli_command command = {
     "report",
     "images DATA... -o DIR [options]",
-    "Renders a sphere of every material, measured and of every model, under the same light with the\n"
-    "same random directions, and measures MAE, MSE and PSNR: the paper's table of image errors for\n"
+    "Renders a sphere of every material, measured and of every model, under the same light with "
+    "the\n"
+    "same random directions, and measures MAE, MSE and PSNR: the paper's table of image errors "
+    "for\n"
     "your data. DIR gets images.md, images.csv (a row a material and model), psnr-NET.svg, the\n"
-    "models in models/, and picture rows: images-1.png and so on (EXR beside) with the spheres and\n"
+    "models in models/, and picture rows: images-1.png and so on (EXR beside) with the spheres "
+    "and\n"
     "their differences in false colours; their radiance lies in pictures/ as EXR. Every figure\n"
     "stands with the standard error that noise leaves, from two renderings of each sphere. The\n"
-    "default is the paper's: 512 pixels, 1024 samples, about a minute a sphere on two cores; --quick\n"
+    "default is the paper's: 512 pixels, 1024 samples, about a minute a sphere on two cores; "
+    "--quick\n"
     "is a try. Models come from DIR (--resume), from the folder of a `report accuracy` (--from),\n"
-    "from a file (--model), or are fitted. Everything is written anew after each material: what an\n"
+    "from a file (--model), or are fitted. Everything is written anew after each material: what "
+    "an\n"
     "interrupted run has done stays, and --resume goes on with it.",
     "hnbrdf report images builtin --quick -o quick\n"
     "hnbrdf report images merl/ --from merl-report --env uffizi.hdr -o merl-images\n"
@@ -26,7 +32,8 @@ static const cli_command command = {
     "hnbrdf report images rgl/ --model rgl.safetensors --size 256 --spp 256 -o rgl-images",
 };
 
-/* ---- What figures were made with ----------------------------------------------------------------- */
+/* ---- What figures were made with
+ * ----------------------------------------------------------------- */
 
 static int hash_bytes(void *user, const void *data, size_t size)
 {
@@ -40,8 +47,8 @@ static int hash_bytes(void *user, const void *data, size_t size)
 static void write_settings(const report *r, hnbrdf_model *const *models, FILE *file)
 {
     fprintf(file, "hnbrdf %s\nenv %s\nrotate %.9g\nsize %ld\nspp %ld\nseed %ld\nrows %ld\n",
-            hnbrdf_version(), r->light.env, r->light.rotate, r->image_size, r->light.spp, r->light.seed,
-            r->rows);
+            hnbrdf_version(), r->light.env, r->light.rotate, r->image_size, r->light.spp,
+            r->light.seed, r->rows);
     for (int m = 0; m < r->data.count; m++)
         fprintf(file, "material %s: %s\n", hnbrdf_measured_name(r->data.items[m]),
                 hnbrdf_measured_summary(r->data.items[m]));
@@ -84,7 +91,8 @@ static int keep_settings(const report *r, hnbrdf_model *const *models)
     return cli_output_close(&output);
 }
 
-/* ---- Figures of an earlier run ------------------------------------------------------------------- */
+/* ---- Figures of an earlier run
+ * ------------------------------------------------------------------- */
 
 static report_picture *find_picture(report *r, const char *material, const char *name)
 {
@@ -138,7 +146,8 @@ static int is_done(const report *r, int m)
     return done;
 }
 
-/* ---- Measuring ----------------------------------------------------------------------------------- */
+/* ---- Measuring
+ * ----------------------------------------------------------------------------------- */
 
 /* 1 if the picture of this entry is in the picture rows. */
 static int is_shown(const report *r, const report_entry *e)
@@ -240,7 +249,8 @@ static int measure_and_write(report *r, hnbrdf_model *const *models)
     return code;
 }
 
-/* ---- Command ------------------------------------------------------------------------------------- */
+/* ---- Command
+ * ------------------------------------------------------------------------------------- */
 
 static int run(report *r, char **data, int count)
 {
@@ -282,8 +292,9 @@ static int describe_given(report *r)
     hnbrdf_model_describe(model, &desc);
     hnbrdf_model_free(model);
     if (desc.kind == HNBRDF_KIND_GGX)
-        return cli_fail("%s: GGX alone, which is measured anyway: expected a hybrid or a neural model",
-                        r->given);
+        return cli_fail(
+            "%s: GGX alone, which is measured anyway: expected a hybrid or a neural model",
+            r->given);
     report_form form = desc.kind == HNBRDF_KIND_NEURAL               ? REPORT_NEURAL
                        : desc.encoding == HNBRDF_ENCODING_DIRECTIONS ? REPORT_PAPER
                                                                      : REPORT_HYBRID;
@@ -295,7 +306,8 @@ static int describe_given(report *r)
     return -1;
 }
 
-static int read_grid(report *r, int quick, const char *nets, const char *latents, const char *models)
+static int read_grid(report *r, int quick, const char *nets, const char *latents,
+                     const char *models)
 {
     if (r->given && (nets || latents || models || r->from))
         return cli_usage(&command,
@@ -306,7 +318,8 @@ static int read_grid(report *r, int quick, const char *nets, const char *latents
     int code = report_read_nets(&command, nets ? nets : quick ? "16x2" : "16x3,32x3,64x3", r);
     if (code < 0)
         code = report_read_latents(&command, latents ? latents : quick ? "4" : "4,8", r);
-    return code < 0 ? report_read_models(&command, models ? models : "hybrid,paper,neural", r) : code;
+    return code < 0 ? report_read_models(&command, models ? models : "hybrid,paper,neural", r)
+                    : code;
 }
 
 int cmd_report_images(int argc, char **argv)
@@ -319,17 +332,20 @@ int cmd_report_images(int argc, char **argv)
         {"output", 'o', CLI_TEXT, &r.directory, 0, 0, "DIR",
          "the folder to write (required); made if missing"},
         {"nets", 0, CLI_TEXT, &nets, 0, 0, "LIST", "default 16x3,32x3,64x3"},
-        {"latents", 0, CLI_TEXT, &latents, 0, 0, "LIST", "latent sizes of the hybrids (default 4,8)"},
+        {"latents", 0, CLI_TEXT, &latents, 0, 0, "LIST",
+         "latent sizes of the hybrids (default 4,8)"},
         {"models", 0, CLI_TEXT, &models, 0, 0, "LIST",
          "of hybrid, paper and neural (default all); GGX always"},
-        {"model", 0, CLI_TEXT, &r.given, 0, 0, "FILE", "instead of a grid: this model and GGX alone"},
+        {"model", 0, CLI_TEXT, &r.given, 0, 0, "FILE",
+         "instead of a grid: this model and GGX alone"},
         {"from", 0, CLI_TEXT, &r.from, 0, 0, "DIR2", "take the models from this report's folder"},
         {"steps", 0, CLI_INT, &r.steps, 1, 1e9, "N",
          "train each network so many steps (default: as `fit`)"},
         {"pool", 0, CLI_INT, &r.pool, 64, 1 << 26, "N",
          "direction pairs drawn a material for training"},
         {"fit-seed", 0, CLI_INT, &fit_seed, 0, 9e15, "N", "of the training (default 1)"},
-        {"size", 0, CLI_INT, &r.image_size, 8, 4096, "N", "pixels of a sphere's side (default 512)"},
+        {"size", 0, CLI_INT, &r.image_size, 8, 4096, "N",
+         "pixels of a sphere's side (default 512)"},
         {"spp", 0, CLI_INT, &r.light.spp, 2, 1 << 20, "N",
          "samples a pixel (default 1024); twice a power of 2 is best"},
         {"env", 0, CLI_TEXT, &r.light.env, 0, 0, "sky|furnace|FILE",

@@ -8,19 +8,24 @@
 static const cli_command command = {
     "report",
     "sampling MODEL... -o DIR [options]",
-    "Renders spheres of the models' materials with directions drawn from the BRDF alone, in five ways:\n"
-    "cosine alone; the paper's scheme (half cosine, half GGX normals); one GGX lobe with a share guessed\n"
+    "Renders spheres of the models' materials with directions drawn from the BRDF alone, in five "
+    "ways:\n"
+    "cosine alone; the paper's scheme (half cosine, half GGX normals); one GGX lobe with a share "
+    "guessed\n"
     "from kd and eta; the fitted lobes; a table of the whole BRDF (Lawrence et al. 2004, 5.6 MB a\n"
-    "material; isotropic ones). DIR gets sampling.md (variance over that of the table, and efficiency,\n"
-    "1/(variance x time)), sampling.csv (a row a material, sampler and number of samples), sampling.svg\n"
+    "material; isotropic ones). DIR gets sampling.md (variance over that of the table, and "
+    "efficiency,\n"
+    "1/(variance x time)), sampling.csv (a row a material, sampler and number of samples), "
+    "sampling.svg\n"
     "and strips of pictures. Written anew after each material; Ctrl-C keeps what is done.",
     "hnbrdf report sampling model.safetensors --quick -o sampling\n"
-    "hnbrdf report sampling rgl.safetensors merl.safetensors --most 20 --env uffizi.hdr -o sampling",
+    "hnbrdf report sampling rgl.safetensors merl.safetensors --most 20 --env uffizi.hdr -o "
+    "sampling",
 };
 
 /* Of each model at most `most` materials, spread evenly. 0, or CLI_FAILURE after a message. */
-static int choose_subjects(sampling_report *r, hnbrdf_model **models, char *const *paths, int count, long most,
-                           long strips)
+static int choose_subjects(sampling_report *r, hnbrdf_model **models, char *const *paths, int count,
+                           long most, long strips)
 {
     int total = 0;
     for (int k = 0; k < count; k++)
@@ -60,7 +65,8 @@ static void print_means(const sampling_report *r)
     for (int row = 0; row < 2; row++) {
         printf("%-28s %7s", row ? stratified : "mean", "");
         for (int way = 0; way < SAMPLING_WAYS; way++)
-            printf("  %9.3g", sampling_mean_ratio(r, row ? r->at : 0, (sampling_way)way, SAMPLING_TABULATED, 2.0));
+            printf("  %9.3g", sampling_mean_ratio(r, row ? r->at : 0, (sampling_way)way,
+                                                  SAMPLING_TABULATED, 2.0));
         putchar('\n');
     }
     printf("%-28s %7s", "efficiency over the table's", "");
@@ -72,7 +78,8 @@ static int run(sampling_report *r)
 {
     picture_progress progress = {.count = r->count};
     int code = CLI_OK;
-    printf("variance of one sample over that of the table, %s\n%-28s %7s", r->light.env, "material", "alpha");
+    printf("variance of one sample over that of the table, %s\n%-28s %7s", r->light.env, "material",
+           "alpha");
     for (int way = 0; way < SAMPLING_WAYS; way++)
         printf("  %9s", sampling_name((sampling_way)way));
     putchar('\n');
@@ -87,8 +94,8 @@ static int run(sampling_report *r)
             code = sampling_write(r);
         }
         if (report_interrupted())
-            code = cli_fail("interrupted after %d of %d materials; what is done is in %s", m + 1, r->count,
-                            r->directory);
+            code = cli_fail("interrupted after %d of %d materials; what is done is in %s", m + 1,
+                            r->count, r->directory);
     }
     report_catch_interrupts(0);
     cli_progress_end(&progress.line);
@@ -148,17 +155,23 @@ int cmd_report_sampling(int argc, char **argv)
     int quick = 0, count;
     long most = 1 << 20, spp = 1024, strips = 3;
     const cli_option options[] = {
-        {"output", 'o', CLI_TEXT, &r.directory, 0, 0, "DIR", "the folder to write (required); made if missing"},
-        {"most", 0, CLI_INT, &most, 1, 1 << 20, "N", "at most so many materials of each model (default all)"},
+        {"output", 'o', CLI_TEXT, &r.directory, 0, 0, "DIR",
+         "the folder to write (required); made if missing"},
+        {"most", 0, CLI_INT, &most, 1, 1 << 20, "N",
+         "at most so many materials of each model (default all)"},
         {"size", 0, CLI_INT, &r.size, 4, 2048, "N", "pixels a side of the spheres (default 48)"},
-        {"samples", 0, CLI_INT, &spp, 1, 65536, "N", "most samples a pixel (default 1024); fewer by powers of 4"},
-        {"strips", 0, CLI_INT, &strips, 0, 64, "N", "materials in the strips of pictures (default 3)"},
-        {"quick", 0, CLI_FLAG, &quick, 0, 0, NULL, "a try: 24 pixels, 64 samples, reference of 1024"},
+        {"samples", 0, CLI_INT, &spp, 1, 65536, "N",
+         "most samples a pixel (default 1024); fewer by powers of 4"},
+        {"strips", 0, CLI_INT, &strips, 0, 64, "N",
+         "materials in the strips of pictures (default 3)"},
+        {"quick", 0, CLI_FLAG, &quick, 0, 0, NULL,
+         "a try: 24 pixels, 64 samples, reference of 1024"},
         PICTURE_OPTIONS(r.light, "8192, of the reference"),
         {0},
     };
     char *line = report_join(argc, argv);
-    int result = line ? cli_parse(&command, options, argc, argv, &count) : cli_fail("out of memory");
+    int result =
+        line ? cli_parse(&command, options, argc, argv, &count) : cli_fail("out of memory");
     r.command_line = line;
     if (result < 0 && count < 2)
         result = cli_usage(&command, "no MODEL given");

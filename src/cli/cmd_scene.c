@@ -8,10 +8,12 @@
 static const cli_command command = {
     "scene",
     "FILE.scene [options] -o FILE.exr",
-    "Renders a scene with global illumination: spheres, formulas and OBJ files, each with a material "
+    "Renders a scene with global illumination: spheres, formulas and OBJ files, each with a "
+    "material "
     "of a\n"
     "model, a measurement, a built-in material or GGX, under an environment and area lights.\n"
-    "FILE.exr gets linear radiance and the layers albedo (directional, of what is seen first), normal "
+    "FILE.exr gets linear radiance and the layers albedo (directional, of what is seen first), "
+    "normal "
     "and\n"
     "samples; FILE.png beside it the same radiance times 2^exposure. Ctrl-C keeps what there is.\n"
     "\n"
@@ -23,11 +25,13 @@ static const cli_command command = {
     "  material NAME model FILE [MATERIAL] | measured FILE | builtin NAME | diffuse R G B\n"
     "  material NAME ggx kd R G B eta R G B alpha A [ALPHA_Y]\n"
     "  shape KIND [parameters] [material NAME] [emit R G B] [placing]\n"
-    "KIND is sphere, quad, box, torus [tube R], knot [turns P Q] [tube R], superellipsoid [powers E1 "
+    "KIND is sphere, quad, box, torus [tube R], knot [turns P Q] [tube R], superellipsoid [powers "
+    "E1 "
     "E2],\n"
     "teapot, lathe profile R Y R Y ... (a point given twice is a corner), obj FILE [use PART "
     "MATERIAL]\n"
-    "[smooth]; detail N sets how finely they are cut. Placing, in the order given: scale S, stretch X "
+    "[smooth]; detail N sets how finely they are cut. Placing, in the order given: scale S, "
+    "stretch X "
     "Y Z,\n"
     "turn DEG (about y, which is up), rotate X Y Z DEG (about that axis), move X Y Z.",
     "hnbrdf scene examples/room.scene -o room.exr\n"
@@ -62,8 +66,9 @@ static int render_one(const scene_files *files, const scene_job *job, render_sho
     scene_time time;
     int code = scene_files_render(files, job, show, folder, "rendering", &image, &time);
     if (code == CLI_OK) {
-        snprintf(comments, sizeof comments, "hnbrdf %s scene: %.300s, %ld samples a pixel, seed %ld",
-                 hnbrdf_version(), files->path, job->spp, job->seed);
+        snprintf(comments, sizeof comments,
+                 "hnbrdf %s scene: %.300s, %ld samples a pixel, seed %ld", hnbrdf_version(),
+                 files->path, job->spp, job->seed);
         const render_write_options options = {
             .exposure = exposure, .half = job->half, .comments = comments};
         code = picture_write(&image, job->output, &options);
@@ -85,7 +90,8 @@ int cmd_scene(int argc, char **argv)
          "FILE.exr (and FILE.png beside it) or FILE.png"},
         SCENE_OPTIONS(job),
         {"width", 0, CLI_INT, &sizes.width, 1, 16384, "N", "of the picture, whose shape is kept"},
-        {"exposure", 0, CLI_REAL, &exposure, -64, 64, "EV", "stops, default 0 or what the scene says"},
+        {"exposure", 0, CLI_REAL, &exposure, -64, 64, "EV",
+         "stops, default 0 or what the scene says"},
         {"analytic", 0, CLI_FLAG, &analytic, 0, 0, NULL, "models: their GGX part alone"},
         {"measured", 0, CLI_TEXT, &measured, 0, 0, "DIR",
          "models: the measurements of the same names in DIR instead"},

@@ -9,16 +9,19 @@
 static const cli_command command = {
     "sheet",
     "MODEL DATA... [--materials A,B] [options] -o FILE.png",
-    "Renders a contact sheet: for each material the measurement, GGX alone and the model, under the "
+    "Renders a contact sheet: for each material the measurement, GGX alone and the model, under "
+    "the "
     "same\n"
     "light, with the same exposure and the same random numbers. Under each fitted sphere stand its "
     "mean\n"
-    "absolute error in radiance and its PSNR (peak: the reference's largest value) over the sphere's\n"
+    "absolute error in radiance and its PSNR (peak: the reference's largest value) over the "
+    "sphere's\n"
     "pixels; they are also printed. GGX alone is the analytic part of MODEL, or of --ggx MODEL2.\n"
     "DATA is builtin, builtin:NAME, files (MERL .binary, RGL .bsdf, UTIA .bin) or directories.",
     "hnbrdf sheet model.safetensors builtin -o sheet.png\n"
     "hnbrdf sheet rgl.safetensors measured/rgl --ggx rgl_ggx.safetensors --difference -o rgl.png\n"
-    "hnbrdf sheet model.safetensors builtin --materials gold-two-lobe,retro-tape --size 256 -o two.exr",
+    "hnbrdf sheet model.safetensors builtin --materials gold-two-lobe,retro-tape --size 256 -o "
+    "two.exr",
 };
 
 enum { REFERENCE, GGX, MODEL, GGX_ERROR, MODEL_ERROR, KINDS };
@@ -55,7 +58,8 @@ static int open_model(const char *path, cli_source *source)
 {
     if (cli_open_source(path, source) != CLI_OK)
         return CLI_FAILURE;
-    return source->model ? CLI_OK : cli_fail("%s: expected a model file, found a measurement", path);
+    return source->model ? CLI_OK
+                         : cli_fail("%s: expected a model file, found a measurement", path);
 }
 
 static void choose_columns(sheet_job *job)
@@ -126,22 +130,24 @@ static int open_all(sheet_job *job, char **data, int count)
     if (choose_materials(job) != CLI_OK ||
         picture_open_light(&job->picture, &job->environment) != CLI_OK)
         return CLI_FAILURE;
-    return render_guide_model(&job->guide, &error) == HNBRDF_OK ? CLI_OK : cli_fail("%s", error.text);
+    return render_guide_model(&job->guide, &error) == HNBRDF_OK ? CLI_OK
+                                                                : cli_fail("%s", error.text);
 }
 
 /* ---- One material
  * ------------------------------------------------------------------------------------ */
 
 /* All surfaces of a row draw the same directions, which suit all of them. */
-static void make_surfaces(const sheet_job *job, const sheet_material *m, render_surface surfaces[KINDS])
+static void make_surfaces(const sheet_job *job, const sheet_material *m,
+                          render_surface surfaces[KINDS])
 {
     surfaces[REFERENCE] = render_surface_measured(m->measured);
     surfaces[MODEL] =
         render_surface_model(job->source.model, hnbrdf_model_material(job->source.model, m->index));
     surfaces[GGX] = surfaces[MODEL]; /* unless there is something to show */
     if (job->ggx_model)
-        surfaces[GGX] = render_surface_analytic(job->ggx_model,
-                                                hnbrdf_model_material(job->ggx_model, m->ggx_index));
+        surfaces[GGX] = render_surface_analytic(
+            job->ggx_model, hnbrdf_model_material(job->ggx_model, m->ggx_index));
     const render_surface *all[] = {&surfaces[REFERENCE], &surfaces[GGX], &surfaces[MODEL]};
     render_guide guide = render_guide_fit(all, 3, job->guide);
     for (int kind = REFERENCE; kind <= MODEL; kind++)
@@ -190,8 +196,8 @@ static int fill_cell(sheet_job *job, sheet_material *m, const render_surface *su
 {
     render_sheet_cell *cell = cells[kind];
     if (kind == GGX_ERROR || kind == MODEL_ERROR)
-        return make_difference(&cells[kind == GGX_ERROR ? GGX : MODEL]->image, &cells[REFERENCE]->image,
-                               &cell->image);
+        return make_difference(&cells[kind == GGX_ERROR ? GGX : MODEL]->image,
+                               &cells[REFERENCE]->image, &cell->image);
     int code = render_cell(job, &surfaces[kind], &cell->image);
     if (code == CLI_OK && kind != REFERENCE) {
         code = picture_compare(&cell->image, &cells[REFERENCE]->image, &m->errors[kind]);
@@ -279,19 +285,20 @@ static int write_sheet(sheet_job *job)
         snprintf(kind, sizeof kind, "%s %dx%d", hnbrdf_kind_name(job->desc.kind), job->desc.hidden,
                  job->desc.layers);
         snprintf(what, sizeof what, "%s, %s encoding, %zu weights for %d materials", kind,
-                 hnbrdf_encoding_name(job->desc.encoding), hnbrdf_model_weight_count(job->source.model),
+                 hnbrdf_encoding_name(job->desc.encoding),
+                 hnbrdf_model_weight_count(job->source.model),
                  hnbrdf_model_material_count(job->source.model));
     }
     int length = snprintf(light, sizeof light, "mean PSNR of");
     for (int c = 1; c < job->kind_count && job->kinds[c] <= MODEL; c++)
-        length +=
-            snprintf(light + length, sizeof light - (size_t)length, "%s %s %.1f dB", c > 1 ? "," : "",
-                     job->kinds[c] == GGX ? "GGX" : "model", means[job->kinds[c]].psnr);
+        length += snprintf(light + length, sizeof light - (size_t)length, "%s %s %.1f dB",
+                           c > 1 ? "," : "", job->kinds[c] == GGX ? "GGX" : "model",
+                           means[job->kinds[c]].psnr);
     snprintf(light + length, sizeof light - (size_t)length, "; light %.60s, %ld samples a pixel",
              base_name(job->picture.env), job->picture.spp);
     snprintf(ggx_error, sizeof ggx_error, "GGX error \xc3\x97 %g", (double)difference_gain);
-    snprintf(model_error, sizeof model_error, "%s error \xc3\x97 %g", hnbrdf_kind_name(job->desc.kind),
-             (double)difference_gain);
+    snprintf(model_error, sizeof model_error, "%s error \xc3\x97 %g",
+             hnbrdf_kind_name(job->desc.kind), (double)difference_gain);
     for (int c = 0; c < job->kind_count; c++)
         sheet.titles[c] = titles[job->kinds[c]];
 
@@ -342,7 +349,8 @@ int cmd_sheet(int argc, char **argv)
         {"materials", 0, CLI_TEXT, &job.list, 0, 0, "A,B",
          "default: all of the model's that are in DATA"},
         {"ggx", 0, CLI_TEXT, &job.ggx_path, 0, 0, "MODEL2", "show its analytic parts as GGX alone"},
-        {"difference", 0, CLI_FLAG, &job.difference, 0, 0, NULL, "also 4 times the absolute errors"},
+        {"difference", 0, CLI_FLAG, &job.difference, 0, 0, NULL,
+         "also 4 times the absolute errors"},
         {"columns", 0, CLI_INT, &job.columns, 0, 64, "N",
          "materials beside each other; default: about 3:2"},
         {"size", 0, CLI_INT, &job.size, 32, 2048, "N", "pixels of a sphere's side, default 160"},

@@ -1,5 +1,5 @@
-/* cmd_stability.c: `hnbrdf stability`: every implementation against the oracle, where floats are hard
- * pressed. */
+/* cmd_stability.c: `hnbrdf stability`: every implementation against the oracle, where floats are
+ * hard pressed. */
 #include "cli/cli.h"
 #include "cli/stability_gpu.h"
 #include "cli/stability_plot.h"
@@ -15,11 +15,13 @@ static const cli_command command = {
     "              [--csv FILE] [--json FILE] [--plot FILE.png]",
     "How far from the true value is what the library computes? The formulas in 113 bits (where the "
     "compiler\n"
-    "has them) against C, singly and in batches, in every rounding mode and with subnormals flushed, "
+    "has them) against C, singly and in batches, in every rounding mode and with subnormals "
+    "flushed, "
     "over\n"
     "roughness 1e-4 to 1, needles of 1e4:1, half vectors at the normal and the horizon, cosines to "
     "1e-38,\n"
-    "eta to 1 + 2^-23, latent codes and weights until they overflow, directions that are not unit, NaN "
+    "eta to 1 + 2^-23, latent codes and weights until they overflow, directions that are not unit, "
+    "NaN "
     "and\n"
     "infinity everywhere, and sampling at both ends of its random numbers.\n"
     "\n"
@@ -95,8 +97,8 @@ static int compare_all(char **paths, int count, const settings *set, stability_r
     char note[128] = "";
     int gpu_count = 0;
     c.count = stability_c_backends(c.backends);
-    int code =
-        stability_gpus_open(set->device, set->styles, &c.gpus, c.backends + c.count, &gpu_count, note);
+    int code = stability_gpus_open(set->device, set->styles, &c.gpus, c.backends + c.count,
+                                   &gpu_count, note);
     c.count += gpu_count;
     if (code == CLI_OK && note[0])
         fprintf(stderr, "%s\n", note);

@@ -1,4 +1,5 @@
-/* cmd_verify.c: `hnbrdf verify`: the exported shader on this machine's GPUs against the C library. */
+/* cmd_verify.c: `hnbrdf verify`: the exported shader on this machine's GPUs against the C
+ * library. */
 #include "cli/cli.h"
 
 #ifdef HNBRDF_WITH_VULKAN
@@ -12,13 +13,16 @@ static const cli_command command = {
     "verify",
     "MODEL [--materials A,B] [--weights STYLE] [--precision P] [--fixed]\n"
     "              [--device N|all] [--pairs N]",
-    "Proves on every Vulkan device that the exported shader gives what the C library gives. Compared "
+    "Proves on every Vulkan device that the exported shader gives what the C library gives. "
+    "Compared "
     "are\n"
     "the encoding, the network alone, the analytic part and the whole BRDF, on random, mirror, "
     "grazing,\n"
-    "retroreflecting and extreme pairs of directions, in two builds: exact (HNBRDF_EXACT 1: the bits "
+    "retroreflecting and extreme pairs of directions, in two builds: exact (HNBRDF_EXACT 1: the "
+    "bits "
     "of C\n"
-    "where the device rounds + - * / sqrt correctly, which is probed) and fast (built-in exp and log). "
+    "where the device rounds + - * / sqrt correctly, which is probed) and fast (built-in exp and "
+    "log). "
     "How\n"
     "far a device may differ is derived for every pair from the error of each operation (Vulkan's "
     "limits).\n"
@@ -42,8 +46,8 @@ typedef struct exported_scene {
     gpu_text text, weights;
 } exported_scene;
 
-static int export_scene(const hnbrdf_model *model, const settings *set, const int *materials, int count,
-                        exported_scene *scene)
+static int export_scene(const hnbrdf_model *model, const settings *set, const int *materials,
+                        int count, exported_scene *scene)
 {
     const hnbrdf_glsl_options options = {.materials = materials,
                                          .material_count = count,
@@ -51,7 +55,8 @@ static int export_scene(const hnbrdf_model *model, const settings *set, const in
                                          .precision = (hnbrdf_glsl_precision)set->precision,
                                          .fixed = set->fixed};
     hnbrdf_error error;
-    hnbrdf_result result = hnbrdf_export_glsl(model, &options, gpu_text_append, &scene->text, &error);
+    hnbrdf_result result =
+        hnbrdf_export_glsl(model, &options, gpu_text_append, &scene->text, &error);
     if (!result && options.weights == HNBRDF_GLSL_UNIFORM && hnbrdf_weights_size(model) > 0)
         result = hnbrdf_export_weights(model, &options, gpu_text_append, &scene->weights, &error);
     return result ? cli_fail("%s", error.text) : CLI_OK;
@@ -62,8 +67,8 @@ static int export_scene(const hnbrdf_model *model, const settings *set, const in
 static void list_devices(const gpu_instance *instance)
 {
     for (int i = 0; i < instance->count; i++)
-        printf("%d: %s, %s, %s\n", i, instance->properties[i].deviceName, gpu_kind_name(instance, i),
-               instance->drivers[i]);
+        printf("%d: %s, %s, %s\n", i, instance->properties[i].deviceName,
+               gpu_kind_name(instance, i), instance->drivers[i]);
 }
 
 /* Numbers of the devices meant: all, or one. Returns -1 to go on, else the exit code. */
@@ -72,8 +77,9 @@ static int choose_devices(const gpu_instance *instance, const char *text, int *f
     *first = 0;
     *count = instance->count;
     if (instance->count == 0)
-        return cli_fail("no Vulkan device found (Debian: apt-get install mesa-vulkan-drivers brings "
-                        "one in software)");
+        return cli_fail(
+            "no Vulkan device found (Debian: apt-get install mesa-vulkan-drivers brings "
+            "one in software)");
     if (strcmp(text, "all") == 0)
         return -1;
     char *end;
@@ -81,8 +87,8 @@ static int choose_devices(const gpu_instance *instance, const char *text, int *f
     if (end == text || *end)
         return cli_usage(&command, "--device: found '%s', expected a number or all", text);
     if (number < 0 || number >= instance->count)
-        return cli_fail("--device %ld: this machine has devices 0 to %d (hnbrdf verify --list)", number,
-                        instance->count - 1);
+        return cli_fail("--device %ld: this machine has devices 0 to %d (hnbrdf verify --list)",
+                        number, instance->count - 1);
     *first = (int)number;
     *count = 1;
     return -1;
@@ -98,16 +104,16 @@ static void verify_device(const gpu_instance *instance, const verification *v, c
 {
     cli_progress progress;
     gpu_device device;
-    const gpu_verify_options options = {.scene = {scene->text.bytes, scene->weights.bytes,
-                                                  scene->weights.size},
-                                        .precision = v->precision,
-                                        .materials = v->materials,
-                                        .material_count = v->material_count,
-                                        .pairs = v->pairs,
-                                        .seed = (uint64_t)set->seed,
-                                        .without_timing = set->without_timing,
-                                        .progress = on_progress,
-                                        .progress_user = &progress};
+    const gpu_verify_options options = {
+        .scene = {scene->text.bytes, scene->weights.bytes, scene->weights.size},
+        .precision = v->precision,
+        .materials = v->materials,
+        .material_count = v->material_count,
+        .pairs = v->pairs,
+        .seed = (uint64_t)set->seed,
+        .without_timing = set->without_timing,
+        .progress = on_progress,
+        .progress_user = &progress};
     to->name = instance->properties[to->index].deviceName;
     to->kind = gpu_kind_name(instance, to->index);
     to->driver = instance->drivers[to->index];
@@ -172,7 +178,9 @@ static int verify_scene(gpu_instance *instance, verification *v, const settings 
 
 static int verify_model(gpu_instance *instance, const settings *set, const char *path)
 {
-    verification v = {.path = path, .pairs = (size_t)set->pairs, .validated = set->validate,
+    verification v = {.path = path,
+                      .pairs = (size_t)set->pairs,
+                      .validated = set->validate,
                       .weights = (hnbrdf_glsl_weights)set->weights,
                       .precision = (hnbrdf_glsl_precision)set->precision};
     int first, *materials = NULL;
@@ -208,18 +216,21 @@ int cmd_verify(int argc, char **argv)
          "style of the exported shader (default constants)"},
         {"precision", 0, CLI_CHOICE, &set.precision, 0, 0, "float|half",
          "of its hidden layers (default float)"},
-        {"fixed", 0, CLI_FLAG, &set.fixed, 0, 0, NULL, "materials as constants, as export --fixed writes them"},
+        {"fixed", 0, CLI_FLAG, &set.fixed, 0, 0, NULL,
+         "materials as constants, as export --fixed writes them"},
         {"device", 'd', CLI_TEXT, &set.device, 0, 0, "N|all",
          "number of a device, see --list (default: all)"},
         {"pairs", 'n', CLI_INT, &set.pairs, 64, 1 << 22, "N",
          "direction pairs a material (default 16384)"},
-        {"seed", 0, CLI_INT, &set.seed, 0, 9007199254740992.0, "N", "of the random pairs (default 1)"},
+        {"seed", 0, CLI_INT, &set.seed, 0, 9007199254740992.0, "N",
+         "of the random pairs (default 1)"},
         {"csv", 0, CLI_TEXT, &set.csv, 0, 0, "FILE",
          "a row a device, material, build and stage; - is standard output"},
         {"json", 0, CLI_TEXT, &set.json, 0, 0, "FILE", "everything found as JSON; - likewise"},
         {"validate", 0, CLI_FLAG, &set.validate, 0, 0, NULL,
          "with the Vulkan validation layer; any message fails"},
-        {"without-timing", 0, CLI_FLAG, &set.without_timing, 0, 0, NULL, "do not measure the run time"},
+        {"without-timing", 0, CLI_FLAG, &set.without_timing, 0, 0, NULL,
+         "do not measure the run time"},
         {"list", 0, CLI_FLAG, &set.list, 0, 0, NULL, "list the devices and stop"},
         {0},
     };

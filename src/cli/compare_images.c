@@ -1,5 +1,5 @@
-/* compare_images.c: `hnbrdf compare --images`: MAE, MSE and PSNR of pictures against a reference, and
- * where a picture differs, in false colours. */
+/* compare_images.c: `hnbrdf compare --images`: MAE, MSE and PSNR of pictures against a reference,
+ * and where a picture differs, in false colours. */
 #include "cli/compare_images.h"
 
 #include "cli/csv.h"
@@ -24,7 +24,8 @@ typedef struct job {
     int count;
 } job;
 
-/* ---- Reading ------------------------------------------------------------------------------------- */
+/* ---- Reading
+ * ------------------------------------------------------------------------------------- */
 
 static int check_values(const picture *p)
 {
@@ -67,7 +68,8 @@ static int measure(picture *p, const picture *reference)
     return picture_compare(a, b, &p->error);
 }
 
-/* ---- Tables -------------------------------------------------------------------------------------- */
+/* ---- Tables
+ * -------------------------------------------------------------------------------------- */
 
 static void write_table(const job *j)
 {
@@ -146,20 +148,22 @@ static int is_machine_read(const compare_images_options *options)
            (options->json && strcmp(options->json, "-") == 0);
 }
 
-/* ---- The difference ------------------------------------------------------------------------------ */
+/* ---- The difference
+ * ------------------------------------------------------------------------------ */
 
 static int draw_difference(const job *j)
 {
     const picture *p = &j->pictures[0];
     char what[256], figures[128];
-    const char *lines[RENDER_DIFFERENCE_LINES] = {what, figures, "|difference|, mean of R, G and B"};
+    const char *lines[RENDER_DIFFERENCE_LINES] = {what, figures,
+                                                  "|difference|, mean of R, G and B"};
     render_image page = {0};
     hnbrdf_error error;
     snprintf(what, sizeof what, "%.100s against %.100s", p->path, j->reference.path);
-    snprintf(figures, sizeof figures, "MAE %.4g, MSE %.4g, PSNR %.2f dB", p->error.mae, p->error.mse,
-             p->error.psnr);
-    if (render_difference_page(&p->image, &j->reference.image, j->options->top, lines, &page, &error) !=
-        HNBRDF_OK)
+    snprintf(figures, sizeof figures, "MAE %.4g, MSE %.4g, PSNR %.2f dB", p->error.mae,
+             p->error.mse, p->error.psnr);
+    if (render_difference_page(&p->image, &j->reference.image, j->options->top, lines, &page,
+                               &error) != HNBRDF_OK)
         return cli_fail("%s", error.text);
     render_write_options options = {.half = 1, .comments = what};
     int code = is_machine_read(j->options)

@@ -1,4 +1,5 @@
-/* csv.c: read comma-separated text line by line (RFC 4180, one record a line), from people and pipes.
+/* csv.c: read comma-separated text line by line (RFC 4180, one record a line), from people and
+ * pipes.
  */
 #include "cli/csv.h"
 
@@ -122,8 +123,8 @@ int csv_number(const csv_reader *reader, int index, const char *what, float *val
     const char *end = text + strlen(text);
     if (*text && hnbrdf_parse_float(text, end, value) == end)
         return 0;
-    cli_fail("%s:%ld: %s: found '%.40s', expected a finite decimal number", reader->name, reader->line,
-             what, text);
+    cli_fail("%s:%ld: %s: found '%.40s', expected a finite decimal number", reader->name,
+             reader->line, what, text);
     return -1;
 }
 

@@ -18,12 +18,13 @@ typedef struct csv_reader {
 
 void csv_begin(csv_reader *reader, FILE *file, const char *name);
 
-/* Reads the next line that is not blank and splits it: 1, or 0 at the end, or -1 after a message about
- * a line that is too long, holds a NUL byte or an open quote, or cannot be read. Lines end with LF or
- * CRLF, the last one may go without; a byte order mark is skipped. */
+/* Reads the next line that is not blank and splits it: 1, or 0 at the end, or -1 after a message
+ * about a line that is too long, holds a NUL byte or an open quote, or cannot be read. Lines end
+ * with LF or CRLF, the last one may go without; a byte order mark is skipped. */
 int csv_next(csv_reader *reader);
 
-/* Reads fields[index] as one finite decimal number: 0, or -1 after a message that calls it `what`. */
+/* Reads fields[index] as one finite decimal number: 0, or -1 after a message that calls it
+ * `what`. */
 int csv_number(const csv_reader *reader, int index, const char *what, float *value);
 
 /* Writes one field, in quotes where it needs them (RFC 4180). */

@@ -1,4 +1,5 @@
-/* fit_log.c: the course of a training as CSV, a row every 100 steps, gone on with after a resume. */
+/* fit_log.c: the course of a training as CSV, a row every 100 steps, gone on with after a resume.
+ * */
 #include "cli/fit_log.h"
 
 #include <errno.h>
@@ -9,8 +10,8 @@
 
 static const char header[] = "step,share,loss,pairs_per_s\n";
 
-/* The whole file as text, malloc'ed; NULL without a message where there is no such file, with *code set
- * after one. */
+/* The whole file as text, malloc'ed; NULL without a message where there is no such file, with
+ * *code set after one. */
 static char *read_all(const char *path, int *code)
 {
     struct stat status;
@@ -41,8 +42,8 @@ int fit_log_open(const char *path, int resume, loss_curve *curve, fit_log *log)
     if (resume)
         log->before = read_all(path, &code);
     if (log->before && strncmp(log->before, header, sizeof header - 1) != 0)
-        code =
-            cli_fail("%s:1: not the log of a fit, expected %.*s", path, (int)sizeof header - 2, header);
+        code = cli_fail("%s:1: not the log of a fit, expected %.*s", path, (int)sizeof header - 2,
+                        header);
     if (code == CLI_OK)
         code = cli_output_open(path, &log->output);
     if (code == CLI_OK) {
@@ -54,8 +55,8 @@ int fit_log_open(const char *path, int resume, loss_curve *curve, fit_log *log)
     return code;
 }
 
-/* Copies the earlier rows up to step `end`: a fit that was killed may have logged more of them than its
- * checkpoint knows. */
+/* Copies the earlier rows up to step `end`: a fit that was killed may have logged more of them
+ * than its checkpoint knows. */
 static void copy_rows(fit_log *log, long end)
 {
     char *next = log->before + sizeof header - 1;
@@ -79,7 +80,8 @@ void fit_log_row(fit_log *log, const hnbrdf_fit_progress *p)
     if (log->before)
         copy_rows(log, p->step);
     if (log->output.file) {
-        fprintf(log->output.file, "%ld,%.6f,%.6f,%.0f\n", p->step, p->done, p->loss, p->pairs_per_s);
+        fprintf(log->output.file, "%ld,%.6f,%.6f,%.0f\n", p->step, p->done, p->loss,
+                p->pairs_per_s);
         fflush(log->output.file); /* for who watches */
     }
     loss_curve_add(log->curve, p->step, p->loss);

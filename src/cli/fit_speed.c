@@ -50,14 +50,16 @@ void fit_speed_print(const fit_speed *speed)
     double all = r->threads * r->seconds;
     list_parts(&r->times, parts);
     if (r->pairs > 0.0) {
-        printf("speed: %.2f M pairs/s everything included, %.2f in the network stage, %d thread%s\n",
-               share(r->pairs, r->seconds) * 1e-6, r->pairs_per_s * 1e-6, r->threads,
-               r->threads == 1 ? "" : "s");
-        printf("network kernels (%s): %.1f GFLOP/s, %.0f %% of the FMA peak of %.0f (%s), %.0f %% of "
-               "separate multiplications and additions\n",
-               r->instructions, speed->kernel_flops * 1e-9,
-               100.0 * share(speed->kernel_flops, speed->peak), speed->peak * 1e-9, cli_peak_name(),
-               100.0 * share(speed->kernel_flops, speed->muladd));
+        printf(
+            "speed: %.2f M pairs/s everything included, %.2f in the network stage, %d thread%s\n",
+            share(r->pairs, r->seconds) * 1e-6, r->pairs_per_s * 1e-6, r->threads,
+            r->threads == 1 ? "" : "s");
+        printf(
+            "network kernels (%s): %.1f GFLOP/s, %.0f %% of the FMA peak of %.0f (%s), %.0f %% of "
+            "separate multiplications and additions\n",
+            r->instructions, speed->kernel_flops * 1e-9,
+            100.0 * share(speed->kernel_flops, speed->peak), speed->peak * 1e-9, cli_peak_name(),
+            100.0 * share(speed->kernel_flops, speed->muladd));
     }
     printf("time:");
     for (int k = 0; k < PARTS; k++)
@@ -82,10 +84,10 @@ void fit_speed_write_json(const fit_speed *speed, FILE *file)
     fprintf(file, "{\"steps\": %ld, \"stopped\": %s, \"loss\": ", r->steps,
             r->stopped ? "true" : "false");
     write_number(r->final_loss, file);
-    fprintf(
-        file,
-        ",\n \"set_backs\": %d, \"rate\": %.9g, \"best_step\": %ld, \"ggx_alone\": %s, \"best_loss\": ",
-        r->set_backs, r->rate, r->best_step, r->ggx_alone ? "true" : "false");
+    fprintf(file,
+            ",\n \"set_backs\": %d, \"rate\": %.9g, \"best_step\": %ld, \"ggx_alone\": %s, "
+            "\"best_loss\": ",
+            r->set_backs, r->rate, r->best_step, r->ggx_alone ? "true" : "false");
     write_number(r->best_loss, file);
     fputs(", \"ggx_loss\": ", file);
     write_number(r->ggx_loss, file);

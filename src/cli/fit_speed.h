@@ -8,8 +8,10 @@
 
 typedef struct fit_speed {
     const hnbrdf_fit_report *report;
-    double kernel_flops; /* FLOP/s of the network's passes while they ran, on all threads together */
-    double peak, muladd; /* FLOP/s that this machine can reach: fused, and multiplied and added apart */
+    /* FLOP/s of the network's passes while they ran, on all threads together */
+    double kernel_flops;
+    /* FLOP/s that this machine can reach: fused, and multiplied and added apart */
+    double peak, muladd;
 } fit_speed;
 
 /* Measures the machine's limit, about 0.1 s, if the fit trained a network. */

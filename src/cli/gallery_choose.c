@@ -36,8 +36,8 @@ static double distance(float (*f)[3], float (*h)[3])
     return sum / (3.0 * PAIRS);
 }
 
-/* How much a material changes with twice the roughness, the opposite colour, and more refraction; times
- * how far it is from its GGX part, which by itself needs no network. */
+/* How much a material changes with twice the roughness, the opposite colour, and more refraction;
+ * times how far it is from its GGX part, which by itself needs no network. */
 static double answer(const gallery *g, const directions *d, const hnbrdf_material *material)
 {
     float before[PAIRS][3], after[PAIRS][3];

@@ -1,5 +1,5 @@
-/* gallery_pages.c: renders strips of edited materials and writes them as pages, with gallery.md to tell
- * how each is made. */
+/* gallery_pages.c: renders strips of edited materials and writes them as pages, with gallery.md
+ * to tell how each is made. */
 #include "cli/gallery.h"
 
 #include <stdlib.h>
@@ -19,7 +19,8 @@ typedef struct page {
     int beside; /* 1: each strip again with GGX alone */
 } page;
 
-/* ---- Which pages --------------------------------------------------------------------------------- */
+/* ---- Which pages
+ * --------------------------------------------------------------------------------- */
 
 static int is_hybrid(const gallery *g)
 {
@@ -106,7 +107,8 @@ static int work_of(const gallery *g)
     return GALLERY_EDITS * (edits * (is_hybrid(g) ? 2 : 1) + g->pair_count);
 }
 
-/* ---- Rendering ----------------------------------------------------------------------------------- */
+/* ---- Rendering
+ * ----------------------------------------------------------------------------------- */
 
 static int render_cell(gallery *g, render_surface *surface, render_sheet_cell *cell)
 {
@@ -184,7 +186,8 @@ static int render_row(gallery *g, const gallery_strip *strip, int analytic, int 
     return code;
 }
 
-/* ---- A page -------------------------------------------------------------------------------------- */
+/* ---- A page
+ * -------------------------------------------------------------------------------------- */
 
 static const char *kind_of(const gallery *g, int analytic)
 {
@@ -193,7 +196,8 @@ static const char *kind_of(const gallery *g, int analytic)
 
 typedef char row_name[2 * HNBRDF_MAX_NAME + 64];
 
-static int render_rows(gallery *g, const page *p, int shift, render_sheet_row *rows, row_name *names)
+static int render_rows(gallery *g, const page *p, int shift, render_sheet_row *rows,
+                       row_name *names)
 {
     int code = CLI_OK, count = 0;
     for (int s = 0; s < p->count && code == CLI_OK; s++)
@@ -257,7 +261,8 @@ static int make_page(gallery *g, const page *p)
     return code;
 }
 
-/* ---- All of them --------------------------------------------------------------------------------- */
+/* ---- All of them
+ * --------------------------------------------------------------------------------- */
 
 /* The page in gallery.md, with the commands that make the last sphere of each strip. */
 static void describe_page(const gallery *g, const page *p, FILE *file)
@@ -287,11 +292,11 @@ static int finish_page(gallery *g, const page *p, FILE *file)
 static int make_pages(gallery *g, page *p, FILE *file)
 {
     int code = CLI_OK;
-    fprintf(
-        file,
-        "# Gallery\n\nEdits and mixtures of `%s`, by `hnbrdf gallery` %s. Below each page stands what "
-        "makes the last\nsphere of each of its strips.\n",
-        g->model_path, hnbrdf_version());
+    fprintf(file,
+            "# Gallery\n\nEdits and mixtures of `%s`, by `hnbrdf gallery` %s. Below each page "
+            "stands what "
+            "makes the last\nsphere of each of its strips.\n",
+            g->model_path, hnbrdf_version());
     for (int k = 0; k < g->material_count && has_analytic(g) && code == CLI_OK; k++) {
         plan_edits(g, g->materials[k], p);
         code = finish_page(g, p, file);

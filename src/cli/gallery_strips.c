@@ -40,8 +40,8 @@ void gallery_strip_kd(const hnbrdf_material *material, gallery_strip *strip)
     for (int k = 1; k < GALLERY_EDITS; k++) {
         for (int c = 0; c < 3; c++)
             edited[k].kd[c] = colours[k][c];
-        snprintf(strip->captions[k], sizeof strip->captions[k], "kd %g %g %g", (double)colours[k][0],
-                 (double)colours[k][1], (double)colours[k][2]);
+        snprintf(strip->captions[k], sizeof strip->captions[k], "kd %g %g %g",
+                 (double)colours[k][0], (double)colours[k][1], (double)colours[k][2]);
     }
     const float *last = colours[GALLERY_EDITS - 1];
     snprintf(strip->command, sizeof strip->command, "--set kd=%g:%g:%g", (double)last[0],
@@ -61,8 +61,8 @@ void gallery_strip_eta(const hnbrdf_material *material, gallery_strip *strip)
         if (etas[k][0] == etas[k][2])
             snprintf(strip->captions[k], sizeof strip->captions[k], "eta %g", (double)etas[k][0]);
         else
-            snprintf(strip->captions[k], sizeof strip->captions[k], "eta %g %g %g", (double)etas[k][0],
-                     (double)etas[k][1], (double)etas[k][2]);
+            snprintf(strip->captions[k], sizeof strip->captions[k], "eta %g %g %g",
+                     (double)etas[k][0], (double)etas[k][1], (double)etas[k][2]);
     }
     const float *last = etas[GALLERY_EDITS - 1];
     snprintf(strip->command, sizeof strip->command, "--set eta=%g:%g:%g", (double)last[0],
@@ -84,13 +84,13 @@ void gallery_strip_anisotropy(const hnbrdf_material *material, gallery_strip *st
         edited[k].alpha[1] = (float)y;
         edited[k].rotation = (float)(edits[k].degrees * 3.14159265358979323846 / 180.0);
         if (edits[k].degrees > 0.0)
-            snprintf(strip->captions[k], sizeof strip->captions[k], "%g : 1, %g deg", edits[k].ratio,
-                     edits[k].degrees);
+            snprintf(strip->captions[k], sizeof strip->captions[k], "%g : 1, %g deg",
+                     edits[k].ratio, edits[k].degrees);
         else
             snprintf(strip->captions[k], sizeof strip->captions[k], "%g : 1", edits[k].ratio);
         if (k == GALLERY_EDITS - 1)
-            snprintf(strip->command, sizeof strip->command, "--set alpha=%.3g:%.3g,rotation=%gdeg", x,
-                     y, edits[k].degrees);
+            snprintf(strip->command, sizeof strip->command, "--set alpha=%.3g:%.3g,rotation=%gdeg",
+                     x, y, edits[k].degrees);
     }
 }
 

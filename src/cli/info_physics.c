@@ -30,7 +30,8 @@ void info_print_physics(const hnbrdf_model *model, int width)
     }
     fputs("\nalbedo: the largest share of light from everywhere that leaves towards one direction, "
           "that many\n"
-          "degrees from n, of those up to 88. Not reciprocal by: |f - f swapped| over the mean of both, averaged. Black: "
+          "degrees from n, of those up to 88. Not reciprocal by: |f - f swapped| over the mean of "
+          "both, averaged. Black: "
           "values of 0.\n",
           stdout);
     if (above)
@@ -48,6 +49,7 @@ void info_json_physics(const hnbrdf_model *model, const hnbrdf_material *materia
     printf(", \"albedo\": %.6g, \"albedo_degrees\": %.3g, \"albedo_channel\": %d, "
            "\"conserves_energy\": %s",
            p.albedo, p.albedo_theta * DEGREES, p.albedo_channel, p.albedo > 1.0 ? "false" : "true");
-    printf(", \"reciprocity_error\": %.6g, \"reciprocity_worst\": %.6g, \"black\": %.6g, \"valid\": %s",
+    printf(", \"reciprocity_error\": %.6g, \"reciprocity_worst\": %.6g, \"black\": %.6g, "
+           "\"valid\": %s",
            p.reciprocity, p.reciprocity_worst, p.black, p.valid ? "true" : "false");
 }

@@ -5,7 +5,8 @@
 
 #include "hnbrdf/hnbrdf.h"
 
-/* A table with a line for each material, `width` the width of its first column, and what it means. */
+/* A table with a line for each material, `width` the width of its first column, and what it
+ * means. */
 void info_print_physics(const hnbrdf_model *model, int width);
 /* The same of one material as members of a JSON object, after others. */
 void info_json_physics(const hnbrdf_model *model, const hnbrdf_material *material);

@@ -10,7 +10,8 @@ static hnbrdf_result set(const hnbrdf_model *model, lobes_scheme scheme, hnbrdf_
     memset(&material->lobes, 0, sizeof material->lobes);
     if (scheme == LOBES_PAPER)
         hnbrdf_lobes_paper(&material->lobes);
-    return scheme == LOBES_FITTED ? hnbrdf_lobes_fit(model, material, &material->lobes, error) : HNBRDF_OK;
+    return scheme == LOBES_FITTED ? hnbrdf_lobes_fit(model, material, &material->lobes, error)
+                                  : HNBRDF_OK;
 }
 
 int lobes_set_all(hnbrdf_model **model, lobes_scheme scheme)

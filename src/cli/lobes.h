@@ -10,8 +10,8 @@ typedef enum lobes_scheme {
     LOBES_GUESS       /* none: what hnbrdf_sample() guesses from kd and eta */
 } lobes_scheme;
 
-/* Puts a model with lobes of this scheme in the place of *model, which is freed; on failure it stays. Tells
- * progress. Returns 0, or CLI_FAILURE after a message. */
+/* Puts a model with lobes of this scheme in the place of *model, which is freed; on failure it
+ * stays. Tells progress. Returns 0, or CLI_FAILURE after a message. */
 int lobes_set_all(hnbrdf_model **model, lobes_scheme scheme);
 
 #endif

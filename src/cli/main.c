@@ -26,7 +26,8 @@ static const subcommand subcommands[] = {
     {"lobes", cmd_lobes, "where samples of a material go: fit, or take the paper's scheme"},
     {"gallery", cmd_gallery, "pages of edited and mixed materials"},
     {"bake", cmd_bake, "the smallest network that is good enough for the materials of a scene"},
-    {"report", cmd_report, "errors of a grid of networks and baselines, over directions or of images"},
+    {"report", cmd_report,
+     "errors of a grid of networks and baselines, over directions or of images"},
     {"bench", cmd_bench, "run time beside error, on the CPU and on GPUs"},
     {"import", cmd_import, "published .brdf shaders to a model file"},
 };
@@ -36,7 +37,8 @@ static void print_overview(FILE *file)
 {
     fputs("usage: hnbrdf COMMAND [arguments]\n"
           "\n"
-          "Hybrid neural-microfacet BRDFs: fit them to measurements, prove them, use them in shaders.\n"
+          "Hybrid neural-microfacet BRDFs: fit them to measurements, prove them, use them in "
+          "shaders.\n"
           "\n"
           "commands:\n",
           file);
@@ -45,7 +47,8 @@ static void print_overview(FILE *file)
     fputs(
         "\n"
         "DATA is `builtin` (procedural materials), MERL .binary, RGL .bsdf or UTIA .bin files, or\n"
-        "directories of them. A material is named after its file. `hnbrdf COMMAND --help` tells more.\n"
+        "directories of them. A material is named after its file. `hnbrdf COMMAND --help` tells "
+        "more.\n"
         "\n"
         "examples:\n"
         "  hnbrdf fit builtin -o model.safetensors\n"

@@ -37,7 +37,8 @@ int palette_open(palette *p, const char *path)
     p->model = source.model;
     int result = CLI_OK;
     for (int k = 0; k < hnbrdf_model_material_count(p->model) && result == CLI_OK; k++)
-        result = append(p, hnbrdf_model_material_name(p->model, k), hnbrdf_model_material(p->model, k));
+        result =
+            append(p, hnbrdf_model_material_name(p->model, k), hnbrdf_model_material(p->model, k));
     if (result != CLI_OK)
         palette_close(p);
     return result;
@@ -56,7 +57,8 @@ int palette_put(palette *p, const char *name, const hnbrdf_material *material, i
     if (k == p->count)
         return append(p, name, &fitted);
     if (!replace)
-        return cli_fail("%s: there is a material %s already (--replace overwrites it)", p->path, name);
+        return cli_fail("%s: there is a material %s already (--replace overwrites it)", p->path,
+                        name);
     p->materials[k] = fitted;
     return CLI_OK;
 }

@@ -21,16 +21,17 @@ enum { PEAK_CHAINS = 12, PEAK_STEPS = 1 << 16, PEAK_RUNS_AT_LEAST = 8 };
 #define PEAK_DECLARE(k) vector x##k = {(float)(k + 1)};
 #define PEAK_STEP(k) x##k = STEP(x##k);
 #define PEAK_SUM(k) sum += x##k[0];
-#define PEAK_CHAIN                                                                                     \
-    const vector zero = {0}, a = zero + 0.999999f, b = zero + 1e-6f;                                   \
-    float sum = 0.0f;                                                                                  \
-    PEAK_EACH(PEAK_DECLARE)                                                                            \
-    for (long n = 0; n < PEAK_STEPS; n++) {                                                            \
-        PEAK_EACH(PEAK_STEP)                                                                           \
-    }                                                                                                  \
-    PEAK_EACH(PEAK_SUM)                                                                                \
+#define PEAK_CHAIN                                                   \
+    const vector zero = {0}, a = zero + 0.999999f, b = zero + 1e-6f; \
+    float sum = 0.0f;                                                \
+    PEAK_EACH(PEAK_DECLARE)                                          \
+    for (long n = 0; n < PEAK_STEPS; n++) {                          \
+        PEAK_EACH(PEAK_STEP)                                         \
+    }                                                                \
+    PEAK_EACH(PEAK_SUM)                                              \
     return sum;
-#define PEAK_VECTOR(WIDTH) typedef float vector __attribute__((vector_size((WIDTH) * sizeof(float))))
+#define PEAK_VECTOR(WIDTH) \
+    typedef float vector __attribute__((vector_size((WIDTH) * sizeof(float))))
 
 typedef struct peak_chains {
     const char *name;

@@ -27,12 +27,13 @@ int picture_check_output(const cli_command *command, const char *path)
     if (!path)
         return cli_usage(command, "where to write: -o FILE.exr or -o FILE.png is missing");
     if (render_has_extension(path, ".exr") && !render_has_exr())
-        return cli_usage(command, "%s: this program was built without OpenEXR: expected a name in .png",
-                         path);
+        return cli_usage(
+            command, "%s: this program was built without OpenEXR: expected a name in .png", path);
     if (!render_has_extension(path, ".exr") && !render_has_extension(path, ".png"))
         return cli_usage(command, "%s: expected a name ending in .exr or .png", path);
     if (!folder_is_writable(path))
-        return cli_fail("%s: cannot be written: its folder does not exist or is not writable", path);
+        return cli_fail("%s: cannot be written: its folder does not exist or is not writable",
+                        path);
     return -1;
 }
 
@@ -89,7 +90,8 @@ int picture_write(const render_image *image, const char *path, const render_writ
 }
 
 /* The pixels of image that count, one after the other; returns how many. */
-static size_t pack(const render_image *image, const render_image *a, const render_image *b, float *out)
+static size_t pack(const render_image *image, const render_image *a, const render_image *b,
+                   float *out)
 {
     size_t pixels = (size_t)image->width * (size_t)image->height, count = 0;
     for (size_t i = 0; i < pixels; i++)
@@ -98,7 +100,8 @@ static size_t pack(const render_image *image, const render_image *a, const rende
     return count;
 }
 
-int picture_compare(const render_image *image, const render_image *reference, hnbrdf_image_error *error)
+int picture_compare(const render_image *image, const render_image *reference,
+                    hnbrdf_image_error *error)
 {
     size_t values = 3 * (size_t)image->width * (size_t)image->height;
     float *packed = malloc(2 * values * sizeof *packed);

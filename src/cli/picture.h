@@ -1,4 +1,5 @@
-/* picture.h: what the commands that make pictures share: light, exposure, output names, progress. */
+/* picture.h: what the commands that make pictures share: light, exposure, output names, progress.
+ * */
 #ifndef HNBRDF_CLI_PICTURE_H
 #define HNBRDF_CLI_PICTURE_H
 
@@ -15,20 +16,34 @@ typedef struct picture_options {
     long spp, seed, threads;
 } picture_options;
 
-#define PICTURE_DEFAULTS(samples) {.env = "sky", .exposure = NAN, .spp = (samples), .seed = 1}
+#define PICTURE_DEFAULTS(samples)                                  \
+    {                                                              \
+        .env = "sky", .exposure = NAN, .spp = (samples), .seed = 1 \
+    }
 
 /* Rows of a cli_option table for a picture_options named p. */
-#define PICTURE_OPTIONS(p, samples)                                                                      \
-    {"env", 0, CLI_TEXT, &(p).env, 0, 0, "sky|furnace|FILE", "light: sky, furnace (1 from everywhere), or a lat-long map .exr or .hdr"},      \
-        {"rotate", 0, CLI_REAL, &(p).rotate, -360, 360, "DEG",                                           \
-         "turn the light about the vertical, counter-clockwise from above"},                             \
-        {"exposure", 0, CLI_REAL, &(p).exposure, -64, 64, "EV",                                          \
-         "stops; default: mean light as bright as that of the sky"},                                     \
-        {"spp", 0, CLI_INT, &(p).spp, 1, 1 << 20, "N",                                                   \
-         "samples a pixel, default " samples "; powers of 2 are stratified best"},                       \
-        {"seed", 0, CLI_INT, &(p).seed, 0, 2147483647, "N", "of the random numbers, default 1"},         \
-    {                                                                                                    \
-        "threads", 0, CLI_INT, &(p).threads, 0, 1024, "N", "default: all cores; changes no pixel"        \
+#define PICTURE_OPTIONS(p, samples)                                                               \
+    {"env",                                                                                       \
+     0,                                                                                           \
+     CLI_TEXT,                                                                                    \
+     &(p).env,                                                                                    \
+     0,                                                                                           \
+     0,                                                                                           \
+     "sky|furnace|FILE",                                                                          \
+     "light: sky, furnace (1 from everywhere), or a lat-long map .exr or .hdr"},                  \
+        {"rotate", 0,                                                                             \
+         CLI_REAL, &(p).rotate,                                                                   \
+         -360,     360,                                                                           \
+         "DEG",    "turn the light about the vertical, counter-clockwise from above"},            \
+        {"exposure", 0,  CLI_REAL, &(p).exposure,                                                 \
+         -64,        64, "EV",     "stops; default: mean light as bright as that of the sky"},    \
+        {"spp",   0,                                                                              \
+         CLI_INT, &(p).spp,                                                                       \
+         1,       1 << 20,                                                                        \
+         "N",     "samples a pixel, default " samples "; powers of 2 are stratified best"},       \
+        {"seed", 0, CLI_INT, &(p).seed, 0, 2147483647, "N", "of the random numbers, default 1"},  \
+    {                                                                                             \
+        "threads", 0, CLI_INT, &(p).threads, 0, 1024, "N", "default: all cores; changes no pixel" \
     }
 
 /* -1 to go on, or an exit code after a message: the name must end in .exr or .png, .exr must be
@@ -44,9 +59,10 @@ int picture_write(const render_image *image, const char *path, const render_writ
 int picture_write_quietly(const render_image *image, const char *path,
                           const render_write_options *options);
 
-/* Error over the pixels that render_covered() counts, as they are, premultiplied; pictures of the same
- * size. 0, or CLI_FAILURE. */
-int picture_compare(const render_image *image, const render_image *reference, hnbrdf_image_error *error);
+/* Error over the pixels that render_covered() counts, as they are, premultiplied; pictures of the
+ * same size. 0, or CLI_FAILURE. */
+int picture_compare(const render_image *image, const render_image *reference,
+                    hnbrdf_image_error *error);
 /* Of pictures rendered twice: see hnbrdf_image_compare_twice(). */
 int picture_compare_twice(const render_image image[2], const render_image reference[2],
                           hnbrdf_image_error *error, hnbrdf_image_noise *noise);

@@ -1,4 +1,5 @@
-/* progress.c: one line on stderr about how far a long command is and how long it will still take. */
+/* progress.c: one line on stderr about how far a long command is and how long it will still take.
+ * */
 #include "cli/cli.h"
 
 #include <string.h>

@@ -9,7 +9,8 @@
 
 #include <stdlib.h>
 
-/* ---- Against the CPU ------------------------------------------------------------------------------- */
+/* ---- Against the CPU
+ * ------------------------------------------------------------------------------- */
 
 /* Numbers of two pictures. */
 typedef struct difference {
@@ -35,7 +36,8 @@ static difference compare(const render_image *a, const render_image *b)
     return d;
 }
 
-/* Sums are kept in doubles by the CPU, in pairs of floats by the device: neighbours may come out. */
+/* Sums are kept in doubles by the CPU, in pairs of floats by the device: neighbours may come out.
+ * */
 static int judge(const render_image *image, const render_image *cpu, int exact)
 {
     difference d = compare(image, cpu);
@@ -46,13 +48,16 @@ static int judge(const render_image *image, const render_image *cpu, int exact)
     }
     if (picture_compare(image, cpu, &error) != CLI_OK)
         return CLI_FAILURE;
-    printf("check: %zu of %zu numbers of the picture differ from the CPU's, %zu by more than one step of a float; "
+    printf("check: %zu of %zu numbers of the picture differ from the CPU's, %zu by more than one "
+           "step of a float; "
            "PSNR %.1f dB\n",
            d.differ, d.count, d.apart, error.psnr);
     if (exact && d.apart > 0)
-        return cli_fail("the device computes + - * / sqrt exactly, and its picture is not the CPU's");
+        return cli_fail(
+            "the device computes + - * / sqrt exactly, and its picture is not the CPU's");
     if (!exact)
-        printf("check: this device does not round + - * / sqrt as C does, its samples are not the CPU's\n");
+        printf("check: this device does not round + - * / sqrt as C does, its samples are not the "
+               "CPU's\n");
     return CLI_OK;
 }
 
@@ -81,7 +86,8 @@ static int check(const render_gpu *job, const render_image *image, int exact)
     return code;
 }
 
-/* ---- On the device --------------------------------------------------------------------------------- */
+/* ---- On the device
+ * --------------------------------------------------------------------------------- */
 
 static hnbrdf_result render(const render_gpu *job, const gpu_device *device, render_image *image,
                             double *sample_ns, hnbrdf_error *error)
@@ -127,13 +133,15 @@ static int choose(const gpu_instance *instance, const char *text, int *index)
     char *end;
     long number = strtol(text, &end, 10);
     if (end == text || *end)
-        return cli_fail("--device: found '%s', expected a number (hnbrdf verify --list)", text), CLI_USAGE;
+        return cli_fail("--device: found '%s', expected a number (hnbrdf verify --list)", text),
+               CLI_USAGE;
     if (instance->count == 0)
-        return cli_fail("no Vulkan device found (Debian: apt-get install mesa-vulkan-drivers brings one in "
-                        "software)");
+        return cli_fail(
+            "no Vulkan device found (Debian: apt-get install mesa-vulkan-drivers brings one in "
+            "software)");
     if (number < 0 || number >= instance->count)
-        return cli_fail("--device %ld: this machine has devices 0 to %d (hnbrdf verify --list)", number,
-                        instance->count - 1);
+        return cli_fail("--device %ld: this machine has devices 0 to %d (hnbrdf verify --list)",
+                        number, instance->count - 1);
     *index = (int)number;
     return CLI_OK;
 }

@@ -14,9 +14,10 @@ typedef struct render_gpu {
     render_options options; /* without progress */
 } render_gpu;
 
-/* Renders with directions of hnbrdf_sample(). Prints the device and its time a sample on stdout; with `check`
- * those of the CPU and how many numbers of the pictures differ. CLI_OK with *image, or an exit code after a
- * message: CLI_FAILURE also where a device of exact arithmetic gives another picture than the CPU. */
+/* Renders with directions of hnbrdf_sample(). Prints the device and its time a sample on stdout;
+ * with `check` those of the CPU and how many numbers of the pictures differ. CLI_OK with *image,
+ * or an exit code after a message: CLI_FAILURE also where a device of exact arithmetic gives
+ * another picture than the CPU. */
 int render_gpu_run(const render_gpu *job, render_image *image);
 
 #endif

@@ -7,12 +7,12 @@
 
 enum { REPORT_SAMPLERS = HNBRDF_SAMPLER_GRID + 1, REPORT_NETS = 16, REPORT_LATENTS = 8 };
 
-/* A material of a hybrid has kd, eta and alpha beside its latent code; a neural one has as many more
- * latent floats, so that both store equally much. */
+/* A material of a hybrid has kd, eta and alpha beside its latent code; a neural one has as many
+ * more latent floats, so that both store equally much. */
 enum { REPORT_ANALYTIC_NUMBERS = 8 };
 
-/* Samples a pixel of the spheres of `report accuracy`; PSNR beyond the limit, equal pictures for one,
- * counts as the limit. */
+/* Samples a pixel of the spheres of `report accuracy`; PSNR beyond the limit, equal pictures for
+ * one, counts as the limit. */
 enum { REPORT_IMAGE_SAMPLES = 32 };
 #define REPORT_PSNR_LIMIT 120.0
 
@@ -63,15 +63,17 @@ typedef struct report {
     int sampler;             /* an hnbrdf_sampler: of the plots, the wins and the analytic part */
     int analytic;            /* an hnbrdf_fit_analytic: of the hybrids */
     long pairs, seed, steps, threads, pool;
-    long image_size;           /* pixels a side of the spheres; 0: no pictures */
-    picture_options light;     /* of the spheres, and their samples a pixel */
-    report_images *images;     /* references, from the first entry on */
-    hnbrdf_material *ggx;      /* [materials]: the fits of GGX alone, once the first entry is done */
+    long image_size;       /* pixels a side of the spheres; 0: no pictures */
+    picture_options light; /* of the spheres, and their samples a pixel */
+    report_images *images; /* references, from the first entry on */
+    /* [materials]: the fits of GGX alone, once the first entry is done */
+    hnbrdf_material *ggx;
     hnbrdf_fit_search *search; /* [materials]: how they went; starts 0 where it is not known */
     double budget;             /* seconds of training an entry; 0: `steps` */
-    const char *from;          /* a folder of an earlier report whose models are taken; NULL: none */
-    const char *given;         /* the file of the only model beside GGX alone; NULL: a grid */
-    long rows;                 /* materials whose spheres are shown */
+    /* a folder of an earlier report whose models are taken; NULL: none */
+    const char *from;
+    const char *given; /* the file of the only model beside GGX alone; NULL: a grid */
+    long rows;         /* materials whose spheres are shown */
     int resume;
 } report;
 
@@ -80,8 +82,8 @@ int cmd_report_images(int argc, char **argv);
 /* `hnbrdf report sampling`; argv[1] is "sampling". */
 int cmd_report_sampling(int argc, char **argv);
 
-/* ---- report_options.c: what the reports read and write alike. Those that return -1 to go on return an
- * exit code after a message otherwise, as cli_parse() does.
+/* ---- report_options.c: what the reports read and write alike. Those that return -1 to go on
+ * return an exit code after a message otherwise, as cli_parse() does.
  * ----------------------------------------------------- */
 
 int report_read_nets(const cli_command *command, const char *list, report *r);
@@ -99,15 +101,18 @@ int report_write(const report *r, const char *name, void (*write)(const report *
 int report_write_net(const report *r, const char *name, const int net[2],
                      void (*write)(const report *r, const int net[2], FILE *file));
 
-/* ---- report_grid.c ------------------------------------------------------------------------------- */
+/* ---- report_grid.c
+ * ------------------------------------------------------------------------------- */
 
 /* "ggx", "hybrid", "paper", "neural"; NULL for any other value. */
 const char *report_form_name(report_form form);
-/* Makes the entries: ggx first, then by net, latent size and form. 0, or CLI_FAILURE after a message.
+/* Makes the entries: ggx first, then by net, latent size and form. 0, or CLI_FAILURE after a
+ * message.
  */
 int report_make_entries(report *r);
 void report_free_entries(report *r);
-/* The entry of this form at a place of the grid, or NULL. latent is the hybrid's; ggx has neither. */
+/* The entry of this form at a place of the grid, or NULL. latent is the hybrid's; ggx has
+ * neither. */
 const report_entry *report_find(const report *r, report_form form, const int net[2], int latent);
 /* SMAPE of material m with the report's sampler. */
 double report_error(const report *r, const report_entry *e, int m);
@@ -119,12 +124,14 @@ char *report_path(const report *r, const char *name, const char *suffix);
 /* Material m of the data in a model that has all of them, whatever their order. */
 const hnbrdf_material *report_material(const report *r, const hnbrdf_model *model, int m);
 
-/* ---- report_fit.c -------------------------------------------------------------------------------- */
+/* ---- report_fit.c
+ * -------------------------------------------------------------------------------- */
 
 /* Fits or reuses, saves and measures all entries; calls `finished` after each one and stops when it
  * does not return 0. Ctrl-C ends it after the step. 0, or CLI_FAILURE after a message. */
 int report_run(report *r, int (*finished)(const report *r, const report_entry *e));
-/* A model that some other command made; one that lacks a material of the data is an error. Likewise. */
+/* A model that some other command made; one that lacks a material of the data is an error.
+ * Likewise. */
 int report_load_model(const report *r, const char *path, hnbrdf_model **model);
 /* Fits, reuses or takes all models and measures nothing; models is [entries]. Likewise. */
 int report_make_models(report *r, hnbrdf_model **models);
@@ -132,8 +139,8 @@ int report_make_models(report *r, hnbrdf_model **models);
 void report_catch_interrupts(int on);
 int report_interrupted(void);
 
-/* ---- report_images.c: spheres, each rendered twice with half of the samples and a seed of its own, so
- * that what noise does is known. Each: 0, or CLI_FAILURE after a message.
+/* ---- report_images.c: spheres, each rendered twice with half of the samples and a seed of its
+ * own, so that what noise does is known. Each: 0, or CLI_FAILURE after a message.
  * --------------------------------------- */
 
 /* Opens the light. */
@@ -165,7 +172,8 @@ void report_write_materials(const report *r, FILE *file);
 void report_write_ggx(const report *r, FILE *file);
 void report_write_ggx_section(const report *r, FILE *file);
 void report_write_ggx_plot(const report *r, FILE *file);
-/* SVG: the error of every material, in the order of GGX's, for the models of one net: SMAPE; PSNR. */
+/* SVG: the error of every material, in the order of GGX's, for the models of one net: SMAPE;
+ * PSNR. */
 void report_write_plot(const report *r, const int net[2], FILE *file);
 void report_write_psnr_plot(const report *r, const int net[2], FILE *file);
 /* "| net |" and a column for every form and latent size. */
@@ -176,7 +184,8 @@ void report_write_model_columns(const report_entry *e, FILE *file);
 /* "Data: ...", a line. */
 void report_write_data(const report *r, FILE *file);
 
-/* ---- report_image_tables.c ------------------------------------------------------------------------
+/* ---- report_image_tables.c
+ * ------------------------------------------------------------------------
  */
 
 /* What PSNR is measured of; the paper's second table; the paper's own figures of it. */
@@ -187,7 +196,8 @@ void report_write_papers_psnr(FILE *file);
 void report_write_images_csv(const report *r, FILE *file);
 void report_write_images_markdown(const report *r, FILE *file);
 
-/* ---- report_rows.c: picture rows ------------------------------------------------------------------
+/* ---- report_rows.c: picture rows
+ * ------------------------------------------------------------------
  */
 
 enum { REPORT_ROWS_A_PAGE = 8 };

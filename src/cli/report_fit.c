@@ -40,9 +40,9 @@ typedef struct watch {
     double later;       /* expected for the entries after this one */
 } watch;
 
-/* ---- What a finished model was made with ---------------------------------------------------------
- * models/NAME.txt: the settings in one line, then what the fit took. Written last: it says that the
- * model beside it is complete. */
+/* ---- What a finished model was made with
+ * --------------------------------------------------------- models/NAME.txt: the settings in one
+ * line, then what the fit took. Written last: it says that the model beside it is complete. */
 
 static uint64_t hash_text(uint64_t h, const char *text) /* FNV-1a */
 {
@@ -59,10 +59,10 @@ static void describe_settings(const report *r, const report_entry *e, char *text
         h = hash_text(h, hnbrdf_measured_name(r->data.items[m]));
         h = hash_text(h, hnbrdf_measured_summary(r->data.items[m]));
     }
-    snprintf(text, size, "hnbrdf %s, %d materials (%016llx), seed %ld, %ld steps, %g s, pool %ld, %s\n",
-             hnbrdf_version(), r->data.count, (unsigned long long)h, r->seed, r->steps, r->budget,
-             r->pool,
-             e->form == REPORT_HYBRID && r->analytic == HNBRDF_FIT_JOINT ? "joint" : "default");
+    snprintf(
+        text, size, "hnbrdf %s, %d materials (%016llx), seed %ld, %ld steps, %g s, pool %ld, %s\n",
+        hnbrdf_version(), r->data.count, (unsigned long long)h, r->seed, r->steps, r->budget,
+        r->pool, e->form == REPORT_HYBRID && r->analytic == HNBRDF_FIT_JOINT ? "joint" : "default");
 }
 
 static int write_record(const report *r, const report_entry *e)
@@ -78,8 +78,8 @@ static int write_record(const report *r, const report_entry *e)
     fprintf(output.file, "%ssteps %ld\nseconds %.3f\npairs_per_s %.0f\n", settings, e->steps,
             e->seconds, e->pairs_per_s);
     for (int m = 0; e->form == REPORT_GGX && m < r->data.count; m++)
-        fprintf(output.file, "search %d %.9g %.9g %.9g %.9g\n", r->search[m].starts, r->search[m].best,
-                r->search[m].second, (double)r->search[m].second_alpha[0],
+        fprintf(output.file, "search %d %.9g %.9g %.9g %.9g\n", r->search[m].starts,
+                r->search[m].best, r->search[m].second, (double)r->search[m].second_alpha[0],
                 (double)r->search[m].second_alpha[1]);
     return cli_output_close(&output);
 }
@@ -114,7 +114,8 @@ static void forget(const report *r, const report_entry *e, const char *suffix)
     free(path);
 }
 
-/* ---- Fitting ------------------------------------------------------------------------------------- */
+/* ---- Fitting
+ * ------------------------------------------------------------------------------------- */
 
 /* Multiplications; only ratios matter. */
 static double work_of(const report *r, const report_entry *e)
@@ -161,8 +162,8 @@ static int show(void *user, const hnbrdf_fit_progress *p)
         left += w->before * (strcmp(p->stage, "ggx") == 0 ? 1.0 - p->done : 1.0);
     if (isfinite(p->loss))
         snprintf(loss, sizeof loss, ", loss %.4f", p->loss);
-    snprintf(detail, sizeof detail, "%d of %d %s%s", (int)(w->entry - w->r->entries) + 1, w->r->count,
-             w->entry->name, loss);
+    snprintf(detail, sizeof detail, "%d of %d %s%s", (int)(w->entry - w->r->entries) + 1,
+             w->r->count, w->entry->name, loss);
     cli_progress_update(&w->line, spent / (spent + left), detail);
     return interrupted != 0;
 }
@@ -221,7 +222,8 @@ static int fit_entry(const report *r, report_entry *e, watch *w, hnbrdf_model **
     hnbrdf_result result = hnbrdf_fit((const hnbrdf_measured *const *)r->data.items, r->data.count,
                                       &options, &fitted, &made, &error);
     if (result == HNBRDF_ERROR_CANCELLED || (result == HNBRDF_OK && (interrupted || made.stopped)))
-        code = cli_fail("%s: interrupted; what is finished is there, --resume goes on", r->directory);
+        code =
+            cli_fail("%s: interrupted; what is finished is there, --resume goes on", r->directory);
     else if (result == HNBRDF_OK)
         result = hnbrdf_model_save(fitted, path, &error);
     if (result != HNBRDF_OK && code == CLI_OK)
@@ -255,7 +257,8 @@ static hnbrdf_model *reuse(const report *r, report_entry *e)
     return model;
 }
 
-/* ---- Measuring ----------------------------------------------------------------------------------- */
+/* ---- Measuring
+ * ----------------------------------------------------------------------------------- */
 
 typedef struct measuring {
     const report *r;
@@ -269,10 +272,10 @@ static void measure_one(void *context, int index, int worker)
     measuring *job = context;
     const report *r = job->r;
     (void)worker;
-    job->results[index] =
-        hnbrdf_compare(job->model, report_material(r, job->model, index % r->data.count),
-                       r->data.items[index % r->data.count], (hnbrdf_sampler)(index / r->data.count),
-                       (size_t)r->pairs, (uint64_t)r->seed, &job->e->errors[index], NULL);
+    job->results[index] = hnbrdf_compare(
+        job->model, report_material(r, job->model, index % r->data.count),
+        r->data.items[index % r->data.count], (hnbrdf_sampler)(index / r->data.count),
+        (size_t)r->pairs, (uint64_t)r->seed, &job->e->errors[index], NULL);
 }
 
 static void average(report_entry *e, int materials)
@@ -306,7 +309,8 @@ static int measure(const report *r, report_entry *e, const hnbrdf_model *model)
     return code;
 }
 
-/* ---- The whole grid ------------------------------------------------------------------------------ */
+/* ---- The whole grid
+ * ------------------------------------------------------------------------------ */
 
 static void describe(report_entry *e, const hnbrdf_model *model)
 {
@@ -364,15 +368,16 @@ int report_run(report *r, int (*finished)(const report *r, const report_entry *e
         if (result == CLI_OK)
             result = finished(r, &r->entries[k]);
         if (result == CLI_OK && interrupted && k + 1 < r->count)
-            result =
-                cli_fail("%s: interrupted; what is finished is there, --resume goes on", r->directory);
+            result = cli_fail("%s: interrupted; what is finished is there, --resume goes on",
+                              r->directory);
     }
     report_catch_interrupts(0);
     report_images_end(r);
     return result;
 }
 
-/* ---- Models alone -------------------------------------------------------------------------------- */
+/* ---- Models alone
+ * -------------------------------------------------------------------------------- */
 
 int report_load_model(const report *r, const char *path, hnbrdf_model **model)
 {

@@ -1,5 +1,5 @@
-/* report_ggx.c: how good the fits of GGX alone are, material by material: whether any was left at a bad
- * local minimum, and where their parameters lie. */
+/* report_ggx.c: how good the fits of GGX alone are, material by material: whether any was left at
+ * a bad local minimum, and where their parameters lie. */
 #include "cli/csv.h"
 #include "cli/report.h"
 #include "cli/svg.h"
@@ -10,7 +10,8 @@
 /* Worse by less than this share, the second best start counts as the same minimum. */
 #define SAME_MINIMUM 0.01
 
-/* ---- Order ----------------------------------------------------------------------------------------
+/* ---- Order
+ * ----------------------------------------------------------------------------------------
  */
 
 typedef struct place {
@@ -35,7 +36,8 @@ static place *sorted(const report *r)
     return places;
 }
 
-/* How much worse the second best start ended, as a share; infinite without one, NaN if not known. */
+/* How much worse the second best start ended, as a share; infinite without one, NaN if not known.
+ * */
 static double spread(const report *r, int m)
 {
     const hnbrdf_fit_search *s = &r->search[m];
@@ -44,7 +46,8 @@ static double spread(const report *r, int m)
     return s->second / s->best - 1.0;
 }
 
-/* ---- CSV ------------------------------------------------------------------------------------------
+/* ---- CSV
+ * ------------------------------------------------------------------------------------------
  */
 
 void report_write_ggx(const report *r, FILE *file)
@@ -75,12 +78,13 @@ void report_write_ggx(const report *r, FILE *file)
     free(places);
 }
 
-/* ---- Markdown -------------------------------------------------------------------------------------
+/* ---- Markdown
+ * -------------------------------------------------------------------------------------
  */
 
 /* Least, quartiles and most of what value() gives for all materials. */
-static void write_quantiles(const report *r, const char *name, double (*value)(const report *r, int m),
-                            FILE *file)
+static void write_quantiles(const report *r, const char *name,
+                            double (*value)(const report *r, int m), FILE *file)
 {
     int count = r->data.count;
     place *places = malloc((size_t)count * sizeof *places);
@@ -126,11 +130,11 @@ static void write_lone_minima(const report *r, FILE *file)
         known += !isnan(s);
         same += s <= SAME_MINIMUM;
     }
-    fprintf(
-        file,
-        "\nEvery fit starts from 8 places (48 if anisotropic), and its three best are followed to the "
-        "end. For %d of %d\nmaterials the second best ends within %.0f %% of the best's loss",
-        same, known, 100.0 * SAME_MINIMUM);
+    fprintf(file,
+            "\nEvery fit starts from 8 places (48 if anisotropic), and its three best are followed "
+            "to the "
+            "end. For %d of %d\nmaterials the second best ends within %.0f %% of the best's loss",
+            same, known, 100.0 * SAME_MINIMUM);
     if (same == known) {
         fputs(".\n", file);
         return;
@@ -162,7 +166,8 @@ static void write_analytic_parts(const report *r, FILE *file)
         double most = 0.0;
         int worst = 0;
         for (int m = 0; m < r->data.count; m++) {
-            double ratio = e->errors[r->sampler * r->data.count + m].smape_analytic / error_of(r, m);
+            double ratio =
+                e->errors[r->sampler * r->data.count + m].smape_analytic / error_of(r, m);
             if (ratio > most) {
                 most = ratio;
                 worst = m;
@@ -178,12 +183,13 @@ void report_write_ggx_section(const report *r, FILE *file)
 {
     if (!r->entries[0].done)
         return;
-    fprintf(file,
-            "\n## The fits of GGX alone\n\nOver the materials (ggx.csv has each of them, ggx.svg shows "
-            "them); "
-            "SMAPE: %s sampler;\nalpha: geometric mean of both; eta, kd: mean of the channels.\n\n"
-            "| | least | quarter | median | three quarters | most |\n|---|---|---|---|---|---|\n",
-            hnbrdf_sampler_name((hnbrdf_sampler)r->sampler));
+    fprintf(
+        file,
+        "\n## The fits of GGX alone\n\nOver the materials (ggx.csv has each of them, ggx.svg shows "
+        "them); "
+        "SMAPE: %s sampler;\nalpha: geometric mean of both; eta, kd: mean of the channels.\n\n"
+        "| | least | quarter | median | three quarters | most |\n|---|---|---|---|---|---|\n",
+        hnbrdf_sampler_name((hnbrdf_sampler)r->sampler));
     write_quantiles(r, "SMAPE", error_of, file);
     write_quantiles(r, "alpha", alpha_of, file);
     write_quantiles(r, "eta", eta_of, file);
@@ -193,7 +199,8 @@ void report_write_ggx_section(const report *r, FILE *file)
     fputs("\n![GGX alone](ggx.svg)\n", file);
 }
 
-/* ---- Plot -----------------------------------------------------------------------------------------
+/* ---- Plot
+ * -----------------------------------------------------------------------------------------
  */
 
 enum { PANELS = 4, PANEL_HEIGHT = 120, PANEL_STEP = 172, PANEL_WIDTH = 640 };
@@ -201,7 +208,8 @@ enum { PANELS = 4, PANEL_HEIGHT = 120, PANEL_STEP = 172, PANEL_WIDTH = 640 };
 void report_write_ggx_plot(const report *r, FILE *file)
 {
     static const char *const titles[PANELS] = {"SMAPE", "alpha", "eta - 1", "2nd start, % worse"};
-    static const double lows[PANELS] = {0.0, 1e-3, 1e-2, 1e-3}, highs[PANELS] = {0.1, 1.0, 10.0, 100.0};
+    static const double lows[PANELS] = {0.0, 1e-3, 1e-2, 1e-3},
+                        highs[PANELS] = {0.1, 1.0, 10.0, 100.0};
     place *places = sorted(r);
     svg_begin(file, 96 + PANEL_WIDTH, 40 + PANELS * PANEL_STEP + 20);
     char heading[64];

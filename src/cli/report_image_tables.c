@@ -1,11 +1,12 @@
-/* report_image_tables.c: the errors of spheres as CSV and as Markdown, the paper's second table among
- * them. */
+/* report_image_tables.c: the errors of spheres as CSV and as Markdown, the paper's second table
+ * among them. */
 #include "cli/csv.h"
 #include "cli/report.h"
 
 #include <string.h>
 
-/* ---- CSV ----------------------------------------------------------------------------------------- */
+/* ---- CSV
+ * ----------------------------------------------------------------------------------------- */
 
 void report_write_images_csv(const report *r, FILE *file)
 {
@@ -20,12 +21,13 @@ void report_write_images_csv(const report *r, FILE *file)
             csv_write_text(file, hnbrdf_measured_name(r->data.items[m]));
             putc(',', file);
             report_write_model_columns(e, file);
-            fprintf(file, ",%.9g,%.9g,%.9g,%.4g,%.4g,%.4g,%s\n", p->mae, p->mse, p->psnr, p->psnr_error,
-                    p->psnr_bias, p->peak_error, e->name);
+            fprintf(file, ",%.9g,%.9g,%.9g,%.4g,%.4g,%.4g,%s\n", p->mae, p->mse, p->psnr,
+                    p->psnr_error, p->psnr_bias, p->peak_error, e->name);
         }
 }
 
-/* ---- The paper's second table -------------------------------------------------------------------- */
+/* ---- The paper's second table
+ * -------------------------------------------------------------------- */
 
 static const char *base_name(const char *path)
 {
@@ -38,13 +40,16 @@ void report_write_psnr_method(const report *r, FILE *file)
     fprintf(
         file,
         "Spheres of each material, one bounce of light from %s%s, %ld x %ld pixels, %ld samples a "
-        "pixel, seed %ld,\nthe same random directions for the measurement and all models. Mean over "
+        "pixel, seed %ld,\nthe same random directions for the measurement and all models. Mean "
+        "over "
         "the "
-        "pixels that the sphere covers;\npeak: the reference's largest value. Every sphere is rendered "
-        "twice with half of the samples, and what\ndiffers between both is noise: +- is the standard "
+        "pixels that the sphere covers;\npeak: the reference's largest value. Every sphere is "
+        "rendered "
+        "twice with half of the samples, and what\ndiffers between both is noise: +- is the "
+        "standard "
         "error that it leaves.\n",
-        strcmp(r->light.env, "sky") == 0 ? "the built-in " : "", base_name(r->light.env), r->image_size,
-        r->image_size, 2 * ((r->light.spp + 1) / 2), r->light.seed);
+        strcmp(r->light.env, "sky") == 0 ? "the built-in " : "", base_name(r->light.env),
+        r->image_size, r->image_size, 2 * ((r->light.spp + 1) / 2), r->light.seed);
 }
 
 void report_write_psnr_table(const report *r, FILE *file)
@@ -68,21 +73,23 @@ void report_write_psnr_table(const report *r, FILE *file)
 
 void report_write_papers_psnr(FILE *file)
 {
-    fputs("\nMean image PSNR as published (512 x 512, 1024 samples a pixel, the Uffizi probe):\n\n"
-          "| net | MERL hybrid l=4 | neural l=12 | RGL hybrid l=4 | neural l=12 | UTIA hybrid l=4 | "
-          "neural l=12 |\n"
-          "|---|---|---|---|---|---|---|\n"
-          "| GGX alone | 32.89 | | 33.51 | | 32.58 | |\n"
-          "| 16x3 | 39.37 | 35.75 | 35.54 | 34.78 | 38.17 | 36.43 |\n"
-          "| 32x3 | 40.50 | 38.79 | 37.54 | 36.06 | 38.90 | 38.35 |\n"
-          "| 64x3 | 41.19 | 40.71 | 39.18 | 39.43 | 39.62 | 39.12 |\n",
-          file);
+    fputs(
+        "\nMean image PSNR as published (512 x 512, 1024 samples a pixel, the Uffizi probe):\n\n"
+        "| net | MERL hybrid l=4 | neural l=12 | RGL hybrid l=4 | neural l=12 | UTIA hybrid l=4 | "
+        "neural l=12 |\n"
+        "|---|---|---|---|---|---|---|\n"
+        "| GGX alone | 32.89 | | 33.51 | | 32.58 | |\n"
+        "| 16x3 | 39.37 | 35.75 | 35.54 | 34.78 | 38.17 | 36.43 |\n"
+        "| 32x3 | 40.50 | 38.79 | 37.54 | 36.06 | 38.90 | 38.35 |\n"
+        "| 64x3 | 41.19 | 40.71 | 39.18 | 39.43 | 39.62 | 39.12 |\n",
+        file);
 }
 
-/* ---- Model against model ------------------------------------------------------------------------- */
+/* ---- Model against model
+ * ------------------------------------------------------------------------- */
 
-/* Mean of a's PSNR less b's with its standard error, over the materials that are done; the peaks are
- * the same in both and cancel. */
+/* Mean of a's PSNR less b's with its standard error, over the materials that are done; the peaks
+ * are the same in both and cancel. */
 static void write_gain(const report *r, const report_entry *a, const report_entry *b, FILE *file)
 {
     double gain = 0.0, variance = 0.0;
@@ -132,16 +139,18 @@ static const report_entry *neural_beside(const report *r, const report_entry *e)
 
 static void write_models(const report *r, FILE *file)
 {
-    fputs(
-        "\n## Model by model\n\nMean MAE in radiance and PSNR in dB; noise: by how much PSNR is too "
-        "low "
-        "because noise counts as error (drowned: materials "
-        "whose error is less than the noise). The last\ncolumns: dB more than GGX alone, and than the "
-        "neural "
-        "model that stores as many numbers a material, and for how many\nmaterials PSNR is higher.\n\n"
-        "| model | MAE | PSNR | noise | against GGX alone | against neural "
-        "|\n|---|---|---|---|---|---|\n",
-        file);
+    fputs("\n## Model by model\n\nMean MAE in radiance and PSNR in dB; noise: by how much PSNR is "
+          "too "
+          "low "
+          "because noise counts as error (drowned: materials "
+          "whose error is less than the noise). The last\ncolumns: dB more than GGX alone, and "
+          "than the "
+          "neural "
+          "model that stores as many numbers a material, and for how many\nmaterials PSNR is "
+          "higher.\n\n"
+          "| model | MAE | PSNR | noise | against GGX alone | against neural "
+          "|\n|---|---|---|---|---|---|\n",
+          file);
     for (int k = 0; k < r->count; k++) {
         const report_entry *e = &r->entries[k];
         fprintf(file, "| %s | %.5f | %.2f +- %.2f |", e->name, e->mean_mae, e->mean_psnr,
@@ -156,7 +165,8 @@ static void write_models(const report *r, FILE *file)
     }
 }
 
-/* ---- The whole ----------------------------------------------------------------------------------- */
+/* ---- The whole
+ * ----------------------------------------------------------------------------------- */
 
 void report_write_images_markdown(const report *r, FILE *file)
 {
@@ -185,9 +195,10 @@ void report_write_images_markdown(const report *r, FILE *file)
     for (int n = 0; n < r->net_count; n++)
         fprintf(file, "\n![%dx%d](psnr-%dx%d.svg)\n", r->nets[n][0], r->nets[n][1], r->nets[n][0],
                 r->nets[n][1]);
-    fputs("\n## The paper's own figures\n\nDe Oliveira et al., EGSR 2026: other data (the MERL, RGL "
-          "and UTIA "
-          "databases). For orientation only.\n",
-          file);
+    fputs(
+        "\n## The paper's own figures\n\nDe Oliveira et al., EGSR 2026: other data (the MERL, RGL "
+        "and UTIA "
+        "databases). For orientation only.\n",
+        file);
     report_write_papers_psnr(file);
 }

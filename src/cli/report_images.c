@@ -1,6 +1,6 @@
-/* report_images.c: a sphere of every material, beside the errors over directions: SMAPE looks at dark
- * directions, PSNR at highlights. Each sphere is rendered twice, with half of the samples and a seed of
- * its own: what differs between both is noise, and so the error by noise is known. */
+/* report_images.c: a sphere of every material, beside the errors over directions: SMAPE looks at
+ * dark directions, PSNR at highlights. Each sphere is rendered twice, with half of the samples
+ * and a seed of its own: what differs between both is noise, and so the error by noise is known. */
 #include "cli/report.h"
 
 #include <stdlib.h>
@@ -9,8 +9,9 @@
 struct report_images {
     render_environment environment;
     hnbrdf_model *guide_model;
-    render_guide *guides; /* [materials]: they suit the measurement and GGX, and serve every model, so
-                             that all pictures of a material share their random directions */
+    /* [materials]: they suit the measurement and GGX, and serve every model, so that all pictures
+     * of a material share their random directions */
+    render_guide *guides;
     render_image (*references)[2]; /* [materials] */
     picture_progress *progress;    /* or NULL */
 };
@@ -43,7 +44,8 @@ static int watch(void *progress, double share)
     return report_interrupted();
 }
 
-/* ---- Rendering ----------------------------------------------------------------------------------- */
+/* ---- Rendering
+ * ----------------------------------------------------------------------------------- */
 
 static int render_twice(const report *r, int m, render_surface *surface, render_image pictures[2])
 {
@@ -104,7 +106,8 @@ void report_images_drop_reference(report *r, int m)
         render_image_free(&r->images->references[m][k]);
 }
 
-/* ---- Measuring ----------------------------------------------------------------------------------- */
+/* ---- Measuring
+ * ----------------------------------------------------------------------------------- */
 
 int report_images_measure(report *r, int m, report_entry *e, const hnbrdf_model *model,
                           render_image *mean)

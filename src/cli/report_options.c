@@ -4,7 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- Lists --------------------------------------------------------------------------------------- */
+/* ---- Lists
+ * --------------------------------------------------------------------------------------- */
 
 int report_read_nets(const cli_command *command, const char *list, report *r)
 {
@@ -15,9 +16,9 @@ int report_read_nets(const cli_command *command, const char *list, report *r)
         if (sscanf(at, "%2dx%1d%n", &net[0], &net[1], &length) != 2 || net[0] < 1 ||
             net[0] > HNBRDF_MAX_HIDDEN || net[1] < 1 || net[1] > HNBRDF_MAX_LAYERS ||
             (at[length] != ',' && at[length] != '\0'))
-            return cli_usage(command,
-                             "--nets: '%s' is not HxN,HxN,... with H from 1 to %d and N from 1 to %d",
-                             list, HNBRDF_MAX_HIDDEN, HNBRDF_MAX_LAYERS);
+            return cli_usage(
+                command, "--nets: '%s' is not HxN,HxN,... with H from 1 to %d and N from 1 to %d",
+                list, HNBRDF_MAX_HIDDEN, HNBRDF_MAX_LAYERS);
         for (int k = 0; k < r->net_count; k++)
             if (r->nets[k][0] == net[0] && r->nets[k][1] == net[1])
                 return cli_usage(command, "--nets: %dx%d is there twice", net[0], net[1]);
@@ -59,8 +60,8 @@ int report_read_models(const cli_command *command, const char *list, report *r)
                                           strncmp(list, report_form_name(form), length) != 0))
             form++;
         if (!report_form_name(form))
-            return cli_usage(command, "--models: '%.*s', expected hybrid, paper or neural", (int)length,
-                             list);
+            return cli_usage(command, "--models: '%.*s', expected hybrid, paper or neural",
+                             (int)length, list);
         r->forms[form] = 1;
         list += length + (list[length] == ',');
     }
@@ -81,7 +82,8 @@ char *report_join(int argc, char **argv)
     return text;
 }
 
-/* ---- Output -------------------------------------------------------------------------------------- */
+/* ---- Output
+ * -------------------------------------------------------------------------------------- */
 
 char *report_path_in(const report *r, const char *name)
 {

@@ -1,4 +1,5 @@
-/* report_plot.c: the error of every material as a curve for each model, an SVG without dependencies. */
+/* report_plot.c: the error of every material as a curve for each model, an SVG without
+ * dependencies. */
 #include "cli/report.h"
 
 #include <math.h>
@@ -23,7 +24,8 @@ typedef struct plot {
     const report *r;
     const report_entry *curves[MAX_CURVES];
     int curve_count;
-    int named;                /* 1: one order for all curves, by GGX's error, with the names below */
+    /* 1: one order for all curves, by GGX's error, with the names below */
+    int named;
     ranked *order;            /* [materials], the order of the curve that is being drawn */
     double left;              /* pixels */
     double below;             /* pixels under the axis */
@@ -98,14 +100,15 @@ static void write_error_axis(const plot *p)
         double y = y_of(p, error);
         fprintf(p->file, "<path d=\"M%.1f %.1fh%.1f\" stroke=\"#ddd\"/>\n", p->left, y,
                 p->step * p->r->data.count);
-        fprintf(p->file, "<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"end\">%.*f</text>\n", p->left - 8.0,
-                y + 4.0, p->psnr ? 0 : 2, error);
+        fprintf(p->file, "<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"end\">%.*f</text>\n",
+                p->left - 8.0, y + 4.0, p->psnr ? 0 : 2, error);
     }
-    fprintf(p->file,
-            "<text transform=\"translate(%.1f %d) rotate(-90)\" text-anchor=\"middle\">%s%s%s</text>\n",
-            p->left - 48.0, PLOT_TOP + PLOT_HEIGHT / 2, p->psnr ? "PSNR, dB" : "SMAPE, ",
-            p->psnr ? "" : hnbrdf_sampler_name((hnbrdf_sampler)p->r->sampler),
-            p->psnr ? "" : " sampler");
+    fprintf(
+        p->file,
+        "<text transform=\"translate(%.1f %d) rotate(-90)\" text-anchor=\"middle\">%s%s%s</text>\n",
+        p->left - 48.0, PLOT_TOP + PLOT_HEIGHT / 2, p->psnr ? "PSNR, dB" : "SMAPE, ",
+        p->psnr ? "" : hnbrdf_sampler_name((hnbrdf_sampler)p->r->sampler),
+        p->psnr ? "" : " sampler");
 }
 
 static void write_name(const plot *p, int rank)
@@ -123,14 +126,15 @@ static void write_material_axis(const plot *p)
         if (p->named)
             write_name(p, k);
         else if (k == 0 || (k + 1) % 10 == 0)
-            fprintf(p->file, "<text x=\"%.1f\" y=\"%d\" text-anchor=\"middle\">%d</text>\n", x_of(p, k),
-                    bottom + 18, k + 1);
+            fprintf(p->file, "<text x=\"%.1f\" y=\"%d\" text-anchor=\"middle\">%d</text>\n",
+                    x_of(p, k), bottom + 18, k + 1);
     if (!p->named)
-        fprintf(p->file,
-                "<text x=\"%.1f\" y=\"%d\" text-anchor=\"middle\">materials, each curve in the order "
-                "of its "
-                "errors</text>\n",
-                p->left + 0.5 * p->step * count, bottom + 42);
+        fprintf(
+            p->file,
+            "<text x=\"%.1f\" y=\"%d\" text-anchor=\"middle\">materials, each curve in the order "
+            "of its "
+            "errors</text>\n",
+            p->left + 0.5 * p->step * count, bottom + 42);
 }
 
 /* Solid for the first latent size, dashed for the others. */
@@ -158,7 +162,8 @@ static void write_curve(plot *p, const report_entry *e)
 
 static void write_legend(const plot *p, double x)
 {
-    static const char *const titles[REPORT_FORMS] = {"GGX alone", "hybrid", "paper's form", "neural"};
+    static const char *const titles[REPORT_FORMS] = {"GGX alone", "hybrid", "paper's form",
+                                                     "neural"};
     for (int k = 0; k < p->curve_count; k++) {
         const report_entry *e = p->curves[k];
         int y = PLOT_TOP + 16 + k * LEGEND_LINE;

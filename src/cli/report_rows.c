@@ -11,7 +11,8 @@
 /* Pixels of a sphere's side in a row: room for what stands below. */
 enum { LEAST_CELL = 136, MOST_CELL = 192 };
 
-/* ---- What is kept -------------------------------------------------------------------------------- */
+/* ---- What is kept
+ * -------------------------------------------------------------------------------- */
 
 int report_rows_has(const report *r, int m)
 {
@@ -53,7 +54,8 @@ int report_rows_is_kept(const report *r, int m)
     return kept;
 }
 
-/* ---- One row ------------------------------------------------------------------------------------- */
+/* ---- One row
+ * ------------------------------------------------------------------------------------- */
 
 /* What the columns show: the measurement, the models, and their differences. */
 typedef struct row_plan {
@@ -67,7 +69,9 @@ static row_plan make_plan(const report *r)
     static const report_form order[REPORT_FORMS] = {REPORT_HYBRID, REPORT_PAPER, REPORT_NEURAL,
                                                     REPORT_GGX};
     long size = r->image_size;
-    row_plan plan = {.size = size < LEAST_CELL ? LEAST_CELL : size > MOST_CELL ? MOST_CELL : (int)size};
+    row_plan plan = {.size = size < LEAST_CELL  ? LEAST_CELL
+                             : size > MOST_CELL ? MOST_CELL
+                                                : (int)size};
     for (int k = 0; k < REPORT_FORMS; k++) {
         const report_entry *e = report_find(r, order[k], r->nets[r->net_count - 1], r->latents[0]);
         if (e && e->pictures[0].done)
@@ -109,8 +113,8 @@ static int resize(render_image *image, int size, double gain)
     return CLI_OK;
 }
 
-static int fill_errors(const row_plan *plan, const render_image *reference, const render_image *models,
-                       render_sheet_row *row)
+static int fill_errors(const row_plan *plan, const render_image *reference,
+                       const render_image *models, render_sheet_row *row)
 {
     hnbrdf_error error;
     /* One scale for the row: that of its worst model. */
@@ -129,7 +133,8 @@ static int fill_errors(const row_plan *plan, const render_image *reference, cons
     return CLI_OK;
 }
 
-static int fill_row(const report *r, const row_plan *plan, int m, double gain, render_sheet_row *row)
+static int fill_row(const report *r, const row_plan *plan, int m, double gain,
+                    render_sheet_row *row)
 {
     render_image pictures[1 + REPORT_FORMS] = {{0}};
     row->name = hnbrdf_measured_name(r->data.items[m]);
@@ -154,10 +159,11 @@ static int fill_row(const report *r, const row_plan *plan, int m, double gain, r
     return code;
 }
 
-/* ---- Pages --------------------------------------------------------------------------------------- */
+/* ---- Pages
+ * --------------------------------------------------------------------------------------- */
 
-static int write_page(const report *r, const row_plan *plan, const render_sheet_row *rows, int count,
-                      int page)
+static int write_page(const report *r, const row_plan *plan, const render_sheet_row *rows,
+                      int count, int page)
 {
     hnbrdf_error error;
     render_image image;
@@ -173,10 +179,11 @@ static int write_page(const report *r, const row_plan *plan, const render_sheet_
              "networks of %dx%d; under each model its MAE in radiance and its PSNR (peak: the "
              "reference's largest value)",
              net[0], net[1]);
-    snprintf(light, sizeof light,
-             "errors: |difference|, mean of R, G and B; from dark, 0, to yellow, the number below it; "
-             "%ld samples a pixel",
-             r->light.spp);
+    snprintf(
+        light, sizeof light,
+        "errors: |difference|, mean of R, G and B; from dark, 0, to yellow, the number below it; "
+        "%ld samples a pixel",
+        r->light.spp);
     for (int c = 0; c < sheet.columns; c++)
         sheet.titles[c] = plan->titles[c];
     if (render_sheet_compose(&sheet, &image, &error) != HNBRDF_OK)

@@ -1,11 +1,13 @@
-/* report_tables.c: the results of a report as CSV and as Markdown in the layout of the paper's tables.
+/* report_tables.c: the results of a report as CSV and as Markdown in the layout of the paper's
+ * tables.
  */
 #include "cli/csv.h"
 #include "cli/report.h"
 
 #include <string.h>
 
-/* ---- CSV ----------------------------------------------------------------------------------------- */
+/* ---- CSV
+ * ----------------------------------------------------------------------------------------- */
 
 void report_write_model_columns(const report_entry *e, FILE *file)
 {
@@ -36,9 +38,10 @@ static void write_psnr_column(const report *r, double psnr, FILE *file)
 
 void report_write_accuracy(const report *r, FILE *file)
 {
-    fputs("kind,net,encoding,latent,steps,seconds,pairs_per_s,weights,mults,smape_grid,smape_uniform,"
-          "smape_analytic,smape_cosine,floor,psnr,name\n",
-          file);
+    fputs(
+        "kind,net,encoding,latent,steps,seconds,pairs_per_s,weights,mults,smape_grid,smape_uniform,"
+        "smape_analytic,smape_cosine,floor,psnr,name\n",
+        file);
     for (int k = 0; k < r->count; k++) {
         const report_entry *e = &r->entries[k];
         if (!e->done)
@@ -57,7 +60,8 @@ void report_write_accuracy(const report *r, FILE *file)
 void report_write_materials(const report *r, FILE *file)
 {
     int n = r->data.count;
-    fputs("material,kind,net,encoding,latent,smape_grid,smape_uniform,smape_analytic,smape_cosine,psnr,"
+    fputs("material,kind,net,encoding,latent,smape_grid,smape_uniform,smape_analytic,smape_cosine,"
+          "psnr,"
           "name\n",
           file);
     for (int k = 0; k < r->count; k++)
@@ -75,11 +79,13 @@ void report_write_materials(const report *r, FILE *file)
         }
 }
 
-/* ---- Markdown: the tables of errors -------------------------------------------------------------- */
+/* ---- Markdown: the tables of errors
+ * -------------------------------------------------------------- */
 
 const char *report_form_title(report_form form)
 {
-    static const char *const titles[REPORT_FORMS] = {"GGX alone", "hybrid", "paper's form", "neural"};
+    static const char *const titles[REPORT_FORMS] = {"GGX alone", "hybrid", "paper's form",
+                                                     "neural"};
     return titles[form];
 }
 
@@ -111,8 +117,8 @@ void report_write_form_header(const report *r, FILE *file)
 
 static void write_errors(const report *r, int sampler, FILE *file)
 {
-    fprintf(file,
-            "\n## Mean SMAPE, %s sampler\n\nGGX alone: ", hnbrdf_sampler_name((hnbrdf_sampler)sampler));
+    fprintf(file, "\n## Mean SMAPE, %s sampler\n\nGGX alone: ",
+            hnbrdf_sampler_name((hnbrdf_sampler)sampler));
     fprintf(file, "%.4f.\n\n", r->entries[0].mean[sampler].smape);
     report_write_form_header(r, file);
     for (int n = 0; n < r->net_count; n++) {
@@ -120,7 +126,8 @@ static void write_errors(const report *r, int sampler, FILE *file)
         for (int l = 0; l < r->latent_count; l++)
             for (report_form form = REPORT_HYBRID; form < REPORT_FORMS; form++)
                 if (r->forms[form])
-                    write_error_cell(report_find(r, form, r->nets[n], r->latents[l]), sampler, file);
+                    write_error_cell(report_find(r, form, r->nets[n], r->latents[l]), sampler,
+                                     file);
         putc('\n', file);
     }
 }
@@ -134,7 +141,8 @@ static void write_images(const report *r, FILE *file)
     report_write_psnr_table(r, file);
 }
 
-/* ---- Markdown: hybrids against the others -------------------------------------------------------- */
+/* ---- Markdown: hybrids against the others
+ * -------------------------------------------------------- */
 
 static void write_ratio_cell(const report *r, const report_entry *e, const report_entry *other,
                              FILE *file)
@@ -150,15 +158,16 @@ static void write_ratio_cell(const report *r, const report_entry *e, const repor
 static void write_wins(const report *r, FILE *file)
 {
     const report_entry *ggx = &r->entries[0];
-    fprintf(
-        file,
-        "\n## Against the baselines, %s sampler\n\n"
-        "Ratio of the mean errors, below 1 where the hybrid is better, and for how many materials it "
-        "is.\n"
-        "The last column is the hybrid's analytic part alone over the fit of GGX alone.\n\n"
-        "| model | against GGX alone | against the paper's form | against neural | analytic part |\n"
-        "|---|---|---|---|---|\n",
-        hnbrdf_sampler_name((hnbrdf_sampler)r->sampler));
+    fprintf(file,
+            "\n## Against the baselines, %s sampler\n\n"
+            "Ratio of the mean errors, below 1 where the hybrid is better, and for how many "
+            "materials it "
+            "is.\n"
+            "The last column is the hybrid's analytic part alone over the fit of GGX alone.\n\n"
+            "| model | against GGX alone | against the paper's form | against neural | analytic "
+            "part |\n"
+            "|---|---|---|---|---|\n",
+            hnbrdf_sampler_name((hnbrdf_sampler)r->sampler));
     for (int n = 0; n < r->net_count; n++)
         for (int l = 0; l < r->latent_count; l++) {
             const report_entry *e = report_find(r, REPORT_HYBRID, r->nets[n], r->latents[l]);
@@ -179,7 +188,8 @@ static void write_equal_numbers(const report *r, FILE *file)
     fprintf(
         file,
         "\n## Hybrid against neural at equal numbers a material, %s sampler\n\n"
-        "Same encoding, floor, network size and training; wins: for how many materials the hybrid is "
+        "Same encoding, floor, network size and training; wins: for how many materials the hybrid "
+        "is "
         "better.\n\n| net | numbers | SMAPE hybrid | neural | wins |%s\n|---|---|---|---|---|%s\n",
         hnbrdf_sampler_name((hnbrdf_sampler)r->sampler),
         r->image_size ? " PSNR hybrid | neural | wins |" : "", r->image_size ? "---|---|---|" : "");
@@ -236,12 +246,13 @@ static void write_smallest_against_largest(const report *r, FILE *file)
     }
     if (!small || !large || small->mults >= large->mults)
         return;
-    fprintf(file,
-            "\nThe smallest hybrid, %dx%d l=%d, %zu multiplications: %.4f. The largest of the paper's "
-            "form, %dx%d "
-            "l=%d, %zu multiplications: %.4f.\n",
-            small->net[0], small->net[1], small->latent, small->mults, small->mean[r->sampler].smape,
-            large->net[0], large->net[1], large->latent, large->mults, large->mean[r->sampler].smape);
+    fprintf(
+        file,
+        "\nThe smallest hybrid, %dx%d l=%d, %zu multiplications: %.4f. The largest of the paper's "
+        "form, %dx%d "
+        "l=%d, %zu multiplications: %.4f.\n",
+        small->net[0], small->net[1], small->latent, small->mults, small->mean[r->sampler].smape,
+        large->net[0], large->net[1], large->latent, large->mults, large->mean[r->sampler].smape);
 }
 
 static void write_costs(const report *r, FILE *file)
@@ -259,18 +270,20 @@ static void write_costs(const report *r, FILE *file)
             fprintf(file, " | | 0 | 0 | | %.1f | |\n", e->seconds);
         else
             fprintf(file, " %s | %.4g | %zu | %zu | %ld | %.1f | %.2f |\n",
-                    hnbrdf_encoding_name(e->encoding), (double)e->floor, e->weights, e->mults, e->steps,
-                    e->seconds, e->pairs_per_s * 1e-6);
+                    hnbrdf_encoding_name(e->encoding), (double)e->floor, e->weights, e->mults,
+                    e->steps, e->seconds, e->pairs_per_s * 1e-6);
     }
 }
 
-/* ---- Markdown: the paper ------------------------------------------------------------------------- */
+/* ---- Markdown: the paper
+ * ------------------------------------------------------------------------- */
 
 static void write_papers_figures(FILE *file)
 {
     fputs(
         "\n## The paper's own figures\n\n"
-        "Mean SMAPE as published (De Oliveira et al., EGSR 2026): other data (the MERL, RGL and UTIA\n"
+        "Mean SMAPE as published (De Oliveira et al., EGSR 2026): other data (the MERL, RGL and "
+        "UTIA\n"
         "databases), sampler unknown. For orientation only.\n\n"
         "| net | MERL hybrid l=4 | neural l=12 | RGL hybrid l=4 | neural l=12 | UTIA hybrid l=4 | "
         "neural l=12 |\n"
@@ -286,7 +299,8 @@ static void write_papers_figures(FILE *file)
     report_write_papers_psnr(file);
 }
 
-/* ---- Markdown: the whole ------------------------------------------------------------------------- */
+/* ---- Markdown: the whole
+ * ------------------------------------------------------------------------- */
 
 void report_write_data(const report *r, FILE *file)
 {
@@ -313,28 +327,30 @@ static void write_method(const report *r, FILE *file)
         if (r->entries[k].done && r->entries[k].form == REPORT_HYBRID)
             encoding = hnbrdf_encoding_name(r->entries[k].encoding);
     }
-    fprintf(file, "# Accuracy\n\nMade by `%s`, hnbrdf %s; %d of %d entries done.\n\n", r->command_line,
-            hnbrdf_version(), done, r->count);
+    fprintf(file, "# Accuracy\n\nMade by `%s`, hnbrdf %s; %d of %d entries done.\n\n",
+            r->command_line, hnbrdf_version(), done, r->count);
     report_write_data(r, file);
     if (r->budget > 0.0)
         fprintf(file, "Training: %g s of network training an entry", r->budget);
     else
         fprintf(file, "Training: %s steps an entry",
                 r->steps ? "the same number of" : "the default number of");
-    fprintf(
-        file,
-        " (see Cost), seed %ld, the same trainer for all. SMAPE: 0 is perfect, 2 the worst; mean over\n"
-        "materials, RGB and %ld valid pairs of directions a material, drawn with seed %ld apart from "
-        "the\n"
-        "training's.\n\n"
-        "hybrid: encoding %s, floor, analytic part %s. Paper's form: directions, no floor,\n"
-        "analytic part trained jointly. neural: as hybrid without an analytic part and with %d more "
-        "latent\n"
-        "floats, so that a material stores as many numbers.\n",
-        r->seed, r->pairs, r->seed, encoding,
-        r->analytic == HNBRDF_FIT_JOINT ? "trained jointly"
-                                        : "frozen at the fit of GGX alone (faithful)",
-        (int)REPORT_ANALYTIC_NUMBERS);
+    fprintf(file,
+            " (see Cost), seed %ld, the same trainer for all. SMAPE: 0 is perfect, 2 the worst; "
+            "mean over\n"
+            "materials, RGB and %ld valid pairs of directions a material, drawn with seed %ld "
+            "apart from "
+            "the\n"
+            "training's.\n\n"
+            "hybrid: encoding %s, floor, analytic part %s. Paper's form: directions, no floor,\n"
+            "analytic part trained jointly. neural: as hybrid without an analytic part and with %d "
+            "more "
+            "latent\n"
+            "floats, so that a material stores as many numbers.\n",
+            r->seed, r->pairs, r->seed, encoding,
+            r->analytic == HNBRDF_FIT_JOINT ? "trained jointly"
+                                            : "frozen at the fit of GGX alone (faithful)",
+            (int)REPORT_ANALYTIC_NUMBERS);
 }
 
 static void write_plots(const report *r, FILE *file)

@@ -22,10 +22,11 @@ const char *sampling_title(sampling_way way);
 
 /* One way with one material; mse is 0 where the way does not exist. */
 typedef struct sampling_run {
-    /* Against the reference, over the pixels that the sphere covers. That of one sample a pixel is the variance of
-     * the sampler, from as many renderings as the tables have samples; with more, samples are stratified. */
+    /* Against the reference, over the pixels that the sphere covers. That of one sample a pixel
+     * is the variance of the sampler, from as many renderings as the tables have samples; with
+     * more, samples are stratified. */
     double mse[SAMPLING_COUNTS];
-    double ns;                   /* processor time of one sample, everything included */
+    double ns; /* processor time of one sample, everything included */
 } sampling_run;
 
 typedef struct sampling_subject {
@@ -45,8 +46,9 @@ typedef struct sampling_report {
     render_environment environment;
     long size;
     int counts[SAMPLING_COUNTS], count_count; /* samples a pixel, ascending */
-    int at;                                   /* of counts: that of the tables for stratified samples */
-    int strips[SAMPLING_STRIP_COUNTS];        /* of counts */
+    /* of counts: that of the tables for stratified samples */
+    int at;
+    int strips[SAMPLING_STRIP_COUNTS]; /* of counts */
     sampling_subject *subjects;
     int count;
 } sampling_report;
@@ -54,10 +56,12 @@ typedef struct sampling_report {
 /* Renders everything of one subject. 0, or CLI_FAILURE after a message. */
 int sampling_measure(const sampling_report *r, sampling_subject *s, picture_progress *progress);
 
-/* Error of a way with counts[k] samples a pixel over that of another; 0 where either is missing. Mean over the
- * subjects that are done, NAN without any; of those with alpha below `alpha`, 2 for all. */
+/* Error of a way with counts[k] samples a pixel over that of another; 0 where either is missing.
+ * Mean over the subjects that are done, NAN without any; of those with alpha below `alpha`, 2 for
+ * all. */
 double sampling_ratio(const sampling_subject *s, int k, sampling_way way, sampling_way to);
-double sampling_mean_ratio(const sampling_report *r, int k, sampling_way way, sampling_way to, double alpha);
+double sampling_mean_ratio(const sampling_report *r, int k, sampling_way way, sampling_way to,
+                           double alpha);
 /* 1 / (variance times time) over that of the table, mean likewise. */
 double sampling_mean_efficiency(const sampling_report *r, sampling_way way);
 

@@ -1,5 +1,5 @@
-/* sampling_measure.c: spheres of one material, drawn in every way and with ever more samples, against a converged
- * one. */
+/* sampling_measure.c: spheres of one material, drawn in every way and with ever more samples,
+ * against a converged one. */
 #include "cli/sampling.h"
 
 #include "render/difference.h"
@@ -10,14 +10,15 @@
 
 const char *sampling_name(sampling_way way)
 {
-    static const char *const names[SAMPLING_WAYS] = {"cosine", "paper", "guess", "fitted", "tabulated"};
+    static const char *const names[SAMPLING_WAYS] = {"cosine", "paper", "guess", "fitted",
+                                                     "tabulated"};
     return names[way];
 }
 
 const char *sampling_title(sampling_way way)
 {
-    static const char *const titles[SAMPLING_WAYS] = {"cosine alone", "paper's scheme", "guessed share", "fitted lobes",
-                                                      "tabulated, 5.6 MB"};
+    static const char *const titles[SAMPLING_WAYS] = {
+        "cosine alone", "paper's scheme", "guessed share", "fitted lobes", "tabulated, 5.6 MB"};
     return titles[way];
 }
 
@@ -30,7 +31,8 @@ static int set_lobes(const sampling_subject *s, sampling_way way, hnbrdf_materia
         material->lobes.scale[0] = 1.0f; /* without any share */
     if (way == SAMPLING_PAPER)
         hnbrdf_lobes_paper(&material->lobes);
-    if (way == SAMPLING_FITTED && hnbrdf_lobes_fit(s->model, material, &material->lobes, &error) != HNBRDF_OK)
+    if (way == SAMPLING_FITTED &&
+        hnbrdf_lobes_fit(s->model, material, &material->lobes, &error) != HNBRDF_OK)
         return cli_fail("%s: %s", s->name, error.text);
     return CLI_OK;
 }
@@ -43,17 +45,22 @@ static double processor_seconds(void)
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-static int render(const sampling_report *r, const render_surface *surface, render_strategy strategy, long spp, long seed,
-                  render_image *image)
+static int render(const sampling_report *r, const render_surface *surface, render_strategy strategy,
+                  long spp, long seed, render_image *image)
 {
     hnbrdf_error error;
-    const render_options options = {.size = (int)r->size, .spp = (int)spp, .seed = (uint64_t)seed,
-                                    .threads = (int)r->light.threads, .strategy = strategy};
-    return render_sphere(surface, &r->environment, &options, image, &error) == HNBRDF_OK ? CLI_OK
-                                                                                       : cli_fail("%s", error.text);
+    const render_options options = {.size = (int)r->size,
+                                    .spp = (int)spp,
+                                    .seed = (uint64_t)seed,
+                                    .threads = (int)r->light.threads,
+                                    .strategy = strategy};
+    return render_sphere(surface, &r->environment, &options, image, &error) == HNBRDF_OK
+               ? CLI_OK
+               : cli_fail("%s", error.text);
 }
 
-static int keep_strip(const sampling_report *r, sampling_subject *s, sampling_way way, int k, render_image *image)
+static int keep_strip(const sampling_report *r, sampling_subject *s, sampling_way way, int k,
+                      render_image *image)
 {
     for (int n = 0; n < SAMPLING_STRIP_COUNTS && s->has_strip; n++)
         if (r->strips[n] == k) {
@@ -65,12 +72,13 @@ static int keep_strip(const sampling_report *r, sampling_subject *s, sampling_wa
 }
 
 /* Renders once and adds to the error; the last picture may stay for the strips. */
-static int measure_once(const sampling_report *r, sampling_subject *s, sampling_way way, const render_surface *surface,
-                        int k, int repeat, int repeats)
+static int measure_once(const sampling_report *r, sampling_subject *s, sampling_way way,
+                        const render_surface *surface, int k, int repeat, int repeats)
 {
     hnbrdf_image_error error;
     render_image image = {0};
-    if (render(r, surface, RENDER_BRDF, r->counts[k], r->light.seed + 1 + k + 1000 * repeat, &image) != CLI_OK)
+    if (render(r, surface, RENDER_BRDF, r->counts[k], r->light.seed + 1 + k + 1000 * repeat,
+               &image) != CLI_OK)
         return CLI_FAILURE;
     int code = picture_compare(&image, &s->reference, &error);
     s->runs[way].mse[k] += error.mse / repeats;
@@ -79,8 +87,8 @@ static int measure_once(const sampling_report *r, sampling_subject *s, sampling_
     return code;
 }
 
-static int measure_way(const sampling_report *r, sampling_subject *s, sampling_way way, const render_surface *surface,
-                       picture_progress *progress)
+static int measure_way(const sampling_report *r, sampling_subject *s, sampling_way way,
+                       const render_surface *surface, picture_progress *progress)
 {
     for (int k = 0; k < r->count_count; k++) {
         int repeats = k == 0 ? r->counts[r->at] : 1;
@@ -89,9 +97,11 @@ static int measure_way(const sampling_report *r, sampling_subject *s, sampling_w
             if (measure_once(r, s, way, surface, k, repeat, repeats) != CLI_OK)
                 return CLI_FAILURE;
         if (k + 1 == r->count_count) /* the longest is known best */
-            s->runs[way].ns = (processor_seconds() - before) * 1e9 / (s->covered * r->counts[k] * repeats);
+            s->runs[way].ns =
+                (processor_seconds() - before) * 1e9 / (s->covered * r->counts[k] * repeats);
         /* Half of the work is the reference. */
-        picture_report(progress, 0.5 + 0.5 * ((int)way + (k + 1.0) / r->count_count) / SAMPLING_WAYS);
+        picture_report(progress,
+                       0.5 + 0.5 * ((int)way + (k + 1.0) / r->count_count) / SAMPLING_WAYS);
     }
     return CLI_OK;
 }
@@ -104,7 +114,9 @@ static void look_at_reference(sampling_subject *s)
     for (size_t i = 0; i < (size_t)image->width * (size_t)image->height; i++) {
         s->covered += (double)image->alpha[i];
         if (render_covered(image, image, i)) {
-            sum += ((double)image->rgb[3 * i] + (double)image->rgb[3 * i + 1] + (double)image->rgb[3 * i + 2]) / 3.0;
+            sum += ((double)image->rgb[3 * i] + (double)image->rgb[3 * i + 1] +
+                    (double)image->rgb[3 * i + 2]) /
+                   3.0;
             count++;
         }
     }
@@ -157,13 +169,15 @@ double sampling_ratio(const sampling_subject *s, int k, sampling_way way, sampli
     return mine > 0.0 && other > 0.0 ? mine / other : 0.0;
 }
 
-double sampling_mean_ratio(const sampling_report *r, int k, sampling_way way, sampling_way to, double alpha)
+double sampling_mean_ratio(const sampling_report *r, int k, sampling_way way, sampling_way to,
+                           double alpha)
 {
     double sum = 0.0;
     int count = 0;
     for (int m = 0; m < r->count; m++) {
         const sampling_subject *s = &r->subjects[m];
-        double ratio = s->done && (double)s->material->alpha[0] < alpha ? sampling_ratio(s, k, way, to) : 0.0;
+        double ratio =
+            s->done && (double)s->material->alpha[0] < alpha ? sampling_ratio(s, k, way, to) : 0.0;
         sum += ratio;
         count += ratio > 0.0;
     }

@@ -1,4 +1,5 @@
-/* sampling_strips.c: the noise to look at: spheres of some materials, drawn in every way with few samples. */
+/* sampling_strips.c: the noise to look at: spheres of some materials, drawn in every way with few
+ * samples. */
 #include "cli/sampling.h"
 
 #include "render/draw.h"
@@ -8,11 +9,12 @@
 #include <string.h>
 
 /* Columns of the sheet; guessed shares look like fitted lobes and are left to the numbers. */
-static const int columns[] = {-1, SAMPLING_COSINE, SAMPLING_PAPER, SAMPLING_FITTED, SAMPLING_TABULATED};
+static const int columns[] = {-1, SAMPLING_COSINE, SAMPLING_PAPER, SAMPLING_FITTED,
+                              SAMPLING_TABULATED};
 enum { COLUMNS = sizeof columns / sizeof columns[0], CELL = 160 };
 
-static int fill_row(const sampling_report *r, const sampling_subject *s, int strip, char name[], size_t size,
-                    render_sheet_row *row)
+static int fill_row(const sampling_report *r, const sampling_subject *s, int strip, char name[],
+                    size_t size, render_sheet_row *row)
 {
     hnbrdf_error error;
     int k = r->strips[strip];
@@ -41,9 +43,15 @@ static int compose(const sampling_report *r, const render_sheet_row *rows, int c
     hnbrdf_error error;
     render_image image;
     char what[200];
-    render_sheet sheet = {.lines = {"Noise of sampling", what}, .titles = {"reference"}, .columns = COLUMNS,
-                          .cell = CELL, .blocks = 1, .rows = rows, .count = count};
-    snprintf(what, sizeof what, "directions from the BRDF alone, under %s; MSE against the reference", r->light.env);
+    render_sheet sheet = {.lines = {"Noise of sampling", what},
+                          .titles = {"reference"},
+                          .columns = COLUMNS,
+                          .cell = CELL,
+                          .blocks = 1,
+                          .rows = rows,
+                          .count = count};
+    snprintf(what, sizeof what,
+             "directions from the BRDF alone, under %s; MSE against the reference", r->light.env);
     for (int c = 1; c < COLUMNS; c++)
         sheet.titles[c] = sampling_title((sampling_way)columns[c]);
     if (render_sheet_compose(&sheet, &image, &error) != HNBRDF_OK)
@@ -52,7 +60,8 @@ static int compose(const sampling_report *r, const render_sheet_row *rows, int c
     char *path = malloc(size);
     int code = path ? CLI_OK : cli_fail("out of memory");
     if (path) {
-        snprintf(path, size, "%s/sampling-strips.%s", r->directory, render_has_exr() ? "exr" : "png");
+        snprintf(path, size, "%s/sampling-strips.%s", r->directory,
+                 render_has_exr() ? "exr" : "png");
         code = picture_write(&image, path, &(render_write_options){.half = 1, .comments = what});
     }
     free(path);
@@ -64,11 +73,13 @@ int sampling_write_strips(const sampling_report *r)
 {
     int count = 0, code = CLI_OK;
     render_sheet_row *rows = calloc((size_t)r->count * SAMPLING_STRIP_COUNTS, sizeof *rows);
-    char(*names)[HNBRDF_MAX_NAME + 32] = calloc((size_t)r->count * SAMPLING_STRIP_COUNTS, sizeof *names);
+    char(*names)[HNBRDF_MAX_NAME + 32] =
+        calloc((size_t)r->count * SAMPLING_STRIP_COUNTS, sizeof *names);
     if (!rows || !names)
         code = cli_fail("out of memory");
     for (int m = 0; m < r->count && code == CLI_OK; m++)
-        for (int n = 0; n < SAMPLING_STRIP_COUNTS && r->subjects[m].has_strip && r->subjects[m].done && code == CLI_OK;
+        for (int n = 0; n < SAMPLING_STRIP_COUNTS && r->subjects[m].has_strip &&
+                        r->subjects[m].done && code == CLI_OK;
              n++, count++)
             code = fill_row(r, &r->subjects[m], n, names[count], sizeof names[count], &rows[count]);
     if (code == CLI_OK && count > 0)

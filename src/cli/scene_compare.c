@@ -1,4 +1,5 @@
-/* scene_compare.c: what models cost and what they lose in one scene, against the measurements in it. */
+/* scene_compare.c: what models cost and what they lose in one scene, against the measurements in
+ * it. */
 #include "cli/scene_compare.h"
 
 #include <stdlib.h>
@@ -14,9 +15,9 @@ static const struct kind {
     {"GGX alone", "rendering GGX", "_ggx", RENDER_SHOW_ANALYTIC},
 };
 
-/* Each kind is rendered twice, with half of the samples and seeds of their own. The noise of one half
- * has nothing to do with that of the other, so that the mean of (A1 - B1) (A2 - B2) is the squared
- * difference without noise; the same seeds for all kinds keep it small. */
+/* Each kind is rendered twice, with half of the samples and seeds of their own. The noise of one
+ * half has nothing to do with that of the other, so that the mean of (A1 - B1) (A2 - B2) is the
+ * squared difference without noise; the same seeds for all kinds keep it small. */
 typedef struct halves {
     render_image image[2];
     scene_time time; /* of both */
@@ -64,8 +65,9 @@ static int write_one(const scene_job *job, const render_image *image, const stru
     char *path = suffixed(job->output, kind->suffix);
     if (!path)
         return cli_fail("out of memory");
-    snprintf(comments, sizeof comments, "hnbrdf %s scene --compare: %s, %ld samples a pixel, seed %ld",
-             hnbrdf_version(), kind->name, job->spp, job->seed);
+    snprintf(comments, sizeof comments,
+             "hnbrdf %s scene --compare: %s, %ld samples a pixel, seed %ld", hnbrdf_version(),
+             kind->name, job->spp, job->seed);
     const render_write_options options = {
         .exposure = exposure, .half = job->half, .comments = comments};
     int code = picture_write(image, path, &options);
@@ -73,7 +75,8 @@ static int write_one(const scene_job *job, const render_image *image, const stru
     return code;
 }
 
-/* ---- Errors -------------------------------------------------------------------------------------- */
+/* ---- Errors
+ * -------------------------------------------------------------------------------------- */
 
 /* What the PNG shows of a value, 0 to 1. */
 static double shown(float value, double gain)
@@ -99,7 +102,8 @@ static void measure(const halves *test, const halves *reference, double exposure
         double first = (double)a[i] - (double)c[i], second = (double)b[i] - (double)d[i];
         mae += fabs(0.5 * (first + second));
         mse += first * second;
-        shown_mse += (shown(a[i], gain) - shown(c[i], gain)) * (shown(b[i], gain) - shown(d[i], gain));
+        shown_mse +=
+            (shown(a[i], gain) - shown(c[i], gain)) * (shown(b[i], gain) - shown(d[i], gain));
         peak = fmax(peak, 0.5 * ((double)c[i] + (double)d[i]));
     }
     r->mae = mae / (double)count;
@@ -117,7 +121,8 @@ static double noise_of(const halves *h)
     return sum / (double)count / sqrt(2.0);
 }
 
-/* ---- The table ----------------------------------------------------------------------------------- */
+/* ---- The table
+ * ----------------------------------------------------------------------------------- */
 
 /* Row MEASURED holds the noise as its MAE. */
 static void print_table(const row *rows)
@@ -176,8 +181,8 @@ static int write_json(const char *path, const row *rows)
             write_decibel(output.file, "psnr", rows[i].psnr);
             write_decibel(output.file, "png_psnr", rows[i].png_psnr);
         }
-        fprintf(output.file, ", \"cpu_seconds\": %.3f, \"wall_seconds\": %.3f}%s\n", rows[i].time.cpu,
-                rows[i].time.wall, i + 1 < ROWS ? "," : "");
+        fprintf(output.file, ", \"cpu_seconds\": %.3f, \"wall_seconds\": %.3f}%s\n",
+                rows[i].time.cpu, rows[i].time.wall, i + 1 < ROWS ? "," : "");
     }
     fputs("]\n", output.file);
     return cli_output_close(&output);
@@ -200,7 +205,8 @@ static int check_tables(const scene_files *files)
     return code == CLI_OK && files->json ? cli_output_check(files->json) : code;
 }
 
-/* ---- All of it ----------------------------------------------------------------------------------- */
+/* ---- All of it
+ * ----------------------------------------------------------------------------------- */
 
 static int render_halves(const scene_files *files, const scene_job *job, const struct kind *kind,
                          const char *folder, halves *h)
@@ -212,7 +218,8 @@ static int render_halves(const scene_files *files, const scene_job *job, const s
         one.output = NULL; /* no checkpoints */
         one.spp = (job->spp + 1) / 2;
         one.seed += half;
-        code = scene_files_render(files, &one, kind->show, folder, kind->what, &h->image[half], &time);
+        code =
+            scene_files_render(files, &one, kind->show, folder, kind->what, &h->image[half], &time);
         if (code == CLI_OK && scene_job_interrupted())
             code = cli_fail("interrupted: nothing to compare");
         h->time.cpu += time.cpu;
@@ -222,7 +229,8 @@ static int render_halves(const scene_files *files, const scene_job *job, const s
 }
 
 /* The mean of both halves as a picture; the halves stay. */
-static int write_mean(const scene_job *job, const halves *h, const struct kind *kind, double exposure)
+static int write_mean(const scene_job *job, const halves *h, const struct kind *kind,
+                      double exposure)
 {
     hnbrdf_error error;
     render_image mean;
@@ -242,7 +250,8 @@ static void free_halves(halves *h)
     render_image_free(&h->image[1]);
 }
 
-int scene_compare(const scene_files *files, const scene_job *job, const char *folder, double exposure)
+int scene_compare(const scene_files *files, const scene_job *job, const char *folder,
+                  double exposure)
 {
     row rows[ROWS];
     halves all[ROWS];

@@ -35,8 +35,8 @@ static char *checkpoint_path(const char *output)
 }
 
 /* Renders into the film; *complete as render_scene_run() has it. */
-static int fill(const scene_job *job, const render_scene *scene, const char *what, const char *state,
-                render_film *film, int *complete)
+static int fill(const scene_job *job, const render_scene *scene, const char *what,
+                const char *state, render_film *film, int *complete)
 {
     hnbrdf_error error;
     cli_progress line;
@@ -97,9 +97,9 @@ int scene_job_render(const scene_job *job, const render_scene *scene, const char
     if (code == CLI_OK && !complete) {
         int least, most;
         count_samples(&film, &least, &most);
-        printf(
-            "stopped at %d to %d of %ld samples a pixel. Repeat the command with --resume to go on.\n",
-            least, most, job->spp);
+        printf("stopped at %d to %d of %ld samples a pixel. Repeat the command with --resume to go "
+               "on.\n",
+               least, most, job->spp);
     }
     free(state);
     render_film_free(&film);

@@ -9,7 +9,8 @@
 
 enum { NAMES_SHOWN = 16, NAMES_SIZE = 512 };
 
-/* ---- Names --------------------------------------------------------------------------------------- */
+/* ---- Names
+ * --------------------------------------------------------------------------------------- */
 
 /* "a, b, c and 7 more": the names of a collection for a message. */
 typedef struct name_list {
@@ -33,7 +34,8 @@ static void list_name(name_list *list, const char *name)
 static const char *finish_list(name_list *list)
 {
     if (list->left_out > 0)
-        snprintf(list->text + list->length, NAMES_SIZE - list->length, " and %d more", list->left_out);
+        snprintf(list->text + list->length, NAMES_SIZE - list->length, " and %d more",
+                 list->left_out);
     return list->text;
 }
 
@@ -47,14 +49,16 @@ static const char *suggestion(const cli_guess *guess, char *text, size_t size)
     return text;
 }
 
-static int fail_not_found(const char *where, const char *name, name_list *list, const cli_guess *guess)
+static int fail_not_found(const char *where, const char *name, name_list *list,
+                          const cli_guess *guess)
 {
     char meant[HNBRDF_MAX_NAME + 32];
     return cli_fail("no material '%.*s' in %s%s; it has %s", HNBRDF_MAX_NAME, name, where,
                     suggestion(guess, meant, sizeof meant), finish_list(list));
 }
 
-/* ---- Built-in materials -------------------------------------------------------------------------- */
+/* ---- Built-in materials
+ * -------------------------------------------------------------------------- */
 
 static const char *builtin_name_in(const char *path)
 {
@@ -88,7 +92,8 @@ static int open_builtin(int index, hnbrdf_measured **measured)
     return CLI_OK;
 }
 
-/* ---- Reading options ------------------------------------------------------------------------------
+/* ---- Reading options
+ * ------------------------------------------------------------------------------
  */
 
 cli_reading cli_read = {.utia_scale = 1.0};
@@ -123,7 +128,8 @@ void cli_print_reading(void)
            r->spectra ? " --spectra" : "", r->keep_sign ? " --signed" : "");
 }
 
-/* ---- Recognising files --------------------------------------------------------------------------- */
+/* ---- Recognising files
+ * --------------------------------------------------------------------------- */
 
 static int has_extension(const char *path, const char *extension)
 {
@@ -137,10 +143,10 @@ static int is_directory(const char *path)
     return stat(path, &status) == 0 && S_ISDIR(status.st_mode);
 }
 
-/* safetensors: a u64 header length, below 2^32, then a JSON object. No measured format has '{' there:
- * MERL has the number 180 and RGL the letters "tensor_file"; UTIA may, but its first eight bytes are a
- * double, with zeros high up only if it is 0, and no header is empty. Only regular files are looked
- * into, a pipe would lose what was read. */
+/* safetensors: a u64 header length, below 2^32, then a JSON object. No measured format has '{'
+ * there: MERL has the number 180 and RGL the letters "tensor_file"; UTIA may, but its first eight
+ * bytes are a double, with zeros high up only if it is 0, and no header is empty. Only regular
+ * files are looked into, a pipe would lose what was read. */
 static int looks_like_model(const char *path)
 {
     unsigned char head[9];
@@ -182,9 +188,11 @@ static int open_measured_file(const char *path, hnbrdf_measured **measured)
     return cli_fail("%s", error.text);
 }
 
-/* ---- DATA ---------------------------------------------------------------------------------------- */
+/* ---- DATA
+ * ---------------------------------------------------------------------------------------- */
 
-/* The data while they are opened: where each item came from, to name both when two have one name. */
+/* The data while they are opened: where each item came from, to name both when two have one name.
+ * */
 typedef struct data_builder {
     cli_data data;
     char **origins;
@@ -216,8 +224,8 @@ static int add_material(data_builder *builder, hnbrdf_measured *measured, const 
     int result = reserve(builder);
     for (int k = 0; result == CLI_OK && k < builder->data.count; k++)
         if (strcmp(hnbrdf_measured_name(builder->data.items[k]), name) == 0)
-            result = cli_fail("two materials have the name %s: %s and %s", name, builder->origins[k],
-                              origin);
+            result = cli_fail("two materials have the name %s: %s and %s", name,
+                              builder->origins[k], origin);
     char *copy = result == CLI_OK ? strdup(origin) : NULL;
     if (result == CLI_OK && !copy)
         result = cli_fail("out of memory");
@@ -234,8 +242,8 @@ static int add_file(data_builder *builder, const char *path)
 {
     hnbrdf_measured *measured = NULL;
     if (looks_like_model(path))
-        return cli_fail("%s: a model file, expected measured data (MERL .binary, RGL .bsdf, UTIA .bin)",
-                        path);
+        return cli_fail(
+            "%s: a model file, expected measured data (MERL .binary, RGL .bsdf, UTIA .bin)", path);
     if (open_measured_file(path, &measured) != CLI_OK)
         return CLI_FAILURE;
     return add_material(builder, measured, path);
@@ -294,7 +302,8 @@ static int add_argument(data_builder *builder, const char *argument)
     if (name)
         return add_builtin(builder, find_builtin(name));
     if (strcmp(argument, "builtin") != 0)
-        return is_directory(argument) ? add_directory(builder, argument) : add_file(builder, argument);
+        return is_directory(argument) ? add_directory(builder, argument)
+                                      : add_file(builder, argument);
     for (int k = 0; k < hnbrdf_measured_builtin_count(); k++)
         if (add_builtin(builder, k) != CLI_OK)
             return CLI_FAILURE;
@@ -334,7 +343,8 @@ void cli_close_data(cli_data *data)
     data->count = 0;
 }
 
-/* ---- SOURCE -------------------------------------------------------------------------------------- */
+/* ---- SOURCE
+ * -------------------------------------------------------------------------------------- */
 
 int cli_open_source(const char *path, cli_source *source)
 {
@@ -368,7 +378,8 @@ void cli_close_source(cli_source *source)
     source->measured = NULL;
 }
 
-/* ---- Materials of a source ----------------------------------------------------------------------- */
+/* ---- Materials of a source
+ * ----------------------------------------------------------------------- */
 
 int cli_choose_material(const hnbrdf_model *model, const char *name)
 {
@@ -432,7 +443,8 @@ int cli_choose_materials(const hnbrdf_model *model, const char *list, int **indi
         int index = choose_listed(model, list, &list);
         for (int k = 0; k < n && index >= 0; k++)
             if (chosen[k] == index) {
-                cli_fail("the material %s is named twice", hnbrdf_model_material_name(model, index));
+                cli_fail("the material %s is named twice",
+                         hnbrdf_model_material_name(model, index));
                 index = -1;
             }
         if (index < 0) {

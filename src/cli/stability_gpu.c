@@ -12,8 +12,9 @@
 #include "gpu/evaluate.h"
 #include "gpu/probe.h"
 
-/* Division may err by 2.5 ulp in Vulkan, square roots by more: 5 times correct rounding. exp may by 3 +
- * 2|x| ulp: at an exponent of 5, 13 times ours; and what log loses goes through the network. */
+/* Division may err by 2.5 ulp in Vulkan, square roots by more: 5 times correct rounding. exp may
+ * by 3 + 2|x| ulp: at an exponent of 5, 13 times ours; and what log loses goes through the
+ * network. */
 static const double FAST = 5.0, FAST_VALUE = 10.0;
 
 typedef struct shader {
@@ -30,7 +31,8 @@ struct stability_gpus {
     int shader_count;
 };
 
-static hnbrdf_result begin(stability_backend *backend, const hnbrdf_model *model, hnbrdf_error *error)
+static hnbrdf_result begin(stability_backend *backend, const hnbrdf_model *model,
+                           hnbrdf_error *error)
 {
     shader *s = backend->user;
     return gpu_evaluator_open(s->device, model, &s->style, STABILITY_BLOCK, &s->evaluator, error);
@@ -43,8 +45,8 @@ static void end(stability_backend *backend)
 }
 
 static hnbrdf_result run(stability_backend *backend, stability_stage stage,
-                         const stability_block *block, float values[STABILITY_BLOCK][STABILITY_NUMBERS],
-                         hnbrdf_error *error)
+                         const stability_block *block,
+                         float values[STABILITY_BLOCK][STABILITY_NUMBERS], hnbrdf_error *error)
 {
     static const gpu_evaluation evaluations[STABILITY_STAGES] = {
         GPU_EVALUATE_ANALYTIC, GPU_EVALUATE_VALUE, GPU_EVALUATE_PDF, GPU_EVALUATE_SAMPLE};
@@ -120,7 +122,8 @@ int stability_gpus_open(const char *text, int styles, stability_gpus **gpus,
     *gpus = NULL;
     if (!all && !none && (end_of_number == text || *end_of_number))
         return cli_fail("--device: found '%s', expected a number, all or none", text), CLI_USAGE;
-    snprintf(note, 128, none ? "no GPU: --device none" : "no GPU: glslangValidator is not installed");
+    snprintf(note, 128,
+             none ? "no GPU: --device none" : "no GPU: glslangValidator is not installed");
     if (none || !gpu_compiler_found())
         return CLI_OK;
     stability_gpus *opened = calloc(1, sizeof *opened);

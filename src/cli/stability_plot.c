@@ -1,5 +1,5 @@
-/* stability_plot.c: heat maps of the error over half vector and roughness, and over both cosines, as
- * PNG. */
+/* stability_plot.c: heat maps of the error over half vector and roughness, and over both cosines,
+ * as PNG. */
 #include "cli/stability_plot.h"
 
 #include "cli/cli.h"
@@ -73,8 +73,8 @@ static void draw_axes(render_image *image, int x, int y, stability_map_kind kind
         render_fill(image, at, y + PANEL, 1, 4, GREY);
         render_text_at(image, at, y + PANEL + 16, 0.5, ticks[k].label, TEXT, GREY);
     }
-    render_text_at(image, x + 0.5 * PANEL, y + PANEL + 33, 0.5, half ? "cos theta_h" : "cos theta_i",
-                   TEXT, BLACK);
+    render_text_at(image, x + 0.5 * PANEL, y + PANEL + 33, 0.5,
+                   half ? "cos theta_h" : "cos theta_i", TEXT, BLACK);
     count = half ? alpha_ticks(ticks) : cosine_ticks(STABILITY_NEAR_COSINE, ticks);
     for (int k = 0; k < count; k++) {
         int at = y + PANEL - (int)lround(ticks[k].at * PANEL);
@@ -91,8 +91,8 @@ static size_t name_length(const char *title)
     return note ? (size_t)(note - title) : strlen(title);
 }
 
-static void draw_panel(render_image *image, int x, int y, stability_map_kind kind, const char *title,
-                       float (*errors)[STABILITY_MAP_SIDE])
+static void draw_panel(render_image *image, int x, int y, stability_map_kind kind,
+                       const char *title, float (*errors)[STABILITY_MAP_SIDE])
 {
     char line[160];
     float worst = 0.0f, rgb[3];
@@ -113,8 +113,9 @@ static void draw_colour_bar(render_image *image, int x, int y, int height)
     static const struct {
         double error;
         const char *label;
-    } marks[] = {{1e-8, "1e-8"},           {1e-7, "1e-7"}, {1e-6, "1e-6"}, {4e-6, "4e-6: bar of f_a"},
-                 {2e-5, "2e-5: bar of f"}, {1e-4, "1e-4"}, {1e-3, "1e-3"}, {1e-2, "1e-2"}};
+    } marks[] = {
+        {1e-8, "1e-8"},           {1e-7, "1e-7"}, {1e-6, "1e-6"}, {4e-6, "4e-6: bar of f_a"},
+        {2e-5, "2e-5: bar of f"}, {1e-4, "1e-4"}, {1e-3, "1e-3"}, {1e-2, "1e-2"}};
     render_colour_bar(image, x, y, BAR_WIDTH, height);
     for (size_t k = 0; k < sizeof marks / sizeof marks[0]; k++) {
         int at = y + height - (int)lround(height * log(marks[k].error / LOW) / log(HIGH / LOW));
@@ -149,8 +150,8 @@ static hnbrdf_result measure(const hnbrdf_model *model, stability_backend **chos
         result = chosen[begun]->begin(chosen[begun], model, error);
     begun -= result != HNBRDF_OK;
     for (int kind = 0; kind < STABILITY_MAPS && !result; kind++)
-        result = stability_map(model, hnbrdf_model_material(model, 0), (stability_map_kind)kind, chosen,
-                               count, errors + kind * count, error);
+        result = stability_map(model, hnbrdf_model_material(model, 0), (stability_map_kind)kind,
+                               chosen, count, errors + kind * count, error);
     for (int b = 0; b < begun; b++)
         chosen[b]->end(chosen[b]);
     return result;
@@ -172,10 +173,11 @@ static hnbrdf_result draw(const char *path, const hnbrdf_model *model, const cha
              "Worst relative error of a cell against the formulas in many digits: %.80s, %.60s",
              model_path, hnbrdf_model_material_name(model, 0));
     render_text(&image, 16, 28, line, 7, BLACK);
-    render_text(&image, 16, 48,
-                "left: the analytic part f_a; right: the whole f, relative to f before its floor is "
-                "subtracted",
-                TEXT, GREY);
+    render_text(
+        &image, 16, 48,
+        "left: the analytic part f_a; right: the whole f, relative to f before its floor is "
+        "subtracted",
+        TEXT, GREY);
     for (int b = 0; b < count; b++)
         for (int kind = 0; kind < STABILITY_MAPS; kind++)
             draw_panel(&image, LEFT + kind * ACROSS, TOP + b * DOWN, (stability_map_kind)kind,

@@ -45,16 +45,17 @@ static void print_place(const stability_row *row, FILE *file)
             "      channel %d: %.9g, true %.9g; wi (%.9g %.9g %.9g) wo (%.9g %.9g %.9g) alpha %.6g "
             "%.6g eta %.9g "
             "kd %.4g; inputs an ulp off: %.2g\n",
-            p->channel, p->got, p->expected, (double)p->pair[0], (double)p->pair[1], (double)p->pair[2],
-            (double)p->pair[3], (double)p->pair[4], (double)p->pair[5], (double)p->material.alpha[0],
-            (double)p->material.alpha[1], (double)p->material.eta[p->channel % 3],
-            (double)p->material.kd[p->channel % 3], p->sensitivity);
+            p->channel, p->got, p->expected, (double)p->pair[0], (double)p->pair[1],
+            (double)p->pair[2], (double)p->pair[3], (double)p->pair[4], (double)p->pair[5],
+            (double)p->material.alpha[0], (double)p->material.alpha[1],
+            (double)p->material.eta[p->channel % 3], (double)p->material.kd[p->channel % 3],
+            p->sensitivity);
 }
 
 static void print_row(const stability_row *row, int brief, FILE *file)
 {
-    fprintf(file, "  %-16s %-9s %-36.36s %8zu %6zu ", row->what->name, stability_stage_name(row->stage),
-            row->backend, row->values, wrong(row));
+    fprintf(file, "  %-16s %-9s %-36.36s %8zu %6zu ", row->what->name,
+            stability_stage_name(row->stage), row->backend, row->values, wrong(row));
     if (row->what->not_a_number)
         fprintf(file, "%9s %9s %9s  %s\n", "", "", "", verdict(row));
     else
@@ -136,33 +137,37 @@ static void print_summary(const stability_result *result, FILE *file)
             if (!row->applies || as_promised)
                 continue;
             fprintf(file, "  %-9s %-36.36s %9zu numbers %6zu wrong  worst %-9.2g",
-                    stability_stage_name(row->stage), row->backend, sum.values, sum.invalid, sum.worst);
+                    stability_stage_name(row->stage), row->backend, sum.values, sum.invalid,
+                    sum.worst);
             fprintf(file, b > 0 ? " %zu not C's bits\n" : "\n", sum.differs);
         }
         if (same > 0)
             fprintf(file, "  %-9s %d other ways of computing it: C's bits in every case\n",
                     stability_stage_name((stability_stage)stage), same);
         if (same_in_state > 0)
-            fprintf(file,
-                    "  %-9s %d that round otherwise or flush subnormals: the bits of C plain that does "
-                    "so too\n",
-                    stability_stage_name((stability_stage)stage), same_in_state);
+            fprintf(
+                file,
+                "  %-9s %d that round otherwise or flush subnormals: the bits of C plain that does "
+                "so too\n",
+                stability_stage_name((stability_stage)stage), same_in_state);
     }
 }
 
 void stability_print(const stability_result *results, int count, int brief, FILE *file)
 {
-    fprintf(
-        file,
-        "Errors against the formulas in %s: relative to f before the floor is subtracted (judged), to "
-        "f, in "
-        "ulp of f.\nBars: analytic and pdf %.2g, value %.2g; four times that in directed rounding. A "
-        "value beyond its bar is ill-conditioned, not\nwrong, within six standard deviations of what "
-        "rounding in the network's sums costs there.\n\n",
-        oracle_arithmetic(), STABILITY_ANALYTIC_BAR, STABILITY_VALUE_BAR);
+    fprintf(file,
+            "Errors against the formulas in %s: relative to f before the floor is subtracted "
+            "(judged), to "
+            "f, in "
+            "ulp of f.\nBars: analytic and pdf %.2g, value %.2g; four times that in directed "
+            "rounding. A "
+            "value beyond its bar is ill-conditioned, not\nwrong, within six standard deviations "
+            "of what "
+            "rounding in the network's sums costs there.\n\n",
+            oracle_arithmetic(), STABILITY_ANALYTIC_BAR, STABILITY_VALUE_BAR);
     for (int m = 0; m < count; m++) {
-        fprintf(file, "%s\n  %-16s %-9s %-36s %8s %6s %9s %9s %9s\n", results[m].path, "case", "stage",
-                "backend", "numbers", "wrong", "worst", "of f", "ulp");
+        fprintf(file, "%s\n  %-16s %-9s %-36s %8s %6s %9s %9s %9s\n", results[m].path, "case",
+                "stage", "backend", "numbers", "wrong", "worst", "of f", "ulp");
         for (int k = 0; k < stability_case_count; k++)
             print_case(&results[m], k, brief, file);
         print_summary(&results[m], file);
@@ -178,15 +183,18 @@ void stability_print(const stability_result *results, int count, int brief, FILE
 
 void stability_write_csv(const stability_result *results, int count, FILE *file)
 {
-    fputs("model,case,stage,backend,values,not_finite,negative,inconsistent,differs,ill_conditioned,"
-          "worst,worst_of_f,"
-          "worst_ulp,"
-          "bar,within,channel,got,expected,ulp_sensitivity,wi_x,wi_y,wi_z,wo_x,wo_y,wo_z,alpha_x,alpha_"
-          "y,eta,kd,"
-          "rotation,why\n",
-          file);
+    fputs(
+        "model,case,stage,backend,values,not_finite,negative,inconsistent,differs,ill_conditioned,"
+        "worst,worst_of_f,"
+        "worst_ulp,"
+        "bar,within,channel,got,expected,ulp_sensitivity,wi_x,wi_y,wi_z,wo_x,wo_y,wo_z,alpha_x,"
+        "alpha_"
+        "y,eta,kd,"
+        "rotation,why\n",
+        file);
     for (int m = 0; m < count; m++)
-        for (int k = 0; k < stability_case_count * results[m].backend_count * STABILITY_STAGES; k++) {
+        for (int k = 0; k < stability_case_count * results[m].backend_count * STABILITY_STAGES;
+             k++) {
             const stability_row *row = &results[m].rows[k];
             const stability_place *p = &row->place;
             if (!row->applies)
@@ -196,8 +204,8 @@ void stability_write_csv(const stability_result *results, int count, FILE *file)
             csv_write_text(file, row->backend);
             fprintf(file, ",%zu,%zu,%zu,%zu,%zu,%zu,%.4g,%.4g,%.4g,%.4g,%d,%d,%.9g,%.9g,%.4g",
                     row->values, row->not_finite, row->negative, row->inconsistent, row->differs,
-                    row->ill_conditioned, row->worst_scale, row->worst_own, row->worst_ulp, row->bar,
-                    row->within, p->channel, p->got, p->expected, p->sensitivity);
+                    row->ill_conditioned, row->worst_scale, row->worst_own, row->worst_ulp,
+                    row->bar, row->within, p->channel, p->got, p->expected, p->sensitivity);
             for (int i = 0; i < 6; i++)
                 fprintf(file, ",%.9g", (double)p->pair[i]);
             fprintf(file, ",%.9g,%.9g,%.9g,%.9g,%.9g,", (double)p->material.alpha[0],
@@ -260,10 +268,11 @@ static void json_row(const char *path, const stability_row *row, FILE *file)
 void stability_write_json(const stability_result *results, int count, FILE *file)
 {
     const char *comma = "";
-    fprintf(file, "{\n  \"oracle\": \"%s\",\n  \"passed\": %s,\n  \"cases\": [\n", oracle_arithmetic(),
-            stability_passed(results, count) ? "true" : "false");
+    fprintf(file, "{\n  \"oracle\": \"%s\",\n  \"passed\": %s,\n  \"cases\": [\n",
+            oracle_arithmetic(), stability_passed(results, count) ? "true" : "false");
     for (int k = 0; k < stability_case_count; k++) {
-        fprintf(file, "%s    {\"name\": \"%s\", \"about\": ", k ? ",\n" : "", stability_cases[k].name);
+        fprintf(file, "%s    {\"name\": \"%s\", \"about\": ", k ? ",\n" : "",
+                stability_cases[k].name);
         cli_write_json_text(file, stability_cases[k].about);
         fputs(", \"why\": ", file);
         if (stability_cases[k].why)

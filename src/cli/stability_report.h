@@ -15,7 +15,8 @@ typedef struct stability_result {
 
 /* 1: no number that is not finite or negative, every bar kept. */
 int stability_passed(const stability_result *results, int count);
-/* A line for every case, backend and stage; `brief`: of a case's stages only the worst backend's. */
+/* A line for every case, backend and stage; `brief`: of a case's stages only the worst backend's.
+ * */
 void stability_print(const stability_result *results, int count, int brief, FILE *file);
 void stability_write_csv(const stability_result *results, int count, FILE *file);
 void stability_write_json(const stability_result *results, int count, FILE *file);

@@ -1,5 +1,5 @@
-/* svg.c: plots as SVG: axes with round numbers, lines, marks, text. Coordinates are written in tenths
- * of a pixel, by integers. */
+/* svg.c: plots as SVG: axes with round numbers, lines, marks, text. Coordinates are written in
+ * tenths of a pixel, by integers. */
 #include "cli/svg.h"
 
 #include <math.h>
@@ -33,11 +33,11 @@ static void put_escaped(FILE *file, const char *text)
 
 void svg_begin(FILE *file, double width, double height)
 {
-    fprintf(
-        file,
-        "<svg xmlns='http://www.w3.org/2000/svg' width='%.0f' height='%.0f' font-family='sans-serif' "
-        "font-size='12'>\n<rect width='100%%' height='100%%' fill='#fff'/>\n",
-        width, height);
+    fprintf(file,
+            "<svg xmlns='http://www.w3.org/2000/svg' width='%.0f' height='%.0f' "
+            "font-family='sans-serif' "
+            "font-size='12'>\n<rect width='100%%' height='100%%' fill='#fff'/>\n",
+            width, height);
 }
 
 void svg_end(FILE *file)
@@ -45,7 +45,8 @@ void svg_end(FILE *file)
     fputs("</svg>\n", file);
 }
 
-void svg_text(FILE *file, double x, double y, const char *anchor, const char *color, const char *text)
+void svg_text(FILE *file, double x, double y, const char *anchor, const char *color,
+              const char *text)
 {
     fputs("<text", file);
     put_attribute(file, "x", x);
@@ -88,8 +89,8 @@ static void put_stroke(FILE *file, const char *color, double width, int dashed)
         fputs(" stroke-dasharray='5 3'", file);
 }
 
-void svg_line(FILE *file, double x0, double y0, double x1, double y1, const char *color, double width,
-              int dashed)
+void svg_line(FILE *file, double x0, double y0, double x1, double y1, const char *color,
+              double width, int dashed)
 {
     fputs("<line", file);
     put_attribute(file, "x1", x0);
@@ -139,13 +140,15 @@ void svg_mark(FILE *file, svg_shape shape, double x, double y, double radius, co
     } else {
         fputs(" points='", file);
         for (int k = 0; k < 4; k++)
-            svg_path_point(file, x + radius * corners[shape][k][0], y + radius * corners[shape][k][1]);
+            svg_path_point(file, x + radius * corners[shape][k][0],
+                           y + radius * corners[shape][k][1]);
         putc('\'', file);
     }
     fputs("/>\n", file);
 }
 
-/* ---- Axes ---------------------------------------------------------------------------------------- */
+/* ---- Axes
+ * ---------------------------------------------------------------------------------------- */
 
 /* 0 at the low end, 1 at the high one. */
 static double share_of(const svg_axis *axis, double value)
@@ -210,10 +213,12 @@ static const struct {
     int count, tenths[6];
 } spacings[] = {{1, {10}}, {3, {10, 20, 50}}, {6, {10, 15, 20, 30, 50, 70}}};
 
-static int spaced_ticks(const svg_axis *axis, const int *tenths, int steps, double ticks[MOST_TICKS])
+static int spaced_ticks(const svg_axis *axis, const int *tenths, int steps,
+                        double ticks[MOST_TICKS])
 {
     int count = 0;
-    for (int decade = (int)floor(log10(axis->low)); decade <= (int)ceil(log10(axis->high)); decade++)
+    for (int decade = (int)floor(log10(axis->low)); decade <= (int)ceil(log10(axis->high));
+         decade++)
         for (int i = 0; i < steps; i++) {
             double value = tenths[i] * pow(10.0, decade - 1);
             if (value >= axis->low * 0.9999 && value <= axis->high * 1.0001 && count < MOST_TICKS)
@@ -250,7 +255,8 @@ static void draw_x(FILE *file, const svg_panel *panel)
         svg_text(file, x, bottom + 18.0, "middle", NULL, text);
     }
     if (panel->x.title)
-        svg_text(file, panel->left + 0.5 * panel->width, bottom + 38.0, "middle", NULL, panel->x.title);
+        svg_text(file, panel->left + 0.5 * panel->width, bottom + 38.0, "middle", NULL,
+                 panel->x.title);
 }
 
 static void draw_y(FILE *file, const svg_panel *panel)
@@ -265,7 +271,8 @@ static void draw_y(FILE *file, const svg_panel *panel)
         svg_text(file, panel->left - 8.0, y + 4.0, "end", NULL, text);
     }
     if (panel->y.title)
-        svg_text_upwards(file, panel->left - 52.0, panel->top + 0.5 * panel->height, panel->y.title);
+        svg_text_upwards(file, panel->left - 52.0, panel->top + 0.5 * panel->height,
+                         panel->y.title);
 }
 
 void svg_panel_draw(FILE *file, const svg_panel *panel)

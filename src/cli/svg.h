@@ -1,4 +1,5 @@
-/* svg.h: what plots are made of, written as SVG without dependencies: panels with axes, marks, text. */
+/* svg.h: what plots are made of, written as SVG without dependencies: panels with axes, marks,
+ * text. */
 #ifndef HNBRDF_CLI_SVG_H
 #define HNBRDF_CLI_SVG_H
 
@@ -10,16 +11,22 @@ typedef struct svg_axis {
     const char *title; /* NULL: none */
 } svg_axis;
 
-/* A rectangle of the picture, in pixels from the top left corner, and what its sides mean: x grows to
- * the right and y upwards. Left of it and below there must be room for the numbers and titles: 60
- * and 48. */
+/* A rectangle of the picture, in pixels from the top left corner, and what its sides mean: x
+ * grows to the right and y upwards. Left of it and below there must be room for the numbers and
+ * titles: 60 and 48. */
 typedef struct svg_panel {
     double left, top, width, height;
     svg_axis x, y;
 } svg_panel;
 
 /* Shapes of a mark; SVG_SHAPES is their number. */
-typedef enum svg_shape { SVG_CIRCLE = 0, SVG_SQUARE, SVG_DIAMOND, SVG_TRIANGLE, SVG_SHAPES } svg_shape;
+typedef enum svg_shape {
+    SVG_CIRCLE = 0,
+    SVG_SQUARE,
+    SVG_DIAMOND,
+    SVG_TRIANGLE,
+    SVG_SHAPES
+} svg_shape;
 
 /* Colours that most colour-blind people tell apart (Okabe and Ito 2008), black first. */
 enum { SVG_COLORS = 7 };
@@ -31,14 +38,15 @@ void svg_end(FILE *file);
 
 /* Text at a point, which is its "start", "middle" or "end"; any characters. color NULL: black; else
  * with a white rim, readable on lines too. */
-void svg_text(FILE *file, double x, double y, const char *anchor, const char *color, const char *text);
+void svg_text(FILE *file, double x, double y, const char *anchor, const char *color,
+              const char *text);
 /* Larger and bold. */
 void svg_heading(FILE *file, double x, double y, const char *text);
 /* Read from below to above, centred. */
 void svg_text_upwards(FILE *file, double x, double y, const char *text);
 
-void svg_line(FILE *file, double x0, double y0, double x1, double y1, const char *color, double width,
-              int dashed);
+void svg_line(FILE *file, double x0, double y0, double x1, double y1, const char *color,
+              double width, int dashed);
 /* A path through points given in pixels: begin, any number of points, end. */
 void svg_path_begin(FILE *file, const char *color, double width, int dashed);
 void svg_path_point(FILE *file, double x, double y);

@@ -14,8 +14,8 @@ static const hnbrdf_material *material_of(const cli_texels *texels, int k)
 int cli_texels_write(const cli_texels *texels, const char *path)
 {
     unsigned char row[HNBRDF_MAX_TEXELS * 8];
-    size_t size =
-        (size_t)hnbrdf_packing_texels(&texels->packing) * hnbrdf_texel_bytes(texels->packing.format);
+    size_t size = (size_t)hnbrdf_packing_texels(&texels->packing) *
+                  hnbrdf_texel_bytes(texels->packing.format);
     cli_output output;
     if (cli_output_open(path, &output) != CLI_OK)
         return CLI_FAILURE;
@@ -69,8 +69,9 @@ void cli_texels_print_cost(const cli_texels *texels, FILE *file)
     fprintf(file, "packed: %d texel%s a material, %s, %d bytes\n", count, count == 1 ? "" : "s",
             texels->packing.format == HNBRDF_TEXEL_RGBA16F ? "RGBA16F" : "RGBA8",
             count * (int)hnbrdf_texel_bytes(texels->packing.format));
-    fprintf(file,
-            "SMAPE between packed and original: mean %.5f, worst %.5f (%s), grid, %d pairs, seed 1\n",
-            sum / texels->count, worst,
-            hnbrdf_model_material_name(texels->model, texels->materials[worst_at]), COST_PAIRS);
+    fprintf(
+        file,
+        "SMAPE between packed and original: mean %.5f, worst %.5f (%s), grid, %d pairs, seed 1\n",
+        sum / texels->count, worst,
+        hnbrdf_model_material_name(texels->model, texels->materials[worst_at]), COST_PAIRS);
 }

@@ -14,7 +14,8 @@ typedef struct cli_texels {
     hnbrdf_packing packing;
 } cli_texels;
 
-/* A row of texels a material, in the order of the materials. Returns 0, or CLI_FAILURE after a message.
+/* A row of texels a material, in the order of the materials. Returns 0, or CLI_FAILURE after a
+ * message.
  */
 int cli_texels_write(const cli_texels *texels, const char *path);
 

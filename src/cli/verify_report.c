@@ -32,23 +32,25 @@ static void print_arithmetic(const gpu_arithmetic *a, FILE *file)
     fprintf(file, "  arithmetic  + - * %s, / ", a->exact_basic ? "exact" : "NOT EXACT");
     fprintf(file, a->exact_divide ? "exact" : "within %.2g ulp", a->divide_ulp);
     fprintf(file, a->exact_sqrt ? ", sqrt exact" : ", sqrt within %.2g ulp", a->sqrt_ulp);
-    fprintf(
-        file,
-        ", subnormals %s; built-in exp within %.3g ulp, log within %.2g near 1 (seen on %d values)\n",
-        a->keeps_denormals     ? "kept"
-        : a->flushes_denormals ? "flushed, operands and results alike"
-                               : "flushed in part",
-        a->exp_ulp, a->log_error, a->values);
+    fprintf(file,
+            ", subnormals %s; built-in exp within %.3g ulp, log within %.2g near 1 (seen on %d "
+            "values)\n",
+            a->keeps_denormals     ? "kept"
+            : a->flushes_denormals ? "flushed, operands and results alike"
+                                   : "flushed in part",
+            a->exp_ulp, a->log_error, a->values);
     if (a->exp_share > 1.0 || a->log_share > 1.0)
-        fprintf(file, "  NOT WITHIN what the bounds assume of exp (%.3g times) or log (%.3g times)\n",
+        fprintf(file,
+                "  NOT WITHIN what the bounds assume of exp (%.3g times) or log (%.3g times)\n",
                 a->exp_share, a->log_share);
 }
 
 static void print_half(const gpu_arithmetic *a, FILE *file)
 {
     if (!a->has_half) {
-        fputs("  half        not offered by the device: single precision with the weights of half\n",
-              file);
+        fputs(
+            "  half        not offered by the device: single precision with the weights of half\n",
+            file);
         return;
     }
     fprintf(file, "  half        conversion, + and * %s, subnormals %s\n",
@@ -101,20 +103,23 @@ static void print_timing(const gpu_timing *timing, FILE *file)
         fprintf(file, "  time        %.4g ns per evaluation: %.4g in all less %.4g for its buffers",
                 alone, timing->value_ns, timing->copy_ns);
     else
-        fprintf(file, "  time        %.4g ns per evaluation, not told apart from %.4g for its buffers",
+        fprintf(file,
+                "  time        %.4g ns per evaluation, not told apart from %.4g for its buffers",
                 timing->value_ns, timing->copy_ns);
     if (!isnan(alone))
         fprintf(file, " (fast build, %d at once)\n", timing->evaluations);
     if (isnan(timing->compile_ms))
         return;
-    fprintf(file,
-            "  compiling   %.0f ms to %zu bytes of SPIR-V, %.0f ms to the end of the first dispatch\n",
-            timing->compile_ms, timing->spirv_bytes, timing->first_ms);
+    fprintf(
+        file,
+        "  compiling   %.0f ms to %zu bytes of SPIR-V, %.0f ms to the end of the first dispatch\n",
+        timing->compile_ms, timing->spirv_bytes, timing->first_ms);
 }
 
 static void print_device(const verification *v, const verified_device *device, FILE *file)
 {
-    fprintf(file, "device %d: %s, %s, %s\n", device->index, device->name, device->kind, device->driver);
+    fprintf(file, "device %d: %s, %s, %s\n", device->index, device->name, device->kind,
+            device->driver);
     if (device->failed.text[0]) {
         fprintf(file, "  FAILED      %s\n\n", device->failed.text);
         return;
@@ -140,11 +145,13 @@ void verification_print(const verification *v, FILE *file)
             v->precision == HNBRDF_GLSL_HALF ? " in half precision" : "");
     for (int d = 0; d < v->device_count; d++)
         print_device(v, &v->devices[d], file);
-    fputs("ulp and relative errors: of the C value, where it is small of 2^-10 (analytic, value) or 1 "
-          "(encoding,\n"
-          "network). of bound: the largest error in terms of the bound derived for its pair. exact: "
-          "HNBRDF_EXACT 1.\n",
-          file);
+    fputs(
+        "ulp and relative errors: of the C value, where it is small of 2^-10 (analytic, value) or "
+        "1 "
+        "(encoding,\n"
+        "network). of bound: the largest error in terms of the bound derived for its pair. exact: "
+        "HNBRDF_EXACT 1.\n",
+        file);
     if (v->validated)
         fprintf(file, "validation layer: %d message%s\n", v->messages, v->messages == 1 ? "" : "s");
 }
@@ -170,8 +177,8 @@ static void write_row(const verification *v, const verified_device *device, int 
     csv_write_text(file, device->name);
     putc(',', file);
     csv_write_text(file, material_name(v, k));
-    fprintf(file, ",%s,%s,%zu,%zu,%zu,%zu", gpu_build_name(build), gpu_stage_name(stage), here->values,
-            here->identical, here->unbounded, here->outside);
+    fprintf(file, ",%s,%s,%zu,%zu,%zu,%zu", gpu_build_name(build), gpu_stage_name(stage),
+            here->values, here->identical, here->unbounded, here->outside);
     for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++) {
         putc(',', file);
         write_number(file, numbers[i]);
@@ -236,12 +243,13 @@ static void write_json_report(const verification *v, const verified_device *devi
 {
     const gpu_report *report = &device->report;
     const gpu_arithmetic *a = &report->arithmetic;
-    fprintf(file,
-            ",\n      \"arithmetic\": {\"exact_basic\": %s, \"exact_divide\": %s, \"exact_sqrt\": %s, "
-            "\"keeps_subnormals\": %s, \"flushes_subnormals\": %s",
-            a->exact_basic ? "true" : "false", a->exact_divide ? "true" : "false",
-            a->exact_sqrt ? "true" : "false", a->keeps_denormals ? "true" : "false",
-            a->flushes_denormals ? "true" : "false");
+    fprintf(
+        file,
+        ",\n      \"arithmetic\": {\"exact_basic\": %s, \"exact_divide\": %s, \"exact_sqrt\": %s, "
+        "\"keeps_subnormals\": %s, \"flushes_subnormals\": %s",
+        a->exact_basic ? "true" : "false", a->exact_divide ? "true" : "false",
+        a->exact_sqrt ? "true" : "false", a->keeps_denormals ? "true" : "false",
+        a->flushes_denormals ? "true" : "false");
     fprintf(file, ", \"has_half\": %s, \"exact_half\": %s", a->has_half ? "true" : "false",
             a->exact_half ? "true" : "false");
     write_member(file, ", \"divide_ulp\": ", a->divide_ulp);
@@ -253,9 +261,10 @@ static void write_json_report(const verification *v, const verified_device *devi
     for (int k = 0; k < report->material_count; k++)
         for (int build = 0; build < GPU_BUILDS; build++)
             for (int stage = 0; stage < GPU_STAGES; stage++)
-                write_json_comparison(v, device, k, (gpu_build)build, (gpu_stage)stage, &first, file);
-    write_member(file,
-                 "],\n      \"ns_per_evaluation\": ", report->timing.value_ns - report->timing.copy_ns);
+                write_json_comparison(v, device, k, (gpu_build)build, (gpu_stage)stage, &first,
+                                      file);
+    write_member(file, "],\n      \"ns_per_evaluation\": ",
+                 report->timing.value_ns - report->timing.copy_ns);
     write_member(file, ", \"ns_with_buffers\": ", report->timing.value_ns);
     write_member(file, ", \"ns_buffers\": ", report->timing.copy_ns);
     write_member(file, ",\n      \"compile_ms\": ", report->timing.compile_ms);

@@ -1,5 +1,6 @@
 /* compose.h: network outputs and analytic part into one channel of f.
- * shaders/hybrid_brdf.glsl holds the same functions, named alike and in the same order of operations. */
+ * shaders/hybrid_brdf.glsl holds the same functions, named alike and in the same order of
+ * operations. */
 #ifndef HNBRDF_CORE_COMPOSE_H
 #define HNBRDF_CORE_COMPOSE_H
 
@@ -25,8 +26,8 @@ static inline float hnbrdf_gate(float g)
 }
 
 /* max(0, exp(s c + m) + sigmoid(g) f_a - b). */
-static inline float hnbrdf_compose_hybrid(float c, float g, float analytic, float scale, float shift,
-                                          float floor)
+static inline float hnbrdf_compose_hybrid(float c, float g, float analytic, float scale,
+                                          float shift, float floor)
 {
     return hnbrdf_finish((hnbrdf_correction(c, scale, shift) + hnbrdf_gate(g) * analytic) - floor);
 }

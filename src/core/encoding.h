@@ -1,5 +1,6 @@
 /* encoding.h: what the network sees of a pair of directions, six numbers.
- * shaders/hybrid_brdf.glsl holds the same functions, named alike and in the same order of operations. */
+ * shaders/hybrid_brdf.glsl holds the same functions, named alike and in the same order of
+ * operations. */
 #ifndef HNBRDF_CORE_ENCODING_H
 #define HNBRDF_CORE_ENCODING_H
 
@@ -17,10 +18,10 @@ static inline void hnbrdf_encode_directions(const hnbrdf_pair *p, float x[6])
     x[5] = p->wo[2];
 }
 
-/* Functions of h and of the difference angle that do not change, to the last bit, when wi and wo swap:
- *   1 + ln(1e-5 + tan^2 th)/4, sqrt(sin th), c, sqrt(1 - c), wi.z wo.z, wi.z + wo.z
- * th is the angle between n and h, c = wi.h. sqrt(1 - c) is taken from |wi - wo|^2 = 4 (1 - c^2), exact
- * where 1 - c would cancel (near retroreflection). */
+/* Functions of h and of the difference angle that do not change, to the last bit, when wi and wo
+ *   swap: 1 + ln(1e-5 + tan^2 th)/4, sqrt(sin th), c, sqrt(1 - c), wi.z wo.z, wi.z + wo.z
+ * th is the angle between n and h, c = wi.h. sqrt(1 - c) is taken from |wi - wo|^2 = 4 (1 - c^2),
+ * exact where 1 - c would cancel (near retroreflection). */
 HNBRDF_DIVIDES_AS_IEEE
 static inline void hnbrdf_encode_half_difference(const hnbrdf_pair *p, float x[6])
 {
@@ -69,7 +70,8 @@ static inline void hnbrdf_encode_angles(const hnbrdf_pair *p, float x[6])
     hnbrdf_encode_angle_terms(p, swap ? p->wo[2] : p->wi[2], swap ? p->wi[2] : p->wo[2], x);
 }
 
-/* |h.x| for sin th and |h.y| for 1 - c: reciprocal, and mirror-symmetric about the tangent frame. */
+/* |h.x| for sin th and |h.y| for 1 - c: reciprocal, and mirror-symmetric about the tangent frame.
+ * */
 HNBRDF_DIVIDES_AS_IEEE
 static inline void hnbrdf_encode_angles_anisotropic(const hnbrdf_pair *p, float x[6])
 {

@@ -1,4 +1,5 @@
-/* error.h: fill an hnbrdf_error. The message names file, place, what was found, what was expected. */
+/* error.h: fill an hnbrdf_error. The message names file, place, what was found, what was
+ * expected. */
 #ifndef HNBRDF_CORE_ERROR_H
 #define HNBRDF_CORE_ERROR_H
 
@@ -23,7 +24,8 @@ hnbrdf_fail(hnbrdf_error *error, hnbrdf_result result, const char *format, ...)
         vsnprintf(error->text, sizeof error->text, format, arguments);
         va_end(arguments);
         for (char *c = error->text; *c; ++c) {
-            *c = (unsigned char)*c < 0x20 || *c == 0x7f ? '?' : *c; /* from names and contents of files */
+            /* from names and contents of files */
+            *c = (unsigned char)*c < 0x20 || *c == 0x7f ? '?' : *c;
         }
     }
     return result;

@@ -4,7 +4,8 @@
 #include "core/kernel.h"
 #include "core/prepared.h"
 
-/* ---- Prepared materials ------------------------------------------------------------------------ */
+/* ---- Prepared materials
+ * ------------------------------------------------------------------------ */
 
 void hnbrdf_prepare_analytic(const hnbrdf_model *model, const hnbrdf_material *material,
                              hnbrdf_prepared *prepared)
@@ -39,7 +40,8 @@ void hnbrdf_prepare(const hnbrdf_model *model, const hnbrdf_material *material,
     hnbrdf_prepare_lobes(model, material, prepared);
 }
 
-/* ---- One pair ---------------------------------------------------------------------------------- */
+/* ---- One pair
+ * ---------------------------------------------------------------------------------- */
 
 void hnbrdf_prepared_eval(const hnbrdf_prepared *prepared, const float wi[3], const float wo[3],
                           float f[3])
@@ -62,8 +64,8 @@ void hnbrdf_eval(const hnbrdf_model *model, const hnbrdf_material *material, con
     }
 }
 
-void hnbrdf_eval_analytic(const hnbrdf_model *model, const hnbrdf_material *material, const float wi[3],
-                          const float wo[3], float f[3])
+void hnbrdf_eval_analytic(const hnbrdf_model *model, const hnbrdf_material *material,
+                          const float wi[3], const float wo[3], float f[3])
 {
     f[0] = f[1] = f[2] = 0.0f;
     if (!hnbrdf_above_horizon(wi, wo) || model->desc.kind == HNBRDF_KIND_NEURAL)
@@ -77,7 +79,8 @@ void hnbrdf_eval_analytic(const hnbrdf_model *model, const hnbrdf_material *mate
         f[c] = hnbrdf_finish(f_a[c]);
 }
 
-/* ---- Batches ----------------------------------------------------------------------------------- */
+/* ---- Batches
+ * ----------------------------------------------------------------------------------- */
 
 static hnbrdf_pairs pairs_of(size_t count, const float *wi, size_t wi_stride, const float *wo,
                              size_t wo_stride, float *f, size_t f_stride)
@@ -93,8 +96,8 @@ static hnbrdf_pairs pairs_of(size_t count, const float *wi, size_t wi_stride, co
 }
 
 void hnbrdf_eval_batch(const hnbrdf_model *model, const hnbrdf_material *material, size_t count,
-                       const float *wi, size_t wi_stride, const float *wo, size_t wo_stride, float *f,
-                       size_t f_stride)
+                       const float *wi, size_t wi_stride, const float *wo, size_t wo_stride,
+                       float *f, size_t f_stride)
 {
     const hnbrdf_pairs pairs = pairs_of(count, wi, wi_stride, wo, wo_stride, f, f_stride);
     hnbrdf_prepared prepared;

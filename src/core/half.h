@@ -1,4 +1,5 @@
-/* half.h: IEEE 754 binary16 from and to float, by bits alone; what a texture of half floats holds. */
+/* half.h: IEEE 754 binary16 from and to float, by bits alone; what a texture of half floats
+ * holds. */
 #ifndef HNBRDF_CORE_HALF_H
 #define HNBRDF_CORE_HALF_H
 

@@ -1,5 +1,6 @@
 /* kernel.h: the evaluation kernels, one table an instruction set, all compiled from kernel_body.h.
- * Every sum and every other operation has one order whatever the width, so all give the same bits. */
+ * Every sum and every other operation has one order whatever the width, so all give the same
+ * bits. */
 #ifndef HNBRDF_CORE_KERNEL_H
 #define HNBRDF_CORE_KERNEL_H
 
@@ -18,7 +19,8 @@ typedef struct hnbrdf_kernel {
     /* prepared->first from the latent code; models with a network only. */
     void (*fold)(const hnbrdf_model *model, const float *latent, float *first);
     /* One pair, both above the horizon. */
-    void (*single)(const hnbrdf_prepared *prepared, const float wi[3], const float wo[3], float f[3]);
+    void (*single)(const hnbrdf_prepared *prepared, const float wi[3], const float wo[3],
+                   float f[3]);
     void (*batch)(const hnbrdf_prepared *prepared, const hnbrdf_pairs *pairs);
     /* The analytic part alone, of any kind of model. */
     void (*analytic)(const hnbrdf_prepared *prepared, const hnbrdf_pairs *pairs);

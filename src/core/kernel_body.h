@@ -2,9 +2,9 @@
  *
  * The includer defines KERNEL_TABLE and KERNEL_VARIANT, the table to fill and what it is called;
  * KERNEL_WIDTH, the floats in a vector (1: plain loops, no compiler extension), KERNEL_ROWS x
- * KERNEL_WIDE vectors, the register tile of the network, and KERNEL_SINGLE, the floats in a vector of
- * the network of one evaluation. Everything but the network is loops over lanes of the same inline
- * functions that define it, which compilers vectorise. */
+ * KERNEL_WIDE vectors, the register tile of the network, and KERNEL_SINGLE, the floats in a
+ * vector of the network of one evaluation. Everything but the network is loops over lanes of the
+ * same inline functions that define it, which compilers vectorise. */
 #include "core/compose.h"
 #include "core/encoding.h"
 #include "core/kernel.h"
@@ -42,10 +42,11 @@ typedef float unit_memory
 #define KERNEL_FOR(name, width) KERNEL_JOIN(name, width)
 #endif
 
-/* hnbrdf_hard_gelu() of every number of a vector. maxps and minps give the second operand where one is
- * NaN and where both are 0, as its comparisons do; elsewhere the comparisons themselves, as masks. */
+/* hnbrdf_hard_gelu() of every number of a vector. maxps and minps give the second operand where
+ * one is NaN and where both are 0, as its comparisons do; elsewhere the comparisons themselves,
+ * as masks. */
 #if defined(__SSE2__)
-#define KERNEL_CLAMP_01(t, zero, one, width)                                                           \
+#define KERNEL_CLAMP_01(t, zero, one, width) \
     KERNEL_FOR(KERNEL_MIN_, width)(one, KERNEL_FOR(KERNEL_MAX_, width)(zero, t))
 #else
 typedef int32_t kernel_mask __attribute__((vector_size(KERNEL_WIDTH * sizeof(int32_t))));
@@ -71,7 +72,8 @@ KERNEL_INLINE unit_vector activate_units(unit_vector x)
 }
 #endif
 
-/* ---- The network of one evaluation, vectors over units ----------------------------------------- */
+/* ---- The network of one evaluation, vectors over units
+ * ----------------------------------------- */
 
 #if KERNEL_WIDTH > 1
 
@@ -115,8 +117,8 @@ KERNEL_APART void units(const float *w, int stride, int depth, const float *x, c
 
 enum { OUTPUT_VECTORS = (HNBRDF_MAX_OUTPUTS + KERNEL_SINGLE - 1) / KERNEL_SINGLE };
 
-KERNEL_INLINE void any_units(const float *w, int stride, int depth, const float *x, const float *biases,
-                             int count, int activate, int vectors, float *y)
+KERNEL_INLINE void any_units(const float *w, int stride, int depth, const float *x,
+                             const float *biases, int count, int activate, int vectors, float *y)
 {
     if (vectors)
         unit_vectors(w, stride, depth, x, biases, activate, vectors, y);
@@ -158,7 +160,8 @@ static void kernel_fold(const hnbrdf_model *model, const float *latent, float *f
 
 /* The network where every layer is `vectors` vectors wide, 0 for any width. Inlined where that is
  * known: the layers then follow each other without a call or a choice between them. */
-KERNEL_INLINE void network_of(const hnbrdf_prepared *prepared, const float *x, int vectors, float *out)
+KERNEL_INLINE void network_of(const hnbrdf_prepared *prepared, const float *x, int vectors,
+                              float *out)
 {
     const hnbrdf_model *model = prepared->model;
     const hnbrdf_model_desc *desc = &model->desc;
@@ -225,13 +228,15 @@ static void kernel_single(const hnbrdf_prepared *prepared, const float wi[3], co
     memcpy(f, value, 3 * sizeof *f);
 }
 
-/* ---- The network of a block of evaluations, vectors over lanes ----------------------------------- */
+/* ---- The network of a block of evaluations, vectors over lanes
+ * ----------------------------------- */
 
 typedef float lane[LANES];
 
 #if KERNEL_WIDTH > 1
 
-/* y[r][l] = biases[r] + sum over k of w[k][r] x[k][l] for `rows` rows and KERNEL_WIDE vectors of lanes.
+/* y[r][l] = biases[r] + sum over k of w[k][r] x[k][l] for `rows` rows and KERNEL_WIDE vectors of
+ * lanes.
  */
 KERNEL_INLINE void tile(const float *w, int stride, int depth, lane *x, const float *biases,
                         int activate, int rows, lane *y)
@@ -256,8 +261,8 @@ KERNEL_INLINE void tile(const float *w, int stride, int depth, lane *x, const fl
 }
 
 /* y is [count], of HardGELU if `activate`; inlined where that is known. */
-KERNEL_INLINE void layer(const float *w, int stride, int depth, lane *x, const float *biases, int count,
-                         int activate, lane *y)
+KERNEL_INLINE void layer(const float *w, int stride, int depth, lane *x, const float *biases,
+                         int count, int activate, lane *y)
 {
     for (int l = 0; l < LANES; l += KERNEL_WIDE * KERNEL_WIDTH) {
         lane *from = (lane *)(void *)((float *)x + l);
@@ -281,8 +286,8 @@ KERNEL_INLINE void layer(const float *w, int stride, int depth, lane *x, const f
 #else
 
 /* Two rows at a time: every input is loaded once for both. */
-KERNEL_APART void layer(const float *w, int stride, int depth, lane *restrict x, const float *biases,
-                        int count, int activate, lane *restrict y)
+KERNEL_APART void layer(const float *w, int stride, int depth, lane *restrict x,
+                        const float *biases, int count, int activate, lane *restrict y)
 {
     for (int r = 0; r < count; r += 2) {
         int next = r + 1 < count ? r + 1 : r; /* an odd last row is computed twice */
@@ -322,10 +327,10 @@ KERNEL_APART void network_lanes(const hnbrdf_model *model, const float *w, int d
     lane buffers[2][HNBRDF_MAX_HIDDEN];
     hidden_layer(w, stride, depth, x, biases, hidden, buffers[0]);
     for (int k = 1; k < last; k++)
-        hidden_layer(model->packed[k], stride, hidden, buffers[(k - 1) & 1], model->packed_biases[k],
-                     hidden, buffers[k & 1]);
-    layer(model->packed[last], HNBRDF_PACK, hidden, buffers[(last - 1) & 1], model->packed_biases[last],
-          hnbrdf_layer_outputs(desc, last), 0, out);
+        hidden_layer(model->packed[k], stride, hidden, buffers[(k - 1) & 1],
+                     model->packed_biases[k], hidden, buffers[k & 1]);
+    layer(model->packed[last], HNBRDF_PACK, hidden, buffers[(last - 1) & 1],
+          model->packed_biases[last], hnbrdf_layer_outputs(desc, last), 0, out);
 }
 
 static void network_folded(const hnbrdf_prepared *prepared, lane *x, lane *out)
@@ -335,21 +340,23 @@ static void network_folded(const hnbrdf_prepared *prepared, lane *x, lane *out)
     network_lanes(model, w, HNBRDF_ENCODING_SIZE, x, prepared->first, out);
 }
 
-static void kernel_network(const hnbrdf_prepared *prepared, float x[HNBRDF_ENCODING_SIZE][HNBRDF_LANES],
+static void kernel_network(const hnbrdf_prepared *prepared,
+                           float x[HNBRDF_ENCODING_SIZE][HNBRDF_LANES],
                            float out[HNBRDF_MAX_OUTPUTS][HNBRDF_LANES])
 {
     network_folded(prepared, x, out);
 }
 
-/* ---- A block of pairs, arrays over lanes --------------------------------------------------------- */
+/* ---- A block of pairs, arrays over lanes
+ * --------------------------------------------------------- */
 
 /* The materials of a block. */
 typedef struct lane_materials {
     lane cosine, sine, ax, ay, area, diffuse[3], e[3];
 } lane_materials;
 
-/* Pairs in the tangent frames of their materials, and what comes of them. Lanes that have no pair above
- * the horizon hold wi = wo = n, and 0 in `above`. */
+/* Pairs in the tangent frames of their materials, and what comes of them. Lanes that have no pair
+ * above the horizon hold wi = wo = n, and 0 in `above`. */
 typedef struct lane_pairs {
     lane wi[3], wo[3], sx, sy, sz, length2, c, f[3];
     lane x[HNBRDF_MAX_LATENT + HNBRDF_ENCODING_SIZE]; /* the latent code, then what is encoded */
@@ -396,7 +403,8 @@ KERNEL_APART void gather(const hnbrdf_pairs *pairs, size_t first, size_t count, 
     }
 }
 
-KERNEL_APART void scatter(const hnbrdf_pairs *pairs, size_t first, size_t count, const lane_pairs *b)
+KERNEL_APART void scatter(const hnbrdf_pairs *pairs, size_t first, size_t count,
+                          const lane_pairs *b)
 {
     for (size_t l = 0; l < count; l++) {
         float *to = (float *)((char *)pairs->f + (first + l) * pairs->f_stride);
@@ -457,13 +465,13 @@ KERNEL_APART void finish_lanes(lane_pairs *b)
 }
 
 /* One loop an encoding: none asks within it. */
-#define ENCODE_LANES(encode)                                                                           \
-    for (int l = 0; l < LANES; l++) {                                                                  \
-        hnbrdf_pair pair = pair_of(b, l);                                                              \
-        float encoded[HNBRDF_ENCODING_SIZE];                                                           \
-        encode(&pair, encoded);                                                                        \
-        for (int i = 0; i < HNBRDF_ENCODING_SIZE; i++)                                                 \
-            x[i][l] = encoded[i];                                                                      \
+#define ENCODE_LANES(encode)                           \
+    for (int l = 0; l < LANES; l++) {                  \
+        hnbrdf_pair pair = pair_of(b, l);              \
+        float encoded[HNBRDF_ENCODING_SIZE];           \
+        encode(&pair, encoded);                        \
+        for (int i = 0; i < HNBRDF_ENCODING_SIZE; i++) \
+            x[i][l] = encoded[i];                      \
     }
 
 static void encode_lanes(hnbrdf_encoding encoding, lane_pairs *restrict b, lane *restrict x)
@@ -494,8 +502,8 @@ static void compose_lanes(const hnbrdf_model_desc *desc, lane_pairs *b)
     if (desc->kind == HNBRDF_KIND_HYBRID)
         for (int c = 0; c < 3; c++)
             for (int l = 0; l < LANES; l++)
-                b->f[c][l] = hnbrdf_compose_hybrid(b->out[c][l], b->out[c + 3][l], b->f[c][l], scale,
-                                                   shift, lowest);
+                b->f[c][l] = hnbrdf_compose_hybrid(b->out[c][l], b->out[c + 3][l], b->f[c][l],
+                                                   scale, shift, lowest);
     else
         for (int c = 0; c < 3; c++)
             for (int l = 0; l < LANES; l++)
@@ -525,7 +533,8 @@ KERNEL_APART void evaluate_lanes(const hnbrdf_model *model, const hnbrdf_prepare
     compose_lanes(desc, b);
 }
 
-/* ---- Batches ------------------------------------------------------------------------------------- */
+/* ---- Batches
+ * ------------------------------------------------------------------------------------- */
 
 static void spread_material(const hnbrdf_prepared *prepared, lane_materials *m)
 {
@@ -569,13 +578,15 @@ static void kernel_analytic(const hnbrdf_prepared *prepared, const hnbrdf_pairs 
     }
 }
 
-/* The materials of one block, by lane. Where all lanes have the same one, that is prepared (unless it
- * is already: *held) and returned; else NULL, and the latent codes are put before what will be encoded.
+/* The materials of one block, by lane. Where all lanes have the same one, that is prepared
+ * (unless it is already: *held) and returned; else NULL, and the latent codes are put before what
+ * will be encoded.
  */
 static const hnbrdf_prepared *take_materials(const hnbrdf_model *model,
                                              const hnbrdf_material *const *of,
-                                             const hnbrdf_material **held, hnbrdf_prepared *prepared,
-                                             lane_materials *m, lane_pairs *b)
+                                             const hnbrdf_material **held,
+                                             hnbrdf_prepared *prepared, lane_materials *m,
+                                             lane_pairs *b)
 {
     int same = 1;
     for (int l = 1; l < LANES; l++)
@@ -599,8 +610,8 @@ static const hnbrdf_prepared *take_materials(const hnbrdf_model *model,
     return NULL;
 }
 
-static void kernel_many(const hnbrdf_model *model, const hnbrdf_material *materials, const int *index,
-                        const hnbrdf_pairs *pairs)
+static void kernel_many(const hnbrdf_model *model, const hnbrdf_material *materials,
+                        const int *index, const hnbrdf_pairs *pairs)
 {
     const hnbrdf_material *held = NULL;
     hnbrdf_prepared prepared;
@@ -614,7 +625,8 @@ static void kernel_many(const hnbrdf_model *model, const hnbrdf_material *materi
             of[l] = index ? materials + index[pair] : materials + pair;
         }
         gather(pairs, k, count, &block);
-        const hnbrdf_prepared *shared = take_materials(model, of, &held, &prepared, &by_lane, &block);
+        const hnbrdf_prepared *shared =
+            take_materials(model, of, &held, &prepared, &by_lane, &block);
         evaluate_lanes(model, shared, &by_lane, &block);
         scatter(pairs, k, count, &block);
     }

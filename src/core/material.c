@@ -20,8 +20,8 @@ static hnbrdf_result range(const char *field, int index, float value, float low,
 {
     if (value >= low && value <= high)
         return HNBRDF_OK;
-    return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT, "%s[%d] is %s, expected %s to %s", field, index,
-                       HNBRDF_NUMBER(value), HNBRDF_NUMBER(low), HNBRDF_NUMBER(high));
+    return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT, "%s[%d] is %s, expected %s to %s", field,
+                       index, HNBRDF_NUMBER(value), HNBRDF_NUMBER(low), HNBRDF_NUMBER(high));
 }
 
 static hnbrdf_result check_lobes(const hnbrdf_lobes *lobes, hnbrdf_error *error)
@@ -32,11 +32,13 @@ static hnbrdf_result check_lobes(const hnbrdf_lobes *lobes, hnbrdf_error *error)
         if (size != 0.0f && (result = range("lobes.scale", k, size, 1e-4f, 1e4f, error)))
             return result;
         for (int j = 0; j < HNBRDF_LOBE_KNOTS; j++)
-            if ((result = range(k ? "lobes.share[1]" : "lobes.share[0]", j, lobes->share[k][j], 0.0f, 1.0f, error)))
+            if ((result = range(k ? "lobes.share[1]" : "lobes.share[0]", j, lobes->share[k][j],
+                                0.0f, 1.0f, error)))
                 return result;
     }
     for (int j = 0; j < HNBRDF_LOBE_KNOTS; j++)
-        if ((result = range("sum of lobes.share", j, lobes->share[0][j] + lobes->share[1][j], 0.0f, 1.0f, error)))
+        if ((result = range("sum of lobes.share", j, lobes->share[0][j] + lobes->share[1][j], 0.0f,
+                            1.0f, error)))
             return result;
     return HNBRDF_OK;
 }
@@ -49,18 +51,21 @@ hnbrdf_result hnbrdf_material_check(const hnbrdf_material *material, hnbrdf_erro
             return result;
     for (int c = 0; c < 3; c++)
         if (!(material->eta[c] > 1.0f && material->eta[c] <= HNBRDF_MAX_ETA))
-            return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT, "eta[%d] is %s, expected above 1, at most %s",
-                               c, HNBRDF_NUMBER(material->eta[c]), HNBRDF_NUMBER(HNBRDF_MAX_ETA));
+            return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT,
+                               "eta[%d] is %s, expected above 1, at most %s", c,
+                               HNBRDF_NUMBER(material->eta[c]), HNBRDF_NUMBER(HNBRDF_MAX_ETA));
     for (int c = 0; c < 2; c++)
-        if ((result = range("alpha", c, material->alpha[c], HNBRDF_MIN_ALPHA, HNBRDF_MAX_ALPHA, error)))
+        if ((result =
+                 range("alpha", c, material->alpha[c], HNBRDF_MIN_ALPHA, HNBRDF_MAX_ALPHA, error)))
             return result;
     if (!isfinite(material->rotation))
         return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT, "rotation is %s, expected a finite angle",
                            HNBRDF_NUMBER(material->rotation));
     for (int i = 0; i < HNBRDF_MAX_LATENT; i++)
         if (!isfinite(material->latent[i]))
-            return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT, "latent[%d] is %s, expected a finite number",
-                               i, HNBRDF_NUMBER(material->latent[i]));
+            return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT,
+                               "latent[%d] is %s, expected a finite number", i,
+                               HNBRDF_NUMBER(material->latent[i]));
     return check_lobes(&material->lobes, error);
 }
 
@@ -80,8 +85,8 @@ static float mix_log(float a, float b, float t)
     return between(hnbrdf_exp(mix_linear(hnbrdf_log(a), hnbrdf_log(b), t)), a, b);
 }
 
-/* Amplitude r = (eta - 1)/(eta + 1), reflectance r^2 and transmittance 1 - r^2 = 4 eta/(eta + 1)^2, so
- * that eta = (1 + r)^2/(1 - r^2) is free of cancellation for metals too. */
+/* Amplitude r = (eta - 1)/(eta + 1), reflectance r^2 and transmittance 1 - r^2 = 4 eta/(eta +
+ * 1)^2, so that eta = (1 + r)^2/(1 - r^2) is free of cancellation for metals too. */
 static float mix_eta(float a, float b, float t)
 {
     float ra = (a - 1.0f) / (a + 1.0f), rb = (b - 1.0f) / (b + 1.0f);
@@ -124,7 +129,8 @@ static void mix_lobes(const hnbrdf_lobes *a, const hnbrdf_lobes *b, float t, hnb
         out->share[1][j] = hnbrdf_clamp(out->share[1][j], 0.0f, 1.0f - out->share[0][j]);
 }
 
-void hnbrdf_material_mix(const hnbrdf_material *a, const hnbrdf_material *b, float t, hnbrdf_material *out)
+void hnbrdf_material_mix(const hnbrdf_material *a, const hnbrdf_material *b, float t,
+                         hnbrdf_material *out)
 {
     hnbrdf_material mixed;
     if (!(t > 0.0f && t < 1.0f)) {

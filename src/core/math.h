@@ -1,6 +1,7 @@
-/* math.h: exp, log, sin and cos from + - * / and bit moves alone, the same bits wherever IEEE floats
- * are, in C, in every vector width and in GLSL (hybrid_brdf.glsl holds the same functions in the same
- * order). Polynomials fitted at Chebyshev nodes; tests/test_math.c holds each to its stated error. */
+/* math.h: exp, log, sin and cos from + - * / and bit moves alone, the same bits wherever IEEE
+ * floats are, in C, in every vector width and in GLSL (hybrid_brdf.glsl holds the same functions
+ * in the same order). Polynomials fitted at Chebyshev nodes; tests/test_math.c holds each to its
+ * stated error. */
 #ifndef HNBRDF_CORE_MATH_H
 #define HNBRDF_CORE_MATH_H
 
@@ -10,12 +11,13 @@
 #include <string.h>
 
 #if defined(FLT_EVAL_METHOD) && FLT_EVAL_METHOD > 0
-#error floats are computed in a wider type: build with CMake, or see src/arithmetic.cmake for the flags
+#error floats are computed in a wider type: see src/arithmetic.cmake for the flags
 #endif
 
-/* Before a function that may divide by 0. Only the smallest cosines, directions that are no unit vectors and
- * materials that break their ranges bring that about; what IEEE 754 then gives, infinity or NaN, is clamped where
- * the value ends, and to ask for it here would cost every evaluation. Without this UBSan would stop there. */
+/* Before a function that may divide by 0. Only the smallest cosines, directions that are no unit
+ * vectors and materials that break their ranges bring that about; what IEEE 754 then gives,
+ * infinity or NaN, is clamped where the value ends, and to ask for it here would cost every
+ * evaluation. Without this UBSan would stop there. */
 #if defined(__GNUC__)
 #define HNBRDF_DIVIDES_AS_IEEE __attribute__((no_sanitize("float-divide-by-zero")))
 #else
@@ -50,10 +52,13 @@ static inline float hnbrdf_clamp(float x, float low, float high)
 /* exp(x) for x in [-80, 80]; within 1 ulp. */
 static inline float hnbrdf_exp(float x)
 {
-    float y = x * 1.44269504f; /* to the nearest integer: half, with the sign of y, added and cut off */
-    int32_t k = (int32_t)(y + hnbrdf_bits_to_float((hnbrdf_float_to_bits(y) & INT32_MIN) | 0x3f000000));
+    /* to the nearest integer: half, with the sign of y, added and cut off */
+    float y = x * 1.44269504f;
+    int32_t k =
+        (int32_t)(y + hnbrdf_bits_to_float((hnbrdf_float_to_bits(y) & INT32_MIN) | 0x3f000000));
     float fk = (float)k;
-    float r = (x - fk * 0.693359375f) - fk * -2.12194440e-4f; /* ln 2 in two parts, the first exact */
+    /* ln 2 in two parts, the first exact */
+    float r = (x - fk * 0.693359375f) - fk * -2.12194440e-4f;
     float q = 1.98909809e-4f;
     q = q * r + 1.39336410e-3f;
     q = q * r + 8.33331093e-3f;
@@ -64,8 +69,9 @@ static inline float hnbrdf_exp(float x)
     return e * hnbrdf_bits_to_float((k + 127) * 0x800000);
 }
 
-/* ln(x) for normal x > 0; error at most 1.05 ulp of the result plus 5e-8. +inf gives a finite 88.7, a NaN what
- * the smallest x gives: the bits of a NaN differ from machine to machine, and the result must not. */
+/* ln(x) for normal x > 0; error at most 1.05 ulp of the result plus 5e-8. +inf gives a finite
+ * 88.7, a NaN what the smallest x gives: the bits of a NaN differ from machine to machine, and
+ * the result must not. */
 static inline float hnbrdf_log(float x)
 {
     x = x > 1.17549435e-38f ? x : 1.17549435e-38f;

@@ -1,19 +1,21 @@
 /* microfacet.h: the analytic part, Lambert + GGX (Walter et al. 2007; Heitz 2014), term by term.
- * shaders/hybrid_brdf.glsl holds the same functions, named alike and in the same order of operations.
+ * shaders/hybrid_brdf.glsl holds the same functions, named alike and in the same order of
+ * operations.
  *
- * Everything is written in s = wi + wo, not in the normalised half vector h = s/|s|: one square root
- * less, symmetric in wi and wo to the last bit, and no cancellation for any roughness. */
+ * Everything is written in s = wi + wo, not in the normalised half vector h = s/|s|: one square
+ * root less, symmetric in wi and wo to the last bit, and no cancellation for any roughness. */
 #ifndef HNBRDF_CORE_MICROFACET_H
 #define HNBRDF_CORE_MICROFACET_H
 
 #include "core/math.h"
 
-/* What eval, encode and pdf share of one pair of directions, in the tangent frame of the material. */
+/* What eval, encode and pdf share of one pair of directions, in the tangent frame of the
+ * material. */
 typedef struct hnbrdf_pair {
     float wi[3], wo[3];
-    float sx, sy, sz;  /* s = wi + wo */
-    float length2;     /* s.s */
-    float c;           /* cosine of the difference angle, wi.h = |s|/2 for unit vectors */
+    float sx, sy, sz; /* s = wi + wo */
+    float length2;    /* s.s */
+    float c;          /* cosine of the difference angle, wi.h = |s|/2 for unit vectors */
 } hnbrdf_pair;
 
 static inline float hnbrdf_dot3(float x, float y, float z)
@@ -33,16 +35,16 @@ static inline hnbrdf_pair hnbrdf_pair_make(const float wi[3], const float wo[3])
 }
 
 /* GGX normal density D(h), 1/sr (Walter 2007 Eq. 33, anisotropic: Heitz 2014 Eq. 86), in the
- * tangent-frame form: 1 - (n.h)^2 would lose every digit of a narrow lobe. What depends on the material
- * alone, area = pi ax ay here and e = eta^2 - 1 below, has a function of its own. */
+ * tangent-frame form: 1 - (n.h)^2 would lose every digit of a narrow lobe. What depends on the
+ * material alone, area = pi ax ay here and e = eta^2 - 1 below, has a function of its own. */
 static inline float hnbrdf_ggx_area(float ax, float ay)
 {
     return (HNBRDF_PI * ax) * ay;
 }
 
 HNBRDF_DIVIDES_AS_IEEE
-static inline float hnbrdf_ggx_d_of_area(float sx, float sy, float sz, float length2, float ax, float ay,
-                                         float area)
+static inline float hnbrdf_ggx_d_of_area(float sx, float sy, float sz, float length2, float ax,
+                                         float ay, float area)
 {
     float t = hnbrdf_dot3(sx / ax, sy / ay, sz) / length2;
     return 1.0f / (area * (t * t));
@@ -61,8 +63,9 @@ static inline float hnbrdf_smith_v(float x, float y, float z, float ax, float ay
     return 1.0f / (z + sqrtf(hnbrdf_dot3(ax * x, ay * y, z)));
 }
 
-/* Visible normals of w, D V(w)/2 of which is their density as reflections (Heitz 2018 Eq. 17): V(w), the cap of
- * normals cut off where all reflections go below the horizon (Eto and Tokuyoshi 2023). */
+/* Visible normals of w, D V(w)/2 of which is their density as reflections (Heitz 2018 Eq. 17):
+ * V(w), the cap of normals cut off where all reflections go below the horizon (Eto and Tokuyoshi
+ * 2023). */
 static inline float hnbrdf_cap_bound(float x, float y, float z, float ax, float ay)
 {
     float a = ax < ay ? ax : ay;
@@ -78,8 +81,9 @@ static inline float hnbrdf_visible_v(float x, float y, float z, float ax, float 
     return 1.0f / (hnbrdf_cap_bound(x, y, z, ax, ay) * z + sqrtf(hnbrdf_dot3(ax * x, ay * y, z)));
 }
 
-/* Unpolarised Fresnel reflectance of a dielectric with index eta > 1 at cosine c = wi.h (Walter 2007
- * Eq. 22). g - c is taken as (eta^2 - 1)/(g + c): the difference itself loses digits as eta nears 1. */
+/* Unpolarised Fresnel reflectance of a dielectric with index eta > 1 at cosine c = wi.h (Walter
+ * 2007 Eq. 22). g - c is taken as (eta^2 - 1)/(g + c): the difference itself loses digits as eta
+ * nears 1. */
 static inline float hnbrdf_fresnel_e(float eta)
 {
     return (eta - 1.0f) * (eta + 1.0f);
@@ -88,8 +92,8 @@ static inline float hnbrdf_fresnel_e(float eta)
 HNBRDF_DIVIDES_AS_IEEE
 static inline float hnbrdf_fresnel_of_e(float e, float c)
 {
-    float sum = sqrtf(e + c * c) + c;   /* g + c */
-    float difference = e / sum;         /* g - c */
+    float sum = sqrtf(e + c * c) + c; /* g + c */
+    float difference = e / sum;       /* g - c */
     float a = difference / sum;
     float b = (c * sum - 1.0f) / (c * difference + 1.0f);
     return (0.5f * (a * a)) * (1.0f + b * b);

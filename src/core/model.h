@@ -1,4 +1,5 @@
-/* model.h: what a model holds in memory. Shared by evaluation, model files and export; not public. */
+/* model.h: what a model holds in memory. Shared by evaluation, model files and export; not
+ * public. */
 #ifndef HNBRDF_CORE_MODEL_H
 #define HNBRDF_CORE_MODEL_H
 
@@ -17,8 +18,8 @@ struct hnbrdf_model {
     const struct hnbrdf_kernel *kernel;
     /* The same layers as vectors want them. packed[k] is input-major,
      * [inputs][hnbrdf_packed_outputs()], in the canonical order of summation: for k = 0 the latent
-     * inputs come before the directions. packed_biases[k] is [hnbrdf_packed_outputs()]. What pads is 0.
-     * NULL where there is no layer. */
+     * inputs come before the directions. packed_biases[k] is [hnbrdf_packed_outputs()]. What pads
+     * is 0. NULL where there is no layer. */
     const float *packed[HNBRDF_MAX_LAYERS + 1];
     const float *packed_biases[HNBRDF_MAX_LAYERS + 1];
 };

@@ -25,7 +25,8 @@ void hnbrdf_network(const hnbrdf_model_desc *desc, const float *latent, const fl
     float a[HNBRDF_MAX_HIDDEN], b[HNBRDF_MAX_HIDDEN];
     for (int r = 0; r < desc->hidden; r++) {
         const float *weights = desc->weights[0] + r * (HNBRDF_ENCODING_SIZE + desc->latent);
-        float folded = row(desc->biases[0][r], weights + HNBRDF_ENCODING_SIZE, desc->latent, latent);
+        float folded =
+            row(desc->biases[0][r], weights + HNBRDF_ENCODING_SIZE, desc->latent, latent);
         b[r] = row(folded, weights, HNBRDF_ENCODING_SIZE, x);
     }
     for (int k = 1; k <= desc->layers; k++) {
@@ -37,7 +38,8 @@ void hnbrdf_network(const hnbrdf_model_desc *desc, const float *latent, const fl
     }
 }
 
-void hnbrdf_network_block(const hnbrdf_prepared *prepared, float x[HNBRDF_ENCODING_SIZE][HNBRDF_LANES],
+void hnbrdf_network_block(const hnbrdf_prepared *prepared,
+                          float x[HNBRDF_ENCODING_SIZE][HNBRDF_LANES],
                           float out[HNBRDF_MAX_OUTPUTS][HNBRDF_LANES])
 {
     prepared->model->kernel->network(prepared, x, out);

@@ -1,5 +1,6 @@
-/* network.h: the network, a plain MLP with HardGELU hidden layers. One canonical order of summation:
- * bias, latent inputs, encoded directions, each in index order, product by product (DESIGN 3.11). */
+/* network.h: the network, a plain MLP with HardGELU hidden layers. One canonical order of
+ * summation: bias, latent inputs, encoded directions, each in index order, product by product
+ * (DESIGN 3.11). */
 #ifndef HNBRDF_CORE_NETWORK_H
 #define HNBRDF_CORE_NETWORK_H
 
@@ -17,13 +18,14 @@ static inline float hnbrdf_hard_gelu(float x)
     return x * t;
 }
 
-/* out[hnbrdf_layer_outputs(last)] of one evaluation. latent is [desc->latent], x is [6]. From the weights
- * as the description gives them, row by row: what every kernel is held to. */
+/* out[hnbrdf_layer_outputs(last)] of one evaluation. latent is [desc->latent], x is [6]. From the
+ * weights as the description gives them, row by row: what every kernel is held to. */
 void hnbrdf_network(const hnbrdf_model_desc *desc, const float *latent, const float *x, float *out);
 
-/* The same bits for HNBRDF_LANES evaluations by the model's kernel: x[input][lane], out[output][lane]. The
- * latent code is the prepared material's. */
-void hnbrdf_network_block(const hnbrdf_prepared *prepared, float x[HNBRDF_ENCODING_SIZE][HNBRDF_LANES],
+/* The same bits for HNBRDF_LANES evaluations by the model's kernel: x[input][lane],
+ * out[output][lane]. The latent code is the prepared material's. */
+void hnbrdf_network_block(const hnbrdf_prepared *prepared,
+                          float x[HNBRDF_ENCODING_SIZE][HNBRDF_LANES],
                           float out[HNBRDF_MAX_OUTPUTS][HNBRDF_LANES]);
 
 #endif

@@ -10,18 +10,18 @@
 /* A buffer that holds any number printed here with up to 17 digits, with its NUL. */
 enum { HNBRDF_NUMBER_TEXT = 32 };
 
-/* Whatever run of bytes in a finite number is no digit, sign or exponent is the locale's separator. */
+/* Whatever run of bytes in a finite number is no digit, sign or exponent is the locale's
+ * separator. */
 static inline void hnbrdf_with_point(const char *printed, char text[HNBRDF_NUMBER_TEXT])
 {
     int in_separator = 0;
     for (; *printed; ++printed) {
         const char c = *printed;
         const int plain = (c >= '0' && c <= '9') || c == '+' || c == '-' || c == 'e';
-        if (plain) {
+        if (plain)
             *text++ = c;
-        } else if (!in_separator) {
+        else if (!in_separator)
             *text++ = '.';
-        }
         in_separator = !plain;
     }
     *text = '\0';
@@ -29,7 +29,8 @@ static inline void hnbrdf_with_point(const char *printed, char text[HNBRDF_NUMBE
 
 /* As C's "%.*g" in the C locale, digits at most 17; "inf", "-inf" and "nan" for values that are not
  * finite. Returns text. */
-static inline const char *hnbrdf_print_number(char text[HNBRDF_NUMBER_TEXT], double value, int digits)
+static inline const char *hnbrdf_print_number(char text[HNBRDF_NUMBER_TEXT], double value,
+                                              int digits)
 {
     if (isfinite(value)) {
         char printed[64];

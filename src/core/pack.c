@@ -17,7 +17,8 @@ enum { ROTATION_UNIT = 127, ROTATION_ZERO = 128 }; /* of a byte: 0 and 1 are met
 /* ---- Ranges ---------------------------------------------------------------------------------- */
 
 HNBRDF_DIVIDES_AS_IEEE /* eta = -1 is refused elsewhere; here the infinity is clamped */
-static float amplitude(float eta)
+    static float
+    amplitude(float eta)
 {
     return hnbrdf_clamp((eta - 1.0f) / (eta + 1.0f), MIN_R, MAX_R);
 }
@@ -42,9 +43,9 @@ static void widen_by(hnbrdf_packing *packing, const hnbrdf_material *material)
     packing->rotated |= material->rotation != 0.0f;
 }
 
-hnbrdf_result hnbrdf_packing_init(const hnbrdf_model *model, const int *materials, int material_count,
-                                  hnbrdf_texel_format format, hnbrdf_packing *packing,
-                                  hnbrdf_error *error)
+hnbrdf_result hnbrdf_packing_init(const hnbrdf_model *model, const int *materials,
+                                  int material_count, hnbrdf_texel_format format,
+                                  hnbrdf_packing *packing, hnbrdf_error *error)
 {
     hnbrdf_model_desc desc;
     hnbrdf_model_describe(model, &desc);
@@ -53,10 +54,11 @@ hnbrdf_result hnbrdf_packing_init(const hnbrdf_model *model, const int *material
                            .analytic = desc.kind != HNBRDF_KIND_NEURAL,
                            .latent = desc.kind == HNBRDF_KIND_GGX ? 0 : desc.latent};
     if (count < 1)
-        return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT, "packing: %d materials, expected at least 1",
-                           count);
+        return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT,
+                           "packing: %d materials, expected at least 1", count);
     for (int k = 0; k < count; k++) {
-        const hnbrdf_material *material = hnbrdf_model_material(model, materials ? materials[k] : k);
+        const hnbrdf_material *material =
+            hnbrdf_model_material(model, materials ? materials[k] : k);
         if (!material)
             return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT,
                                "packing: materials[%d] is %d, expected 0 to %d", k, materials[k],
@@ -82,8 +84,8 @@ static hnbrdf_result check_range(const char *field, const float range[2], float 
     if (range[0] >= low && range[0] <= range[1] && range[1] <= high)
         return HNBRDF_OK;
     return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT,
-                       "packing: the range of %s is %s to %s, expected to lie within %s to %s", field,
-                       HNBRDF_NUMBER(range[0]), HNBRDF_NUMBER(range[1]), HNBRDF_NUMBER(low),
+                       "packing: the range of %s is %s to %s, expected to lie within %s to %s",
+                       field, HNBRDF_NUMBER(range[0]), HNBRDF_NUMBER(range[1]), HNBRDF_NUMBER(low),
                        HNBRDF_NUMBER(high));
 }
 
@@ -105,11 +107,12 @@ hnbrdf_result hnbrdf_packing_check(const hnbrdf_packing *packing, hnbrdf_error *
         if (!result)
             result = check_range("eta", packing->eta, 1.0f, HNBRDF_MAX_ETA, error);
         if (!result)
-            result = check_range("alpha", packing->alpha, HNBRDF_MIN_ALPHA, HNBRDF_MAX_ALPHA, error);
+            result =
+                check_range("alpha", packing->alpha, HNBRDF_MIN_ALPHA, HNBRDF_MAX_ALPHA, error);
     }
     for (int i = 0; i < packing->latent && !result; i++)
-        result =
-            check_range("latent", packing->latent_range[i], -HNBRDF_MAX_HALF, HNBRDF_MAX_HALF, error);
+        result = check_range("latent", packing->latent_range[i], -HNBRDF_MAX_HALF, HNBRDF_MAX_HALF,
+                             error);
     return result;
 }
 
@@ -131,8 +134,9 @@ static float from_curve(hnbrdf_curve curve, float value)
 }
 
 /* Half floats hold the number itself; bytes its place in the range, along the curve. */
-static hnbrdf_field make_field(const hnbrdf_packing *packing, int *next, int count, hnbrdf_curve curve,
-                               float range_low, float range_high, float low, float high)
+static hnbrdf_field make_field(const hnbrdf_packing *packing, int *next, int count,
+                               hnbrdf_curve curve, float range_low, float range_high, float low,
+                               float high)
 {
     hnbrdf_field field = {.first = *next, .count = count, .scale = 1.0f, .low = low, .high = high};
     *next += count;
@@ -150,8 +154,8 @@ void hnbrdf_texel_layout_make(const hnbrdf_packing *packing, hnbrdf_texel_layout
     const float unit = bytes ? (float)ROTATION_UNIT : 1.0f;
     memset(layout, 0, sizeof *layout);
     if (packing->analytic) {
-        layout->kd = make_field(packing, &next, 3, HNBRDF_CURVE_SQUARE, packing->kd[0], packing->kd[1],
-                                0.0f, 1.0f);
+        layout->kd = make_field(packing, &next, 3, HNBRDF_CURVE_SQUARE, packing->kd[0],
+                                packing->kd[1], 0.0f, 1.0f);
         layout->r = make_field(packing, &next, 3, HNBRDF_CURVE_SQUARE, amplitude(packing->eta[0]),
                                amplitude(packing->eta[1]), MIN_R, MAX_R);
         layout->alpha =
@@ -180,8 +184,8 @@ int hnbrdf_packing_texels(const hnbrdf_packing *packing)
 /* ---- Packing --------------------------------------------------------------------------------- */
 
 /* Channel number `channel` of the texels. */
-static void store(const hnbrdf_packing *packing, void *texels, int channel, const hnbrdf_field *field,
-                  float value)
+static void store(const hnbrdf_packing *packing, void *texels, int channel,
+                  const hnbrdf_field *field, float value)
 {
     unsigned char *bytes = texels;
     value = hnbrdf_clamp(value, field->low, field->high);
@@ -195,7 +199,8 @@ static void store(const hnbrdf_packing *packing, void *texels, int channel, cons
     bytes[channel] = (unsigned char)(hnbrdf_clamp(code, 0.0f, 1.0f) * 255.0f + 0.5f);
 }
 
-void hnbrdf_material_pack(const hnbrdf_packing *packing, const hnbrdf_material *material, void *texels)
+void hnbrdf_material_pack(const hnbrdf_packing *packing, const hnbrdf_material *material,
+                          void *texels)
 {
     hnbrdf_texel_layout layout;
     hnbrdf_texel_layout_make(packing, &layout);

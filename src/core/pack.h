@@ -1,4 +1,5 @@
-/* pack.h: how each channel of a packed material is decoded; shared by pack.c and the GLSL exporter. */
+/* pack.h: how each channel of a packed material is decoded; shared by pack.c and the GLSL
+ * exporter. */
 #ifndef HNBRDF_CORE_PACK_H
 #define HNBRDF_CORE_PACK_H
 
@@ -11,8 +12,8 @@ typedef enum hnbrdf_curve {
     HNBRDF_CURVE_EXP
 } hnbrdf_curve;
 
-/* One field; all its channels are decoded alike, but each number of the latent code has a range of its
- * own. */
+/* One field; all its channels are decoded alike, but each number of the latent code has a range
+ * of its own. */
 typedef struct hnbrdf_field {
     int first, count; /* channels; count is 0 for what is not stored */
     hnbrdf_curve curve;

@@ -1,4 +1,5 @@
-/* prepared.h: what evaluation and sampling share of a prepared material: its parts, and f_a from it. */
+/* prepared.h: what evaluation and sampling share of a prepared material: its parts, and f_a from
+ * it. */
 #ifndef HNBRDF_CORE_PREPARED_H
 #define HNBRDF_CORE_PREPARED_H
 
@@ -10,8 +11,9 @@
 void hnbrdf_prepare_analytic(const hnbrdf_model *model, const hnbrdf_material *material,
                              hnbrdf_prepared *prepared);
 
-/* Share of samples that go to the GGX lobe where no lobes were fitted: reflectance at normal incidence, raised
- * a little for what Fresnel adds towards grazing, against the diffuse albedo. 0 where there is no analytic part. */
+/* Share of samples that go to the GGX lobe where no lobes were fitted: reflectance at normal
+ * incidence, raised a little for what Fresnel adds towards grazing, against the diffuse albedo. 0
+ * where there is no analytic part. */
 float hnbrdf_specular_share(const hnbrdf_model *model, const hnbrdf_material *material);
 /* lobe_alpha, lobe_area and lobes: all that sampling adds. */
 void hnbrdf_prepare_lobes(const hnbrdf_model *model, const hnbrdf_material *material,
@@ -33,8 +35,8 @@ static inline hnbrdf_pair hnbrdf_pair_in_frame(const hnbrdf_prepared *prepared, 
 }
 
 /* f_a of the three channels; the fourth fills a vector and repeats the third. */
-static inline void hnbrdf_prepared_analytic(const hnbrdf_prepared *prepared, const hnbrdf_pair *pair,
-                                            float f[4])
+static inline void hnbrdf_prepared_analytic(const hnbrdf_prepared *prepared,
+                                            const hnbrdf_pair *pair, float f[4])
 {
     float specular =
         hnbrdf_specular_of_area(pair, prepared->alpha[0], prepared->alpha[1], prepared->area);

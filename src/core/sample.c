@@ -1,8 +1,10 @@
-/* sample.c: draw wi given wo from a cosine lobe and the GGX lobes of the material, and the density of that. */
+/* sample.c: draw wi given wo from a cosine lobe and the GGX lobes of the material, and the
+ * density of that. */
 #include "core/compose.h"
 #include "core/prepared.h"
 
-/* ---- Lobes ------------------------------------------------------------------------------------- */
+/* ---- Lobes
+ * ------------------------------------------------------------------------------------- */
 
 HNBRDF_DIVIDES_AS_IEEE
 float hnbrdf_specular_share(const hnbrdf_model *model, const hnbrdf_material *material)
@@ -33,8 +35,9 @@ void hnbrdf_prepare_lobes(const hnbrdf_model *model, const hnbrdf_material *mate
     for (int k = 0; k < HNBRDF_LOBES; k++) {
         float *alpha = prepared->lobe_alpha[k], *share = prepared->lobes.share[k];
         for (int a = 0; a < 2; a++)
-            alpha[a] = hnbrdf_clamp(fabsf(prepared->lobes.scale[k]) * (neural ? 1.0f : material->alpha[a]),
-                                    HNBRDF_MIN_ALPHA, HNBRDF_MAX_ALPHA);
+            alpha[a] =
+                hnbrdf_clamp(fabsf(prepared->lobes.scale[k]) * (neural ? 1.0f : material->alpha[a]),
+                             HNBRDF_MIN_ALPHA, HNBRDF_MAX_ALPHA);
         prepared->lobe_area[k] = hnbrdf_ggx_area(alpha[0], alpha[1]);
         for (int j = 0; j < HNBRDF_LOBE_KNOTS && prepared->lobes.scale[k] == 0.0f; j++)
             share[j] = 0.0f;
@@ -59,7 +62,8 @@ static void shares_at(const hnbrdf_lobes *lobes, float z, float share[HNBRDF_LOB
     }
 }
 
-/* ---- Density ----------------------------------------------------------------------------------- */
+/* ---- Density
+ * ----------------------------------------------------------------------------------- */
 
 /* Of reflections about visible normals D V(wo)/2; about all normals D h.n / (4 wo.h). */
 HNBRDF_DIVIDES_AS_IEEE
@@ -67,11 +71,13 @@ static float lobe_density(const hnbrdf_prepared *m, int k, const hnbrdf_pair *p)
 {
     float ax = m->lobe_alpha[k][0], ay = m->lobe_alpha[k][1];
     float d = hnbrdf_ggx_d_of_area(p->sx, p->sy, p->sz, p->length2, ax, ay, m->lobe_area[k]);
-    return d * (0.5f * (m->lobes.scale[k] < 0.0f ? p->sz / p->length2
-                                                 : hnbrdf_visible_v(p->wo[0], p->wo[1], p->wo[2], ax, ay)));
+    return d * (0.5f * (m->lobes.scale[k] < 0.0f
+                            ? p->sz / p->length2
+                            : hnbrdf_visible_v(p->wo[0], p->wo[1], p->wo[2], ax, ay)));
 }
 
-/* The one density that sample and pdf share; directions in the tangent frame, both above the horizon. */
+/* The one density that sample and pdf share; directions in the tangent frame, both above the
+ * horizon. */
 static float density(const hnbrdf_prepared *m, const float wi[3], const float wo[3])
 {
     float share[HNBRDF_LOBES], sum = 0.0f;
@@ -104,7 +110,8 @@ float hnbrdf_pdf(const hnbrdf_model *model, const hnbrdf_material *material, con
     return hnbrdf_prepared_pdf(&prepared, wi, wo);
 }
 
-/* ---- Drawing ----------------------------------------------------------------------------------- */
+/* ---- Drawing
+ * ----------------------------------------------------------------------------------- */
 
 /* Cosine-distributed direction; u2 < 1 keeps z above 0. */
 static void draw_cosine(float u1, float u2, float w[3])
@@ -116,8 +123,8 @@ static void draw_cosine(float u1, float u2, float w[3])
     w[2] = sqrtf(1.0f - u2);
 }
 
-/* A visible normal, not normalised: a point of a spherical cap (Dupuy and Benyoub 2023, Listing 3) above its
- * bound, stretched. Returns 0 where there is none. */
+/* A visible normal, not normalised: a point of a spherical cap (Dupuy and Benyoub 2023, Listing
+ * 3) above its bound, stretched. Returns 0 where there is none. */
 static int draw_visible(float ax, float ay, const float wo[3], float u1, float u2, float h[3])
 {
     float x = ax * wo[0], y = ay * wo[1], z = wo[2];
@@ -137,7 +144,8 @@ static int draw_visible(float ax, float ay, const float wo[3], float u1, float u
     return 1;
 }
 
-/* Any normal, with density D h.n: slopes tan^2 = u / (1 - u) (Walter 2007 Eqs. 35 and 36), not normalised. */
+/* Any normal, with density D h.n: slopes tan^2 = u / (1 - u) (Walter 2007 Eqs. 35 and 36), not
+ * normalised. */
 static void draw_normal(float ax, float ay, float u1, float u2, float h[3])
 {
     float sine, cosine, r = sqrtf(u2);
@@ -148,7 +156,8 @@ static void draw_normal(float ax, float ay, float u1, float u2, float h[3])
 }
 
 /* Reflects wo about a normal of lobe k. Returns 0 if no normal comes out. */
-static int draw_lobe(const hnbrdf_prepared *m, int k, const float wo[3], float u1, float u2, float w[3])
+static int draw_lobe(const hnbrdf_prepared *m, int k, const float wo[3], float u1, float u2,
+                     float w[3])
 {
     float ax = m->lobe_alpha[k][0], ay = m->lobe_alpha[k][1], h[3];
     if (m->lobes.scale[k] < 0.0f)
@@ -164,17 +173,19 @@ static int draw_lobe(const hnbrdf_prepared *m, int k, const float wo[3], float u
     return 1;
 }
 
-/* What is left of u0 once it has chosen its part [low, low + size) of [0, 1) turns the azimuth on: a pair (u0, u2)
- * that is stratified stays so in each lobe. */
+/* What is left of u0 once it has chosen its part [low, low + size) of [0, 1) turns the azimuth
+ * on: a pair (u0, u2) that is stratified stays so in each lobe. */
 HNBRDF_DIVIDES_AS_IEEE /* with u0 no number and no share left */
-static float azimuth(float u0, float low, float size, float u1)
+    static float
+    azimuth(float u0, float low, float size, float u1)
 {
     float turn = u1 + hnbrdf_clamp((u0 - low) / size, 0.0f, 0.99999994f);
     turn = turn >= 1.0f ? turn - 1.0f : turn;
     return hnbrdf_clamp(turn, 0.0f, 1.0f);
 }
 
-float hnbrdf_prepared_draw(const hnbrdf_prepared *prepared, const float wo[3], const float u[3], float wi[3])
+float hnbrdf_prepared_draw(const hnbrdf_prepared *prepared, const float wo[3], const float u[3],
+                           float wi[3])
 {
     const hnbrdf_frame frame = {prepared->cosine, prepared->sine};
     float o[3], i[3], drawn[3], share[HNBRDF_LOBES];

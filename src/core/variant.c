@@ -1,4 +1,5 @@
-/* variant.c: the names of the variants, and which of them this build holds and this machine runs. */
+/* variant.c: the names of the variants, and which of them this build holds and this machine runs.
+ * */
 #include "core/kernel.h"
 
 const char *hnbrdf_variant_name(hnbrdf_variant variant)

@@ -3,8 +3,8 @@
 
 #include <math.h>
 
-void hnbrdf_fit_adam(float *parameters, const float *gradient, float *moments, size_t count, long step,
-                     double rate)
+void hnbrdf_fit_adam(float *parameters, const float *gradient, float *moments, size_t count,
+                     long step, double rate)
 {
     const float b1 = (float)FIT_ADAM_BETA1, b2 = (float)FIT_ADAM_BETA2;
     const float correct1 = (float)(rate / (1.0 - pow(FIT_ADAM_BETA1, (double)step)));

@@ -1,7 +1,7 @@
 /* checkpoint.c: the state of a training under way, to go on later with the very same result.
  *
- * A checkpoint is for the machine that wrote it: numbers in its own byte order, and a fingerprint of
- * data names, options and layout that must match. */
+ * A checkpoint is for the machine that wrote it: numbers in its own byte order, and a fingerprint
+ * of data names, options and layout that must match. */
 #include "fit/trainer.h"
 
 #include "core/error.h"
@@ -143,10 +143,10 @@ static int is_sound(const trainer *t, const header *h)
 {
     int good = h->step >= 0 && h->step < LONG_MAX && h->share >= 0.0 && h->share < 1.0 &&
                h->peak > 0.0 && h->peak <= DBL_MAX && !isinf(h->running) && h->order_at >= 0 &&
-               h->order_at < t->count && h->since >= 0 && h->since <= h->step && h->best_step >= 0 &&
-               h->best_step <= h->step && h->best_dead >= 0 && h->best_dead <= HNBRDF_MAX_HIDDEN &&
-               h->set_backs >= 0 && h->set_backs <= h->step && h->set_backs <= INT_MAX &&
-               h->best_loss >= 0.0 && h->best_loss <= DBL_MAX;
+               h->order_at < t->count && h->since >= 0 && h->since <= h->step &&
+               h->best_step >= 0 && h->best_step <= h->step && h->best_dead >= 0 &&
+               h->best_dead <= HNBRDF_MAX_HIDDEN && h->set_backs >= 0 && h->set_backs <= h->step &&
+               h->set_backs <= INT_MAX && h->best_loss >= 0.0 && h->best_loss <= DBL_MAX;
     for (int m = 0; m < t->count; m++)
         good &= t->order[m] >= 0 && t->order[m] < t->count && t->cursor[m] >= 0 &&
                 t->cursor[m] < t->pool.tiles;
@@ -160,26 +160,26 @@ hnbrdf_result hnbrdf_fit_checkpoint_load(trainer *t, hnbrdf_error *error)
     const char *path = t->options.checkpoint;
     FILE *file = fopen(path, "rb");
     if (!file)
-        return hnbrdf_fail(error, HNBRDF_ERROR_IO, "%s: no checkpoint to resume from can be read there",
-                           path);
+        return hnbrdf_fail(error, HNBRDF_ERROR_IO,
+                           "%s: no checkpoint to resume from can be read there", path);
     header h;
     hnbrdf_result result = HNBRDF_OK;
     if (fread(&h, sizeof h, 1, file) != 1 || memcmp(h.magic, magic, sizeof magic))
         result = hnbrdf_fail(error, HNBRDF_ERROR_FORMAT,
                              "%s: not a checkpoint of this version of hnbrdf", path);
     else if (h.fingerprint != fingerprint(t))
-        result =
-            hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT,
-                        "%s: the checkpoint is of a fit with other data, options or seed; repeat that "
-                        "command with --resume, or start anew without it",
-                        path);
+        result = hnbrdf_fail(
+            error, HNBRDF_ERROR_ARGUMENT,
+            "%s: the checkpoint is of a fit with other data, options or seed; repeat that "
+            "command with --resume, or start anew without it",
+            path);
     else if (!transfer(t, file, 0) || fgetc(file) != EOF)
         result = hnbrdf_fail(error, HNBRDF_ERROR_FORMAT,
                              "%s: the checkpoint is damaged: its size is wrong", path);
     else if (!is_sound(t, &h))
-        result =
-            hnbrdf_fail(error, HNBRDF_ERROR_FORMAT,
-                        "%s: the checkpoint is damaged: it holds numbers that no training has", path);
+        result = hnbrdf_fail(error, HNBRDF_ERROR_FORMAT,
+                             "%s: the checkpoint is damaged: it holds numbers that no training has",
+                             path);
     fclose(file);
     if (result)
         return result;

@@ -1,4 +1,5 @@
-/* fit.c: the fit from measured data to a model: draw data, fit GGX per material, train the network. */
+/* fit.c: the fit from measured data to a model: draw data, fit GGX per material, train the
+ * network. */
 #define _POSIX_C_SOURCE 200809L
 #include "fit/trainer.h"
 
@@ -20,13 +21,15 @@ enum {
 };
 enum { ASYMMETRY_PAIRS = 4096 };
 #define RECIPROCAL 0.02 /* data whose asymmetry is less count as reciprocal */
-/* The peak rate of networks with up to RATE_UNITS hidden units in all; larger ones need less in proportion, or units
- * die early and for good (64x3 on 100 materials, 8000 steps: SMAPE 0.098 at 0.06, 0.075 at 0.02, 0.081 at 0.01). */
+/* The peak rate of networks with up to RATE_UNITS hidden units in all; larger ones need less in
+ * proportion, or units die early and for good (64x3 on 100 materials, 8000 steps: SMAPE 0.098 at
+ * 0.06, 0.075 at 0.02, 0.081 at 0.01). */
 #define DEFAULT_RATE 6e-2f
 #define RATE_UNITS 64
 #define DEFAULT_FLOOR 0.003f
 #define DEFAULT_UNIFORM_SHARE 0.5f
-#define LEAST_VALID 0.01  /* share of the directions drawn: hnbrdf_fit_pool_draw() gives up below it */
+/* share of the directions drawn: hnbrdf_fit_pool_draw() gives up below it */
+#define LEAST_VALID 0.01
 #define POOL_LIMIT 1.25e9 /* bytes of training data; beyond, fewer pairs a material */
 
 double hnbrdf_fit_seconds(void)
@@ -43,13 +46,15 @@ void hnbrdf_fit_stage_begin(trainer *t)
     t->shown = 0.0;
 }
 
-void hnbrdf_fit_tell(trainer *t, const char *stage, double done, double loss, double pairs, int always)
+void hnbrdf_fit_tell(trainer *t, const char *stage, double done, double loss, double pairs,
+                     int always)
 {
     double now = hnbrdf_fit_seconds(), elapsed = now - t->stage_started;
     if (!t->options.progress || (!always && now - t->shown < 0.1 && done < 1.0))
         return;
     t->shown = now;
-    hnbrdf_fit_progress p = {stage, done, loss, elapsed > 0.0 ? pairs / elapsed : 0.0, NAN, t->step};
+    hnbrdf_fit_progress p = {stage, done,   loss, elapsed > 0.0 ? pairs / elapsed : 0.0,
+                             NAN,   t->step};
     if (done > 0.01 || elapsed > 2.0)
         p.seconds_left = elapsed * (1.0 - done) / fmax(done, 1e-6);
     if (t->options.progress(t->options.progress_user, &p))
@@ -60,11 +65,12 @@ static void piece_done(trainer *t, const char *stage, int worker)
 {
     int done = atomic_fetch_add(&t->finished, 1) + 1;
     if (worker == 0)
-        hnbrdf_fit_tell(t, stage, (double)done / t->count, NAN, (double)done * t->pool.tiles * FIT_TILE,
-                        0);
+        hnbrdf_fit_tell(t, stage, (double)done / t->count, NAN,
+                        (double)done * t->pool.tiles * FIT_TILE, 0);
 }
 
-/* ---- Stages 1 and 2: data, GGX --------------------------------------------------------------------
+/* ---- Stages 1 and 2: data, GGX
+ * --------------------------------------------------------------------
  */
 
 static void draw_one(void *context, int material, int worker)
@@ -114,7 +120,8 @@ static void fit_one(void *context, int material, int worker)
     piece_done(t, "ggx", worker);
 }
 
-/* ---- Result ----------------------------------------------------------------------------------------
+/* ---- Result
+ * ----------------------------------------------------------------------------------------
  */
 
 /* The trained weights as desc wants them, row-major without padding, in `weights`. */
@@ -247,12 +254,13 @@ static double asymmetry(const hnbrdf_measured *measured)
     for (int k = 0; k < ASYMMETRY_PAIRS; k++) {
         float wi[3], wo[3], f[3], g[3];
         hnbrdf_sampler_draw(HNBRDF_SAMPLER_UNIFORM, &rng, wi, wo);
-        if (!hnbrdf_measured_eval(measured, wi, wo, f) || !hnbrdf_measured_eval(measured, wo, wi, g))
+        if (!hnbrdf_measured_eval(measured, wi, wo, f) ||
+            !hnbrdf_measured_eval(measured, wo, wi, g))
             continue;
         for (int c = 0; c < 3; c++)
             if (f[c] != g[c])
-                sum +=
-                    2.0 * fabs((double)f[c] - (double)g[c]) / (fabs((double)f[c]) + fabs((double)g[c]));
+                sum += 2.0 * fabs((double)f[c] - (double)g[c]) /
+                       (fabs((double)f[c]) + fabs((double)g[c]));
         used += 3;
     }
     return used ? sum / used : 0.0;
@@ -290,18 +298,20 @@ static hnbrdf_result fill_options(hnbrdf_fit_options *o, int count, hnbrdf_error
     o->steps = o->steps ? o->steps : (o->freeze ? DEFAULT_FROZEN_STEPS : DEFAULT_STEPS);
     o->batch = o->batch ? o->batch : DEFAULT_BATCH;
     if (o->pool == 0)
-        o->pool = (int)fmin(DEFAULT_POOL,
-                            POOL_LIMIT / ((double)count * FIT_POOL_TILE / FIT_TILE * sizeof(float)));
-    o->learning_rate =
-        o->learning_rate == 0.0f ? default_rate((float)o->hidden * (float)o->layers) : o->learning_rate;
-    o->uniform_share = o->uniform_share == 0.0f ? DEFAULT_UNIFORM_SHARE : fmaxf(o->uniform_share, 0.0f);
+        o->pool = (int)fmin(
+            DEFAULT_POOL, POOL_LIMIT / ((double)count * FIT_POOL_TILE / FIT_TILE * sizeof(float)));
+    o->learning_rate = o->learning_rate == 0.0f ? default_rate((float)o->hidden * (float)o->layers)
+                                                : o->learning_rate;
+    o->uniform_share =
+        o->uniform_share == 0.0f ? DEFAULT_UNIFORM_SHARE : fmaxf(o->uniform_share, 0.0f);
     if (o->hidden < 1 || o->hidden > HNBRDF_MAX_HIDDEN || o->layers < 1 ||
         o->layers > HNBRDF_MAX_LAYERS)
         return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT, "network %dx%d, expected 1x1 to %dx%d",
                            o->hidden, o->layers, HNBRDF_MAX_HIDDEN, HNBRDF_MAX_LAYERS);
     if (o->latent > HNBRDF_MAX_LATENT)
-        return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT, "latent code of %d floats, expected 0 to %d",
-                           o->latent, HNBRDF_MAX_LATENT);
+        return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT,
+                           "latent code of %d floats, expected 0 to %d", o->latent,
+                           HNBRDF_MAX_LATENT);
     if (o->steps < 1 || o->batch < 1 || o->batch > 1 << 24 || o->pool > 1 << 26 || o->threads < 0 ||
         !(o->seconds >= 0.0) || !(o->learning_rate > 0.0f && o->learning_rate <= FLT_MAX) ||
         !(o->floor < 1.0f) || !(o->uniform_share <= 1.0f) || (unsigned)o->loss > HNBRDF_FIT_SMAPE ||
@@ -310,7 +320,8 @@ static hnbrdf_result fill_options(hnbrdf_fit_options *o, int count, hnbrdf_error
         return hnbrdf_fail(
             error, HNBRDF_ERROR_ARGUMENT,
             "a fit option is out of its range: steps, batch and pool at least 1, learning "
-            "rate above 0 and finite, floor below 1, uniform share at most 1, seconds and threads not "
+            "rate above 0 and finite, floor below 1, uniform share at most 1, seconds and threads "
+            "not "
             "negative");
     if (o->resume && !o->checkpoint)
         return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT,
@@ -343,16 +354,17 @@ static int allocate(trainer *t)
     t->tile_index = calloc(tiles, sizeof(int));
     t->moments = t->parameters ? t->parameters + l->count : NULL;
     return t->pool.data && t->materials && t->isotropic && t->drawn && t->encoded && t->order &&
-           t->cursor && t->parameters && t->best && t->gradient && t->chunk_gradients && t->derived &&
-           t->scratch && t->tile_material && t->tile_index;
+           t->cursor && t->parameters && t->best && t->gradient && t->chunk_gradients &&
+           t->derived && t->scratch && t->tile_material && t->tile_index;
 }
 
 static void release(trainer *t)
 {
     hnbrdf_fit_workers_stop(t->workers);
-    void *all[] = {t->pool.data,       t->materials, t->isotropic,  t->drawn,         t->order,
-                   t->encoded,         t->cursor,    t->parameters, t->best,          t->gradient,
-                   t->chunk_gradients, t->derived,   t->scratch,    t->tile_material, t->tile_index};
+    void *all[] = {t->pool.data, t->materials,     t->isotropic,       t->drawn,
+                   t->order,     t->encoded,       t->cursor,          t->parameters,
+                   t->best,      t->gradient,      t->chunk_gradients, t->derived,
+                   t->scratch,   t->tile_material, t->tile_index};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
         free(all[i]);
 }
@@ -424,7 +436,8 @@ static hnbrdf_result run(trainer *t, hnbrdf_model **model, hnbrdf_fit_report *re
     result->times.ggx =
         hnbrdf_fit_workers_busy(t->workers) - result->times.drawing - result->times.encoding;
     if (t->stopped && t->options.kind != HNBRDF_KIND_GGX && !t->options.resume)
-        return hnbrdf_fail(error, HNBRDF_ERROR_CANCELLED, "stopped before the network's first step");
+        return hnbrdf_fail(error, HNBRDF_ERROR_CANCELLED,
+                           "stopped before the network's first step");
     hnbrdf_result status =
         t->options.kind != HNBRDF_KIND_GGX ? hnbrdf_fit_train(t, result, error) : HNBRDF_OK;
     result->stopped = t->stopped;
@@ -439,8 +452,8 @@ hnbrdf_result hnbrdf_fit(const hnbrdf_measured *const *data, int count,
     double started = hnbrdf_fit_seconds();
     hnbrdf_fit_report result_report = {.final_loss = NAN, .best_loss = NAN, .ggx_loss = NAN};
     if (count < 1 || count > HNBRDF_MAX_MATERIALS)
-        return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT, "%d materials to fit, expected 1 to %d", count,
-                           HNBRDF_MAX_MATERIALS);
+        return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT, "%d materials to fit, expected 1 to %d",
+                           count, HNBRDF_MAX_MATERIALS);
     for (int m = 0; m < count; m++)
         if (!data || !data[m])
             return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT, "material %d of %d to fit is NULL", m,
@@ -468,9 +481,10 @@ hnbrdf_result hnbrdf_fit(const hnbrdf_measured *const *data, int count,
                            t.options.floor);
     t.workers = hnbrdf_fit_workers_start(t.options.threads);
     if (!t.workers || !allocate(&t))
-        result = hnbrdf_fail(
-            error, HNBRDF_ERROR_MEMORY, "out of memory: %d materials of %d pairs need about %.0f MB",
-            count, t.options.pool, (double)count * t.pool.tiles * FIT_POOL_TILE * sizeof(float) * 1e-6);
+        result = hnbrdf_fail(error, HNBRDF_ERROR_MEMORY,
+                             "out of memory: %d materials of %d pairs need about %.0f MB", count,
+                             t.options.pool,
+                             (double)count * t.pool.tiles * FIT_POOL_TILE * sizeof(float) * 1e-6);
     else
         result = run(&t, model, &result_report, error);
     result_report.seconds = hnbrdf_fit_seconds() - started;
@@ -478,8 +492,9 @@ hnbrdf_result hnbrdf_fit(const hnbrdf_measured *const *data, int count,
     if (t.workers) {
         hnbrdf_fit_times *times = &result_report.times;
         result_report.threads = hnbrdf_fit_workers_count(t.workers);
-        times->waiting = fmax(0.0, result_report.threads * result_report.seconds - times->drawing -
-                                       times->ggx - times->encoding - times->network - times->update);
+        times->waiting =
+            fmax(0.0, result_report.threads * result_report.seconds - times->drawing - times->ggx -
+                          times->encoding - times->network - times->update);
     }
     release(&t);
     if (!result && report_out)

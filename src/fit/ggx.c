@@ -53,7 +53,8 @@ void hnbrdf_fit_ggx_material(const float *p, hnbrdf_material *material)
         material->eta[c] = hnbrdf_clamp(1.0f + expf(p[FIT_ETA + c]), 1.001f, 100.0f);
     }
     for (int a = 0; a < 2; a++)
-        material->alpha[a] = hnbrdf_clamp(expf(p[FIT_ALPHA + a]), HNBRDF_MIN_ALPHA, HNBRDF_MAX_ALPHA);
+        material->alpha[a] =
+            hnbrdf_clamp(expf(p[FIT_ALPHA + a]), HNBRDF_MIN_ALPHA, HNBRDF_MAX_ALPHA);
     /* A turn by pi is none; keep the angle in [-pi/2, pi/2]. */
     material->rotation = (float)remainder((double)p[FIT_ROTATION], 3.14159265358979);
 }
@@ -146,7 +147,8 @@ static double channel_loss(const float *reflected, const float *target, int pair
     return sum;
 }
 
-/* Moves kd and eta of every channel to the best of a grid, if that is better than where they are. */
+/* Moves kd and eta of every channel to the best of a grid, if that is better than where they are.
+ * */
 static void search_channels(const fit_pool *pool, int material, int tiles, float *p)
 {
     lobe l;
@@ -156,17 +158,18 @@ static void search_channels(const fit_pool *pool, int material, int tiles, float
         float best_kd = p[FIT_KD + c], best_eta = p[FIT_ETA + c];
         double least = INFINITY;
         for (int k = 0; k < l.pairs; k++)
-            target[k] =
-                hnbrdf_fit_pool_view(pool, material, k / FIT_TILE).target[c * FIT_TILE + k % FIT_TILE];
+            target[k] = hnbrdf_fit_pool_view(pool, material, k / FIT_TILE)
+                            .target[c * FIT_TILE + k % FIT_TILE];
         for (int e = -1; e < SEARCH_ETA; e++) { /* -1: where it is; then eta - 1 from 0.01 to 90 */
             float above = e < 0 ? p[FIT_ETA + c] : logf(0.01f) + 9.1f * (float)e / (SEARCH_ETA - 1);
             for (int k = 0; k < l.pairs; k++)
-                reflected[k] = hnbrdf_fresnel_dielectric(1.0f + expf(above), l.c[k]) * l.specular[k];
+                reflected[k] =
+                    hnbrdf_fresnel_dielectric(1.0f + expf(above), l.c[k]) * l.specular[k];
             for (int d = -1; d < SEARCH_KD; d++) { /* -1: where it is; 0; then 1e-3 to 1 */
                 float kd =
-                    d < 0
-                        ? p[FIT_KD + c]
-                        : (d == 0 ? 0.0f : expf(-6.9f * (float)(SEARCH_KD - 1 - d) / (SEARCH_KD - 2)));
+                    d < 0 ? p[FIT_KD + c]
+                          : (d == 0 ? 0.0f
+                                    : expf(-6.9f * (float)(SEARCH_KD - 1 - d) / (SEARCH_KD - 2)));
                 double loss = channel_loss(reflected, target, l.pairs, kd);
                 if (loss < least) {
                     least = loss;
@@ -234,8 +237,9 @@ static void mean_albedo(const fit_pool *pool, int material, int tiles, float mea
         double sum = 0.0;
         for (int t = 0; t < tiles; t++)
             for (int b = 0; b < FIT_TILE; b++)
-                sum += log((double)hnbrdf_fit_pool_view(pool, material, t).target[c * FIT_TILE + b] +
-                           1e-4);
+                sum +=
+                    log((double)hnbrdf_fit_pool_view(pool, material, t).target[c * FIT_TILE + b] +
+                        1e-4);
         mean[c] = 3.14159265f * (float)exp(sum / (tiles * FIT_TILE));
     }
 }
@@ -257,7 +261,8 @@ double hnbrdf_fit_ggx(const fit_kernel *kernel, const fit_pool *pool, int materi
     for (int i = 0; i < KEEP && scouted.losses[i] < INFINITY; i++) {
         float *kept = scouted.states[i];
         search_channels(pool, material, scouts, kept);
-        double loss = descend(kernel, pool, material, isotropic, refiners, REFINE_STEPS, 0.03, kept);
+        double loss =
+            descend(kernel, pool, material, isotropic, refiners, REFINE_STEPS, 0.03, kept);
         rank(&refined, loss, kept);
     }
     if (search) {

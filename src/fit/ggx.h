@@ -5,9 +5,9 @@
 #include "fit/pool.h"
 #include "hnbrdf/fit.h"
 
-/* Fits parameters[FIT_ANALYTIC] (kernel.h) to the material's tiles: Adam from several starts, the best
- * of them refined. Isotropic data tie the two alphas and keep the rotation 0. Returns the mean loss;
- * search may be NULL. */
+/* Fits parameters[FIT_ANALYTIC] (kernel.h) to the material's tiles: Adam from several starts, the
+ * best of them refined. Isotropic data tie the two alphas and keep the rotation 0. Returns the
+ * mean loss; search may be NULL. */
 double hnbrdf_fit_ggx(const fit_kernel *kernel, const fit_pool *pool, int material, int isotropic,
                       float *parameters, hnbrdf_fit_search *search);
 

@@ -1,5 +1,6 @@
-/* judge.c: whether training still leads anywhere. The best state so far is kept; a training that has
- * diverged is set back to it; what the fit returns is never clearly worse than it, nor than GGX alone.
+/* judge.c: whether training still leads anywhere. The best state so far is kept; a training that
+ * has diverged is set back to it; what the fit returns is never clearly worse than it, nor than
+ * GGX alone.
  */
 #include "fit/ggx.h"
 #include "fit/trainer.h"
@@ -7,8 +8,8 @@
 #include <math.h>
 #include <string.h>
 
-/* A judgement costs about a step: half a per cent of a long training. The first ones after a start come
- * early, because a rate that is far too large does its harm within the warm-up. */
+/* A judgement costs about a step: half a per cent of a long training. The first ones after a
+ * start come early, because a rate that is far too large does its harm within the warm-up. */
 enum { JUDGE_EVERY = 200 };
 
 /* A judgement sees a sample of pairs, so states whose losses differ by less count as equal; 1e-3 of
@@ -16,11 +17,11 @@ enum { JUDGE_EVERY = 200 };
 #define SLACK_SHARE 0.05
 #define SLACK 1e-3
 
-/* Diverged: a loss above that of the untrained start and this far above the best, or units that died
- * since the best state. In trainings at the default rate (16 built-in and 12 RGL materials, 4x1 to
- * 64x4) the loss never rose above 1.4 times the best, but for black channels, where 1e-4 is a SMAPE of
- * 1, and at most 3 % of a layer's units were dead; at 10 times that rate more than half of them die for
- * good within 200 steps, most without the loss doubling. */
+/* Diverged: a loss above that of the untrained start and this far above the best, or units that
+ * died since the best state. In trainings at the default rate (16 built-in and 12 RGL materials,
+ * 4x1 to 64x4) the loss never rose above 1.4 times the best, but for black channels, where 1e-4
+ * is a SMAPE of 1, and at most 3 % of a layer's units were dead; at 10 times that rate more than
+ * half of them die for good within 200 steps, most without the loss doubling. */
 #define FAR_FACTOR 2.0
 #define FAR_OFFSET 0.1
 #define DEAD_SHARE 0.125 /* of a layer */
@@ -36,9 +37,10 @@ static int is_due(const trainer *t)
     return since == 25 || since == 50 || since == 100 || t->step % JUDGE_EVERY == 0;
 }
 
-/* Mean loss of t->parameters over the first tiles of all materials, by what training ends with (SMAPE
- * unless the loss is the logarithm), so that all states can be compared. *dead: in the worst layer, the
- * units whose gradient was zero throughout; they are off for every pair, or nothing behind them is on.
+/* Mean loss of t->parameters over the first tiles of all materials, by what training ends with
+ * (SMAPE unless the loss is the logarithm), so that all states can be compared. *dead: in the
+ * worst layer, the units whose gradient was zero throughout; they are off for every pair, or
+ * nothing behind them is on.
  */
 static double loss_now(trainer *t, int *dead)
 {
@@ -117,7 +119,8 @@ void hnbrdf_fit_judge(trainer *t)
         keep_as_best(t, loss, dead);
 }
 
-/* The network that leaves the analytic part as it is: gates open, the correction equal to the floor. */
+/* The network that leaves the analytic part as it is: gates open, the correction equal to the
+ * floor. */
 static void leave_ggx_alone(const fit_layout *l, float *p)
 {
     const float open = 40.0f; /* sigmoid(40) is 1, and exp(-40) is nothing */
@@ -147,11 +150,12 @@ void hnbrdf_fit_judge_end(trainer *t, hnbrdf_fit_report *report)
         report->final_loss = loss = t->best_loss;
     }
     if (t->layout.kind == HNBRDF_KIND_HYBRID && !t->options.freeze) {
-        memcpy(t->best, t->parameters, bytes); /* best was its last; from here on it is the other one */
+        /* best was its last; from here on it is the other one */
+        memcpy(t->best, t->parameters, bytes);
         for (int m = 0; m < t->count && t->layout.train_analytic;
              m++) /* back from where it was trained to */
-            hnbrdf_fit_ggx_parameters(&t->materials[m],
-                                      t->parameters + t->layout.analytic + (size_t)m * FIT_ANALYTIC);
+            hnbrdf_fit_ggx_parameters(&t->materials[m], t->parameters + t->layout.analytic +
+                                                            (size_t)m * FIT_ANALYTIC);
         leave_ggx_alone(&t->layout, t->parameters);
         report->ggx_loss = loss_now(t, &dead);
         if (clearly_worse(loss, report->ggx_loss)) {

@@ -1,9 +1,10 @@
-/* kernel.c: the trainer's kernel for any machine, the layout of its parameters, and the choice among
- * instruction sets. */
+/* kernel.c: the trainer's kernel for any machine, the layout of its parameters, and the choice
+ * among instruction sets. */
 #define KERNEL_WIDTH 4
 #include "fit/kernel_float.h"
 
-const fit_kernel hnbrdf_fit_kernel_plain = {"plain", kernel_derive, kernel_network, kernel_analytic};
+const fit_kernel hnbrdf_fit_kernel_plain = {"plain", kernel_derive, kernel_network,
+                                            kernel_analytic};
 
 const fit_kernel *hnbrdf_fit_kernel_choose(void)
 {
@@ -16,8 +17,8 @@ const fit_kernel *hnbrdf_fit_kernel_choose(void)
     return &hnbrdf_fit_kernel_plain;
 }
 
-void hnbrdf_fit_layout_make(fit_layout *layout, hnbrdf_kind kind, int hidden, int layers, int latent,
-                            int materials, int train_analytic, float floor)
+void hnbrdf_fit_layout_make(fit_layout *layout, hnbrdf_kind kind, int hidden, int layers,
+                            int latent, int materials, int train_analytic, float floor)
 {
     fit_layout l = {0};
     l.kind = kind;

@@ -1,11 +1,11 @@
 /* kernel.h: forward and backward pass over one tile of pairs, the arithmetic of the trainer.
  *
- * A tile is FIT_TILE direction pairs of one material. Parameters lie in one flat array (layout below),
- * gradients in another of the same layout, so that a step of Adam is one loop. Hidden layers are padded
- * to a multiple of FIT_LANES units; padding is zero and stays zero.
+ * A tile is FIT_TILE direction pairs of one material. Parameters lie in one flat array (layout
+ * below), gradients in another of the same layout, so that a step of Adam is one loop. Hidden
+ * layers are padded to a multiple of FIT_LANES units; padding is zero and stays zero.
  *
- * Every sum has one fixed order whatever the vector width: over inputs in index order, over pairs in
- * index order, so all instruction sets give the same bits. */
+ * Every sum has one fixed order whatever the vector width: over inputs in index order, over pairs
+ * in index order, so all instruction sets give the same bits. */
 #ifndef HNBRDF_FIT_KERNEL_H
 #define HNBRDF_FIT_KERNEL_H
 
@@ -17,7 +17,8 @@ enum { FIT_TILE = 64, FIT_LANES = 16, FIT_INPUTS = 6 };
  * rotation. */
 enum { FIT_KD = 0, FIT_ETA = 3, FIT_ALPHA = 6, FIT_ROTATION = 8, FIT_ANALYTIC = 9 };
 
-/* Layout of the flat arrays, in numbers (not bytes); all offsets are multiples of FIT_LANES but those
+/* Layout of the flat arrays, in numbers (not bytes); all offsets are multiples of FIT_LANES but
+ * those
  * of single materials. first    [6][padded]          layer 0, directions:  transposed, input-major
  *   latent   [l][padded]          layer 0, latent code: transposed
  *   bias[0]  [padded]
@@ -30,46 +31,50 @@ typedef struct fit_layout {
     int latent_size, hidden_size, padded, layers, outputs, materials;
     int train_analytic; /* 1: the gradient of the analytic part is wanted */
     float floor;
-    size_t first, latent, bias[HNBRDF_MAX_LAYERS + 1], hidden[HNBRDF_MAX_LAYERS], last, codes, analytic;
+    size_t first, latent, bias[HNBRDF_MAX_LAYERS + 1], hidden[HNBRDF_MAX_LAYERS], last, codes,
+        analytic;
     size_t network_count; /* numbers before codes: all shared by the materials */
     size_t count;
     size_t derived_count; /* numbers of the derived array, see fit_kernel.derive */
     size_t scratch_count; /* numbers of scratch one thread needs */
 } fit_layout;
 
-void hnbrdf_fit_layout_make(fit_layout *layout, hnbrdf_kind kind, int hidden, int layers, int latent,
-                            int materials, int train_analytic, float floor);
+void hnbrdf_fit_layout_make(fit_layout *layout, hnbrdf_kind kind, int hidden, int layers,
+                            int latent, int materials, int train_analytic, float floor);
 
-/* Where the weight from `input` to `output` of layer k lies, both counted as in a model: the inputs of
- * layer 0 are the six encoded directions, then the latent code, whose rows follow on. */
+/* Where the weight from `input` to `output` of layer k lies, both counted as in a model: the
+ * inputs of layer 0 are the six encoded directions, then the latent code, whose rows follow on. */
 size_t hnbrdf_fit_weight_at(const fit_layout *layout, int k, int output, int input);
 void hnbrdf_fit_layer_size(const fit_layout *layout, int k, int *outputs, int *inputs);
 
-/* One tile of training data, all float: x [FIT_TILE][6] encoded; analytic [3][FIT_TILE] f_a where the
- * analytic part is frozen; wi and wo [3][FIT_TILE] in the shading frame where it is trained; target
- * [3][FIT_TILE] the measured f. Pointers that are not needed may be NULL. */
+/* One tile of training data, all float: x [FIT_TILE][6] encoded; analytic [3][FIT_TILE] f_a where
+ * the analytic part is frozen; wi and wo [3][FIT_TILE] in the shading frame where it is trained;
+ * target [3][FIT_TILE] the measured f. Pointers that are not needed may be NULL. */
 typedef struct fit_tile {
     const float *x, *analytic, *wi, *wo, *target;
 } fit_tile;
 
 /* Loss per channel of value f against target F, f = max(0, u) with u the unclipped value:
  *   (1 - mix) |ln((f + 1e-3)/(F + 1e-3))| + mix 2 |f - F| / (f + F + 1e-4).
- * The gradient is passed to u unchanged, so a clipped value below a positive target is pulled up. */
+ * The gradient is passed to u unchanged, so a clipped value below a positive target is pulled up.
+ */
 #define FIT_LOG_OFFSET 1e-3
 #define FIT_SMAPE_OFFSET 1e-4
-/* Values and targets end here: their squares must be floats. At the roughness floor of 1e-4 GGX itself
- * stays below 1/(pi alpha^2) / (4 cos cos) = 8e10 where the samplers draw. */
+/* Values and targets end here: their squares must be floats. At the roughness floor of 1e-4 GGX
+ * itself stays below 1/(pi alpha^2) / (4 cos cos) = 8e10 where the samplers draw. */
 #define FIT_MOST 1e15f
 
-/* The kernels of one instruction set. loss returned is the sum over the tile's pairs and channels; the
- * gradient of that sum is added to gradient. */
+/* The kernels of one instruction set. loss returned is the sum over the tile's pairs and
+ * channels; the gradient of that sum is added to gradient. */
 typedef struct fit_kernel {
     const char *name;
     /* Layouts of the weights that the backward pass wants, once a step. */
     void (*derive)(const fit_layout *layout, const float *parameters, float *derived);
     double (*network)(const fit_layout *layout, const float *parameters, const float *derived,
-                      const fit_tile *tile, int material, float mix, float *scratch, float *gradient);
-    /* The analytic part alone, wi, wo and target of the tile; parameters and gradient [FIT_ANALYTIC].
+                      const fit_tile *tile, int material, float mix, float *scratch,
+                      float *gradient);
+    /* The analytic part alone, wi, wo and target of the tile; parameters and gradient
+     * [FIT_ANALYTIC].
      */
     double (*analytic)(const float *parameters, const fit_tile *tile, float mix, float *scratch,
                        float *gradient);

@@ -37,7 +37,8 @@ static void product(const REAL *restrict x, int x_stride, int depth, const REAL 
 /* One block of outer(): `rows` of g from row k on, a constant where this is inlined. */
 static inline __attribute__((always_inline)) void outer_block(const REAL *restrict a, int a_stride,
                                                               const REAL *restrict y, int y_stride,
-                                                              REAL *restrict g, int columns, int rows)
+                                                              REAL *restrict g, int columns,
+                                                              int rows)
 {
     vector sums[KERNEL_ROWS];
     memset(sums, 0, sizeof sums);
@@ -50,15 +51,16 @@ static inline __attribute__((always_inline)) void outer_block(const REAL *restri
         *(vector *)(g + r * columns) += sums[r];
 }
 
-/* g[k][u] += sum over b of a[b][k] y[b][u], k < rows, u < columns (a multiple of FIT_LANES). What is
- * left of whole blocks is mostly 6, the inputs or outputs of a network. */
-static void outer(const REAL *restrict a, int a_stride, int rows, const REAL *restrict y, int y_stride,
-                  int columns, REAL *restrict g)
+/* g[k][u] += sum over b of a[b][k] y[b][u], k < rows, u < columns (a multiple of FIT_LANES). What
+ * is left of whole blocks is mostly 6, the inputs or outputs of a network. */
+static void outer(const REAL *restrict a, int a_stride, int rows, const REAL *restrict y,
+                  int y_stride, int columns, REAL *restrict g)
 {
     for (int u = 0; u < columns; u += KERNEL_WIDTH) {
         int k = 0;
         for (; k + KERNEL_ROWS <= rows; k += KERNEL_ROWS)
-            outer_block(a + k, a_stride, y + u, y_stride, g + k * columns + u, columns, KERNEL_ROWS);
+            outer_block(a + k, a_stride, y + u, y_stride, g + k * columns + u, columns,
+                        KERNEL_ROWS);
         for (; k + 6 <= rows; k += 6)
             outer_block(a + k, a_stride, y + u, y_stride, g + k * columns + u, columns, 6);
         for (; k + 3 <= rows; k += 3)
@@ -125,14 +127,15 @@ static double channel_loss(const REAL *restrict u, const float *restrict target,
         REAL difference = f - t;
         REAL sign = difference > 0 ? (REAL)1 : (difference < 0 ? (REAL)-1 : (REAL)0);
         REAL sum = f + t + e2;
-        loss[b] =
-            (1 - mix) * (sign * REAL_LOG((f + e1) / (t + e1))) + mix * (2 * (sign * difference) / sum);
+        loss[b] = (1 - mix) * (sign * REAL_LOG((f + e1) / (t + e1))) +
+                  mix * (2 * (sign * difference) / sum);
         slope[b] = sign * ((1 - mix) / (f + e1) + mix * (2 * (2 * t + e2) / (sum * sum)));
     }
     return (double)tile_sum(loss);
 }
 
-/* ---- The analytic part ------------------------------------------------------------------------- */
+/* ---- The analytic part
+ * ------------------------------------------------------------------------- */
 
 /* What the backward pass needs of one tile. */
 typedef struct analytic_cache {
@@ -230,7 +233,8 @@ static double kernel_analytic(const REAL *parameters, const fit_tile *tile, REAL
     return loss;
 }
 
-/* ---- The network ------------------------------------------------------------------------------- */
+/* ---- The network
+ * ------------------------------------------------------------------------------- */
 
 /* derived: for k = 1 .. N-1 the hidden matrices output-major [padded][padded]; then the last one
  * input-major [padded][FIT_LANES], its unused columns 0. */
@@ -247,9 +251,10 @@ static void kernel_derive(const fit_layout *l, const REAL *parameters, REAL *der
                 o < l->outputs ? parameters[l->last + (size_t)(o * n + i)] : (REAL)0;
 }
 
-/* exp(x) and, where x is beyond what exp can take, 0 for its slope; x is `sign` times a column of the
- * network's outputs. Two loops: one would branch, which does not vectorise. */
-static void bounded_exp(const REAL *restrict out, REAL sign, REAL *restrict e, REAL *restrict inside)
+/* exp(x) and, where x is beyond what exp can take, 0 for its slope; x is `sign` times a column of
+ * the network's outputs. Two loops: one would branch, which does not vectorise. */
+static void bounded_exp(const REAL *restrict out, REAL sign, REAL *restrict e,
+                        REAL *restrict inside)
 {
     const REAL limit = 40;
     REAL x[FIT_TILE];
@@ -262,7 +267,8 @@ static void bounded_exp(const REAL *restrict out, REAL sign, REAL *restrict e, R
         e[b] = REAL_EXP_INSIDE(x[b]);
 }
 
-/* Values, loss and the derivative of the loss by the network's outputs (and by f_a, into by_analytic).
+/* Values, loss and the derivative of the loss by the network's outputs (and by f_a, into
+ * by_analytic).
  */
 static double compose_loss(const fit_layout *l, const REAL *out, const fit_tile *tile,
                            REAL analytic[3][FIT_TILE], REAL mix, REAL *by_out,
@@ -286,7 +292,8 @@ static double compose_loss(const fit_layout *l, const REAL *out, const fit_tile 
             by_out[b * FIT_LANES + k] = slope[b] * e[b] * inside[b];
         if (hybrid)
             for (int b = 0; b < FIT_TILE; b++) {
-                by_out[b * FIT_LANES + k + 3] = slope[b] * analytic[k][b] * (gate[b] * (1 - gate[b]));
+                by_out[b * FIT_LANES + k + 3] =
+                    slope[b] * analytic[k][b] * (gate[b] * (1 - gate[b]));
                 by_analytic[k][b] = slope[b] * gate[b];
             }
     }
@@ -338,7 +345,8 @@ static double kernel_network(const fit_layout *l, const REAL *parameters, const 
         analytic_backward(&cache, by_analytic, gradient + own);
 
     /* Backward: back holds the derivative by the pre-activation of the layer at hand. */
-    outer(by_out, FIT_LANES, l->outputs, activation + (l->layers - 1) * area, n, n, gradient + l->last);
+    outer(by_out, FIT_LANES, l->outputs, activation + (l->layers - 1) * area, n, n,
+          gradient + l->last);
     REAL sums[HNBRDF_MAX_HIDDEN];
     column_sums(by_out, FIT_LANES, FIT_LANES, sums);
     for (int o = 0; o < l->outputs; o++)

@@ -1,5 +1,5 @@
-/* kernel_float.h: kernel_body.h in float, with the exp and log of core/math.h: they vectorise, and give
- * the same bits everywhere. */
+/* kernel_float.h: kernel_body.h in float, with the exp and log of core/math.h: they vectorise,
+ * and give the same bits everywhere. */
 #include "core/math.h"
 
 #define REAL float

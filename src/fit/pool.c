@@ -28,8 +28,8 @@ int hnbrdf_fit_pool_draw(const fit_pool *pool, int material, const hnbrdf_measur
         float *tile = hnbrdf_fit_pool_tile(pool, material, (int)(k / FIT_TILE));
         size_t b = (size_t)(k % FIT_TILE);
         float wi[3], wo[3], f[3];
-        int is_uniform =
-            floor((double)uniform_share * (double)(k + 1)) > floor((double)uniform_share * (double)k);
+        int is_uniform = floor((double)uniform_share * (double)(k + 1)) >
+                         floor((double)uniform_share * (double)k);
         do {
             if (draws == 100 * pairs) {
                 drawn->valid = (double)k / (double)draws;

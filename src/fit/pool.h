@@ -1,5 +1,5 @@
-/* pool.h: the training data, drawn once: for every material a number of tiles of random pairs with the
- * measured value, some of them from the grid sampler and some uniform. */
+/* pool.h: the training data, drawn once: for every material a number of tiles of random pairs
+ * with the measured value, some of them from the grid sampler and some uniform. */
 #ifndef HNBRDF_FIT_POOL_H
 #define HNBRDF_FIT_POOL_H
 
@@ -19,9 +19,9 @@ float *hnbrdf_fit_pool_tile(const fit_pool *pool, int material, int tile);
 /* The same, as the kernels see it. */
 fit_tile hnbrdf_fit_pool_view(const fit_pool *pool, int material, int tile);
 
-/* Draw all tiles of one material, uniform_share of the pairs by the uniform sampler; depends on (seed,
- * material) only. 0 if less than 1 % of the drawn pairs were valid measurements, 1 otherwise. drawn
- * says what was found. */
+/* Draw all tiles of one material, uniform_share of the pairs by the uniform sampler; depends on
+ * (seed, material) only. 0 if less than 1 % of the drawn pairs were valid measurements, 1
+ * otherwise. drawn says what was found. */
 int hnbrdf_fit_pool_draw(const fit_pool *pool, int material, const hnbrdf_measured *measured,
                          float uniform_share, uint64_t seed, hnbrdf_fit_drawn *drawn);
 

@@ -48,7 +48,8 @@ static void initialise(trainer *t)
         p[l->codes + i] = uniform(&rng, 0.5);
 }
 
-/* ---- A frozen network ------------------------------------------------------------------------------
+/* ---- A frozen network
+ * ------------------------------------------------------------------------------
  */
 
 /* The weights of options.freeze into the flat array. */
@@ -104,7 +105,8 @@ static void take_codes(trainer *t)
     }
 }
 
-/* ---- Steps -----------------------------------------------------------------------------------------
+/* ---- Steps
+ * -----------------------------------------------------------------------------------------
  */
 
 /* Choose the tiles of a step: materials in shuffled rounds, each material's tiles in turn. */
@@ -135,9 +137,9 @@ static void chunk(void *context, int index, int worker)
     double loss = 0.0;
     for (int k = index * each; k < (index + 1) * each; k++) {
         fit_tile tile = hnbrdf_fit_pool_view(&t->pool, t->tile_material[k], t->tile_index[k]);
-        loss +=
-            t->kernel->network(&t->layout, t->parameters, t->derived, &tile, t->tile_material[k],
-                               t->mix, t->scratch + (size_t)worker * t->layout.scratch_count, gradient);
+        loss += t->kernel->network(&t->layout, t->parameters, t->derived, &tile,
+                                   t->tile_material[k], t->mix,
+                                   t->scratch + (size_t)worker * t->layout.scratch_count, gradient);
     }
     t->chunk_losses[index] = loss;
 }
@@ -199,8 +201,8 @@ static float mix_now(const trainer *t)
     return t->options.loss == HNBRDF_FIT_SMAPE ? 1.0f : 0.0f;
 }
 
-/* One step of Adam. It leaves finite numbers: Adam passes over gradients beyond 1e18, so its moments
- * are floats. */
+/* One step of Adam. It leaves finite numbers: Adam passes over gradients beyond 1e18, so its
+ * moments are floats. */
 static void advance(trainer *t, double loss)
 {
     hnbrdf_fit_adam(t->parameters, t->gradient, t->moments, t->layout.count, t->step - t->since,
@@ -241,7 +243,8 @@ static double flops_a_pair(const fit_layout *l)
 hnbrdf_result hnbrdf_fit_train(trainer *t, hnbrdf_fit_report *report, hnbrdf_error *error)
 {
     const double busy_before = hnbrdf_fit_workers_busy(t->workers);
-    const double alone_before = hnbrdf_fit_thread_seconds() - hnbrdf_fit_workers_busy_here(t->workers);
+    const double alone_before =
+        hnbrdf_fit_thread_seconds() - hnbrdf_fit_workers_busy_here(t->workers);
     hnbrdf_result result = start(t, error);
     if (result)
         return result;
@@ -259,7 +262,8 @@ hnbrdf_result hnbrdf_fit_train(trainer *t, hnbrdf_fit_report *report, hnbrdf_err
         t->share = t->options.seconds > 0.0
                        ? share_before + (now - t->stage_started) / t->options.seconds
                        : (double)t->step / (double)t->options.steps;
-        hnbrdf_fit_tell(t, "network", fmin(t->share, 1.0), t->running, pairs, t->step % LOG_EVERY == 0);
+        hnbrdf_fit_tell(t, "network", fmin(t->share, 1.0), t->running, pairs,
+                        t->step % LOG_EVERY == 0);
         if (t->options.checkpoint && t->share < 1.0 &&
             (t->stopped || now - saved > CHECKPOINT_SECONDS)) {
             if ((result = hnbrdf_fit_checkpoint_save(t, error)))

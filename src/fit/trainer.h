@@ -1,5 +1,5 @@
-/* trainer.h: a fit under way, shared by its stages (fit.c), the training of the network (train.c) and
- * checkpoints (checkpoint.c). */
+/* trainer.h: a fit under way, shared by its stages (fit.c), the training of the network (train.c)
+ * and checkpoints (checkpoint.c). */
 #ifndef HNBRDF_FIT_TRAINER_H
 #define HNBRDF_FIT_TRAINER_H
 
@@ -9,7 +9,8 @@
 
 #include <stdatomic.h>
 
-enum { FIT_CHUNKS = 16 }; /* gradients are summed in this many pieces, whatever the number of threads */
+/* gradients are summed in this many pieces, whatever the number of threads */
+enum { FIT_CHUNKS = 16 };
 
 typedef struct trainer {
     const hnbrdf_measured *const *data;
@@ -19,12 +20,13 @@ typedef struct trainer {
     const fit_kernel *kernel;
     fit_workers *workers;
     fit_pool pool;
-    hnbrdf_material *materials;             /* [count], from the GGX stage */
-    int *isotropic;                         /* [count] */
-    hnbrdf_fit_drawn *drawn;                /* [count] */
-    double *encoded;                        /* [count] processor seconds of encoding */
-    float *parameters, *moments, *gradient; /* [layout.count], twice for the moments, which follow on */
-    float *best;                            /* parameters of the best state so far */
+    hnbrdf_material *materials; /* [count], from the GGX stage */
+    int *isotropic;             /* [count] */
+    hnbrdf_fit_drawn *drawn;    /* [count] */
+    double *encoded;            /* [count] processor seconds of encoding */
+    /* [layout.count], twice for the moments, which follow on */
+    float *parameters, *moments, *gradient;
+    float *best; /* parameters of the best state so far */
     float *derived, *chunk_gradients, *scratch;
     double chunk_losses[FIT_CHUNKS];
     int *tile_material, *tile_index; /* [tiles a step] */
@@ -49,22 +51,24 @@ typedef struct trainer {
 double hnbrdf_fit_seconds(void);
 /* A stage starts: its clock and its count of finished pieces. */
 void hnbrdf_fit_stage_begin(trainer *t);
-/* Tell the caller how far a stage is, from the calling thread only; at most ten times a second unless
- * `always`. pairs is how many were handled since the stage began. */
-void hnbrdf_fit_tell(trainer *t, const char *stage, double done, double loss, double pairs, int always);
+/* Tell the caller how far a stage is, from the calling thread only; at most ten times a second
+ * unless `always`. pairs is how many were handled since the stage began. */
+void hnbrdf_fit_tell(trainer *t, const char *stage, double done, double loss, double pairs,
+                     int always);
 
 /* Loss and gradient of the mean over the pairs of tile_material and tile_index (train.c). */
 double hnbrdf_fit_step_gradient(trainer *t);
 
-/* judge.c: the start is the best state so far; a step was made, look at it if it is time; go back to
- * the best state at a lower rate; leave the best state there is in parameters, and say which. All but
- * set_back leave the choice of tiles, mix and gradient changed. */
+/* judge.c: the start is the best state so far; a step was made, look at it if it is time; go back
+ * to the best state at a lower rate; leave the best state there is in parameters, and say which.
+ * All but set_back leave the choice of tiles, mix and gradient changed. */
 void hnbrdf_fit_judge_start(trainer *t);
 void hnbrdf_fit_judge(trainer *t);
 void hnbrdf_fit_set_back(trainer *t);
 void hnbrdf_fit_judge_end(trainer *t, hnbrdf_fit_report *report);
 
-/* The network stage, from a fresh start or from a checkpoint. Fills steps, rate and loss of the report.
+/* The network stage, from a fresh start or from a checkpoint. Fills steps, rate and loss of the
+ * report.
  */
 hnbrdf_result hnbrdf_fit_train(trainer *t, hnbrdf_fit_report *report, hnbrdf_error *error);
 

@@ -12,8 +12,8 @@ typedef void (*fit_work_fn)(void *context, int index, int worker);
 /* threads 0 stands for one a core. NULL when memory or threads cannot be had. */
 fit_workers *hnbrdf_fit_workers_start(int threads);
 int hnbrdf_fit_workers_count(const fit_workers *workers);
-/* Processor seconds spent in work so far, of all threads together and of the calling thread alone; not
- * while they run. */
+/* Processor seconds spent in work so far, of all threads together and of the calling thread
+ * alone; not while they run. */
 double hnbrdf_fit_workers_busy(const fit_workers *workers);
 double hnbrdf_fit_workers_busy_here(const fit_workers *workers);
 /* Processor seconds of the calling thread: what it worked, whatever else the machine did. */

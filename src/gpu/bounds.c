@@ -1,10 +1,10 @@
-/* bounds.c: the BRDF evaluated once more, every number with a bound on the distance between device and
- * C.
+/* bounds.c: the BRDF evaluated once more, every number with a bound on the distance between
+ * device and C.
  *
- * Both round: a device result is (a' o b')(1 + d) + t with |d| and |t| from the rules and a', b' the
- * device's operands; C's is (a o b)(1 + d) with |d| <= 2^-24. What the operands differ by is carried
- * through the operation exactly, |a' o b' - a o b|, to first and second order. Where operands are equal
- * and the rules say that the device repeats C's bits, the difference is 0. */
+ * Both round: a device result is (a' o b')(1 + d) + t with |d| and |t| from the rules and a', b'
+ * the device's operands; C's is (a o b)(1 + d) with |d| <= 2^-24. What the operands differ by is
+ * carried through the operation exactly, |a' o b' - a o b|, to first and second order. Where
+ * operands are equal and the rules say that the device repeats C's bits, the difference is 0. */
 #include "gpu/bounds.h"
 
 #include "core/compose.h"
@@ -71,8 +71,10 @@ HNBRDF_DIVIDES_AS_IEEE
 static num divide(const gpu_rules *rules, num a, num b)
 {
     double size_a = fabs((double)a.v), size_b = fabs((double)b.v), least_b = size_b - b.e;
-    double spread = a.e == 0.0 && b.e == 0.0 ? 0.0 : (size_a * b.e + size_b * a.e) / (size_b * least_b);
-    /* Vulkan promises nothing for divisors outside of this range, nor the formula if b' can be 0. */
+    double spread =
+        a.e == 0.0 && b.e == 0.0 ? 0.0 : (size_a * b.e + size_b * a.e) / (size_b * least_b);
+    /* Vulkan promises nothing for divisors outside of this range, nor the formula if b' can be 0.
+     * */
     if ((!rules->repeats_divide || b.e > 0.0) && !(least_b >= 0x1p-126 && size_b + b.e <= 0x1p126))
         spread = (double)INFINITY;
     return result_of(a.v / b.v, spread, rules->divide, rules->repeats_divide, rules->tiny);
@@ -183,7 +185,8 @@ static num fresnel_dielectric(const gpu_rules *k, num eta, num c)
     num sum = add(k, root(k, add(k, e, multiply(k, c, c))), c);
     num difference = divide(k, e, sum);
     num a = divide(k, difference, sum);
-    num b = divide(k, subtract(k, multiply(k, c, sum), one), add(k, multiply(k, c, difference), one));
+    num b =
+        divide(k, subtract(k, multiply(k, c, sum), one), add(k, multiply(k, c, difference), one));
     return multiply(k, multiply(k, same(0.5f), multiply(k, a, a)), add(k, one, multiply(k, b, b)));
 }
 
@@ -214,7 +217,8 @@ static void encode_half_difference(const gpu_rules *k, const pair *p, num x[HNBR
 }
 
 /* a, b: the cosines of incidence in the order of the encoding. */
-static void encode_angles(const gpu_rules *k, const pair *p, num a, num b, num x[HNBRDF_ENCODING_SIZE])
+static void encode_angles(const gpu_rules *k, const pair *p, num a, num b,
+                          num x[HNBRDF_ENCODING_SIZE])
 {
     num r2 = add(k, multiply(k, p->s[0], p->s[0]), multiply(k, p->s[1], p->s[1]));
     num d2 = dot3(k, subtract(k, p->wi[0], p->wo[0]), subtract(k, p->wi[1], p->wo[1]),
@@ -281,14 +285,16 @@ static void add_products(row_sum *sum, const float *w, const num *a, int count)
 }
 
 /* n products and a bias, summed in any order with or without contraction, err by at most
- * n u / (1 - n u) times the sum of sizes (Higham 2002, 3.1), here n + 1 roundings; on both sides. */
+ * n u / (1 - n u) times the sum of sizes (Higham 2002, 3.1), here n + 1 roundings; on both sides.
+ */
 static num finish_row(const gpu_rules *rules, const row_sum *sum, int terms)
 {
     num r = {sum->v, sum->spread};
     if (!(sum->spread == 0.0 && rules->repeats_basic && !(rules->tiny > 0.0 && sum->flushes))) {
         double roundings = (terms + 1) * SLACK;
         double device = roundings * rules->basic * (sum->size + sum->spread);
-        r.e = (sum->spread + device + roundings * HALF_ULP * sum->size) * SLACK + terms * rules->tiny;
+        r.e =
+            (sum->spread + device + roundings * HALF_ULP * sum->size) * SLACK + terms * rules->tiny;
     }
     if (!(r.e >= 0.0) || !isfinite(r.v))
         r.e = (double)INFINITY;

@@ -1,4 +1,5 @@
-/* bounds.h: how far a device may be from C, derived pair by pair (running forward error analysis). */
+/* bounds.h: how far a device may be from C, derived pair by pair (running forward error
+ * analysis). */
 #ifndef HNBRDF_GPU_BOUNDS_H
 #define HNBRDF_GPU_BOUNDS_H
 
@@ -19,8 +20,8 @@ typedef struct gpu_bounds {
     gpu_tracked value[3];
 } gpu_bounds;
 
-/* Directions above the horizon; the values v are, bit by bit, those of the C library, or, if the shader
- * is in half precision, of half.h. Entries that the kind of model does not have are 0. */
+/* Directions above the horizon; the values v are, bit by bit, those of the C library, or, if the
+ * shader is in half precision, of half.h. Entries that the kind of model does not have are 0. */
 void gpu_bounds_make(const gpu_rules *rules, const hnbrdf_model_desc *desc,
                      hnbrdf_glsl_precision precision, const hnbrdf_material *material,
                      const float wi[3], const float wo[3], gpu_bounds *bounds);

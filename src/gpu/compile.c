@@ -86,8 +86,9 @@ static hnbrdf_result write_in(const workplace *place, const char *name, const ch
     int written = file && fwrite(text, 1, length, file) == length;
     if (file && fclose(file) != 0)
         written = 0;
-    return written ? HNBRDF_OK
-                   : hnbrdf_fail(error, HNBRDF_ERROR_IO, "%s: cannot write: %s", path, strerror(errno));
+    return written
+               ? HNBRDF_OK
+               : hnbrdf_fail(error, HNBRDF_ERROR_IO, "%s: cannot write: %s", path, strerror(errno));
 }
 
 /* The whole file, NUL-terminated; NULL if it cannot be read. */
@@ -136,8 +137,8 @@ static int run_compiler(const workplace *place, const char *const *defines)
     posix_spawn_file_actions_t actions;
     if (posix_spawn_file_actions_init(&actions) != 0)
         return EXIT_NOT_FOUND;
-    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, messages, O_WRONLY | O_CREAT | O_TRUNC,
-                                     0600);
+    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, messages,
+                                     O_WRONLY | O_CREAT | O_TRUNC, 0600);
     posix_spawn_file_actions_adddup2(&actions, STDOUT_FILENO, STDERR_FILENO);
     pid_t child;
     int status = 0, failed = posix_spawnp(&child, COMPILER, &actions, NULL, arguments, environ);

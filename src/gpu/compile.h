@@ -1,4 +1,5 @@
-/* compile.h: GLSL to SPIR-V by the reference compiler, glslangValidator, as a program of its own. */
+/* compile.h: GLSL to SPIR-V by the reference compiler, glslangValidator, as a program of its own.
+ * */
 #ifndef HNBRDF_GPU_COMPILE_H
 #define HNBRDF_GPU_COMPILE_H
 
@@ -11,7 +12,8 @@ typedef struct gpu_include {
     const char *name, *text;
 } gpu_include;
 
-/* A text that grows by gpu_text_append(), which is an hnbrdf_write_fn. Zero-initialise; free bytes. */
+/* A text that grows by gpu_text_append(), which is an hnbrdf_write_fn. Zero-initialise; free
+ * bytes. */
 typedef struct gpu_text {
     char *bytes; /* ends in a NUL that size does not count; NULL while empty */
     size_t size, room;

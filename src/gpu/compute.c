@@ -26,15 +26,17 @@ static hnbrdf_result begin(const gpu_device *device, VkCommandBuffer *commands, 
 static hnbrdf_result end(const gpu_device *device, VkCommandBuffer commands, hnbrdf_error *error)
 {
     VkFenceCreateInfo info = {.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
-    VkSubmitInfo submit = {
-        .sType = VK_STRUCTURE_TYPE_SUBMIT_INFO, .commandBufferCount = 1, .pCommandBuffers = &commands};
+    VkSubmitInfo submit = {.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO,
+                           .commandBufferCount = 1,
+                           .pCommandBuffers = &commands};
     VkFence fence = VK_NULL_HANDLE;
     hnbrdf_result result = gpu_check(vkEndCommandBuffer(commands), "recording", error);
     if (!result)
-        result =
-            gpu_check(vkCreateFence(device->handle, &info, NULL, &fence), "creating a fence", error);
+        result = gpu_check(vkCreateFence(device->handle, &info, NULL, &fence), "creating a fence",
+                           error);
     if (!result)
-        result = gpu_check(vkQueueSubmit(device->queue, 1, &submit, fence), "submitting work", error);
+        result =
+            gpu_check(vkQueueSubmit(device->queue, 1, &submit, fence), "submitting work", error);
     if (!result)
         result = gpu_check(vkWaitForFences(device->handle, 1, &fence, VK_TRUE, UINT64_MAX),
                            "waiting for the device", error);
@@ -53,7 +55,8 @@ static void barrier(VkCommandBuffer commands, VkPipelineStageFlags from, VkAcces
 
 /* ---- Buffers --------------------------------------------------------------------------------- */
 
-/* A memory type among `types` with all of `needed`, with `wished` too if there is one; -1 if none. */
+/* A memory type among `types` with all of `needed`, with `wished` too if there is one; -1 if
+ * none. */
 static int memory_type(const gpu_device *device, uint32_t types, VkMemoryPropertyFlags needed,
                        VkMemoryPropertyFlags wished)
 {
@@ -68,8 +71,8 @@ static int memory_type(const gpu_device *device, uint32_t types, VkMemoryPropert
 
 static hnbrdf_result make_buffer(const gpu_device *device, size_t size, VkBufferUsageFlags usage,
                                  VkMemoryPropertyFlags needed, VkMemoryPropertyFlags wished,
-                                 VkBuffer *buffer, VkDeviceMemory *memory, VkMemoryPropertyFlags *flags,
-                                 hnbrdf_error *error)
+                                 VkBuffer *buffer, VkDeviceMemory *memory,
+                                 VkMemoryPropertyFlags *flags, hnbrdf_error *error)
 {
     VkBufferCreateInfo info = {.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO,
                                .size = size,
@@ -88,15 +91,17 @@ static hnbrdf_result make_buffer(const gpu_device *device, size_t size, VkBuffer
     VkMemoryAllocateInfo allocate = {.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO,
                                      .allocationSize = required.size,
                                      .memoryTypeIndex = (uint32_t)type};
-    result = gpu_check(vkAllocateMemory(device->handle, &allocate, NULL, memory), "allocating memory",
-                       error);
+    result = gpu_check(vkAllocateMemory(device->handle, &allocate, NULL, memory),
+                       "allocating memory", error);
     if (result)
         return result;
-    return gpu_check(vkBindBufferMemory(device->handle, *buffer, *memory, 0), "binding memory", error);
+    return gpu_check(vkBindBufferMemory(device->handle, *buffer, *memory, 0), "binding memory",
+                     error);
 }
 
-/* Host-visible, coherent and cached at once is what software and integrated devices offer; elsewhere
- * (discrete ones, even with a window onto their memory, are slow to read) a copy stands between. */
+/* Host-visible, coherent and cached at once is what software and integrated devices offer;
+ * elsewhere (discrete ones, even with a window onto their memory, are slow to read) a copy stands
+ * between. */
 static hnbrdf_result open_buffer(const gpu_device *device, VkDescriptorType type, size_t size,
                                  gpu_buffer *buffer, hnbrdf_error *error)
 {
@@ -112,8 +117,9 @@ static hnbrdf_result open_buffer(const gpu_device *device, VkDescriptorType type
     memset(buffer, 0, sizeof *buffer);
     buffer->type = type;
     buffer->size = size;
-    hnbrdf_result result = make_buffer(device, size, use | copies, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT,
-                                       direct, &buffer->handle, &buffer->memory, &flags, error);
+    hnbrdf_result result =
+        make_buffer(device, size, use | copies, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, direct,
+                    &buffer->handle, &buffer->memory, &flags, error);
     VkDeviceMemory mapped = buffer->memory;
     if (!result && (flags & direct) != direct) {
         result = make_buffer(device, size, copies, visible, VK_MEMORY_PROPERTY_HOST_CACHED_BIT,
@@ -121,8 +127,9 @@ static hnbrdf_result open_buffer(const gpu_device *device, VkDescriptorType type
         mapped = buffer->staging_memory;
     }
     if (!result)
-        result = gpu_check(vkMapMemory(device->handle, mapped, 0, VK_WHOLE_SIZE, 0, &buffer->mapped),
-                           "mapping memory", error);
+        result =
+            gpu_check(vkMapMemory(device->handle, mapped, 0, VK_WHOLE_SIZE, 0, &buffer->mapped),
+                      "mapping memory", error);
     if (result)
         gpu_buffer_close(device, buffer);
     return result;
@@ -157,8 +164,8 @@ static hnbrdf_result copy(const gpu_device *device, VkBuffer from, VkBuffer to, 
     return end(device, commands, error);
 }
 
-hnbrdf_result gpu_upload(const gpu_device *device, gpu_buffer *buffer, const void *data, size_t size,
-                         hnbrdf_error *error)
+hnbrdf_result gpu_upload(const gpu_device *device, gpu_buffer *buffer, const void *data,
+                         size_t size, hnbrdf_error *error)
 {
     memcpy(buffer->mapped, data, size);
     return buffer->staging ? copy(device, buffer->staging, buffer->handle, size, error) : HNBRDF_OK;
@@ -182,7 +189,8 @@ hnbrdf_result gpu_uniform_open(const gpu_device *device, const void *data, size_
         return hnbrdf_fail(error, HNBRDF_ERROR_UNSUPPORTED,
                            "%s: a uniform block of %zu bytes, this device takes up to %u",
                            device->properties.deviceName, size, most);
-    hnbrdf_result result = open_buffer(device, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, size, buffer, error);
+    hnbrdf_result result =
+        open_buffer(device, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, size, buffer, error);
     if (!result)
         result = gpu_upload(device, buffer, data, size, error);
     if (result)
@@ -202,7 +210,8 @@ static hnbrdf_result make_layouts(const gpu_device *device, const gpu_buffer *co
         bindings[i].descriptorCount = 1;
         bindings[i].stageFlags = VK_SHADER_STAGE_COMPUTE_BIT;
     }
-    VkDescriptorSetLayoutCreateInfo set = {.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,
+    VkDescriptorSetLayoutCreateInfo set = {.sType =
+                                               VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,
                                            .bindingCount = buffer_count,
                                            .pBindings = bindings};
     hnbrdf_result result =
@@ -210,7 +219,8 @@ static hnbrdf_result make_layouts(const gpu_device *device, const gpu_buffer *co
                   "creating a descriptor set layout", error);
     if (result)
         return result;
-    VkPushConstantRange push = {.stageFlags = VK_SHADER_STAGE_COMPUTE_BIT, .size = program->push_size};
+    VkPushConstantRange push = {.stageFlags = VK_SHADER_STAGE_COMPUTE_BIT,
+                                .size = program->push_size};
     VkPipelineLayoutCreateInfo layout = {.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
                                          .setLayoutCount = 1,
                                          .pSetLayouts = &program->set_layout,
@@ -262,8 +272,9 @@ hnbrdf_result gpu_program_open(const gpu_device *device, const uint32_t *spirv, 
 {
     memset(program, 0, sizeof *program);
     program->push_size = push_size;
-    VkShaderModuleCreateInfo module = {
-        .sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO, .codeSize = spirv_size, .pCode = spirv};
+    VkShaderModuleCreateInfo module = {.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
+                                       .codeSize = spirv_size,
+                                       .pCode = spirv};
     hnbrdf_result result =
         gpu_check(vkCreateShaderModule(device->handle, &module, NULL, &program->module),
                   "creating a shader module", error);
@@ -285,8 +296,8 @@ void gpu_program_close(const gpu_device *device, gpu_program *program)
     memset(program, 0, sizeof *program);
 }
 
-hnbrdf_result gpu_pipeline_open(const gpu_device *device, const gpu_program *program, int32_t constant,
-                                VkPipeline *pipeline, hnbrdf_error *error)
+hnbrdf_result gpu_pipeline_open(const gpu_device *device, const gpu_program *program,
+                                int32_t constant, VkPipeline *pipeline, hnbrdf_error *error)
 {
     VkSpecializationMapEntry entry = {.constantID = 0, .offset = 0, .size = sizeof constant};
     VkSpecializationInfo specialization = {
@@ -299,12 +310,14 @@ hnbrdf_result gpu_pipeline_open(const gpu_device *device, const gpu_program *pro
                   .pName = "main",
                   .pSpecializationInfo = &specialization},
         .layout = program->layout};
-    return gpu_check(vkCreateComputePipelines(device->handle, VK_NULL_HANDLE, 1, &info, NULL, pipeline),
-                     "creating a pipeline", error);
+    return gpu_check(
+        vkCreateComputePipelines(device->handle, VK_NULL_HANDLE, 1, &info, NULL, pipeline),
+        "creating a pipeline", error);
 }
 
 static void record(const gpu_device *device, VkCommandBuffer commands, const gpu_program *program,
-                   VkPipeline pipeline, const void *push, size_t invocations, int repeats, int timed)
+                   VkPipeline pipeline, const void *push, size_t invocations, int repeats,
+                   int timed)
 {
     const VkPipelineStageFlags compute = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT;
     uint32_t groups = (uint32_t)((invocations + GPU_GROUP_SIZE - 1) / GPU_GROUP_SIZE);
@@ -329,9 +342,9 @@ static void record(const gpu_device *device, VkCommandBuffer commands, const gpu
             VK_ACCESS_HOST_READ_BIT | VK_ACCESS_TRANSFER_READ_BIT);
 }
 
-hnbrdf_result gpu_dispatch(const gpu_device *device, const gpu_program *program, VkPipeline pipeline,
-                           const void *push, size_t invocations, int repeats, double *ns,
-                           hnbrdf_error *error)
+hnbrdf_result gpu_dispatch(const gpu_device *device, const gpu_program *program,
+                           VkPipeline pipeline, const void *push, size_t invocations, int repeats,
+                           double *ns, hnbrdf_error *error)
 {
     VkCommandBuffer commands;
     int timed = ns && device->tick_ns > 0;

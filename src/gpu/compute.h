@@ -19,14 +19,14 @@ typedef struct gpu_buffer {
 
 hnbrdf_result gpu_buffer_open(const gpu_device *device, size_t size, gpu_buffer *buffer,
                               hnbrdf_error *error);
-/* A uniform buffer with these bytes. HNBRDF_ERROR_UNSUPPORTED if the device takes no uniform block of
- * this size. */
+/* A uniform buffer with these bytes. HNBRDF_ERROR_UNSUPPORTED if the device takes no uniform
+ * block of this size. */
 hnbrdf_result gpu_uniform_open(const gpu_device *device, const void *data, size_t size,
                                gpu_buffer *buffer, hnbrdf_error *error);
 void gpu_buffer_close(const gpu_device *device, gpu_buffer *buffer);
 /* The first `size` bytes, at most buffer->size. */
-hnbrdf_result gpu_upload(const gpu_device *device, gpu_buffer *buffer, const void *data, size_t size,
-                         hnbrdf_error *error);
+hnbrdf_result gpu_upload(const gpu_device *device, gpu_buffer *buffer, const void *data,
+                         size_t size, hnbrdf_error *error);
 hnbrdf_result gpu_download(const gpu_device *device, gpu_buffer *buffer, void *data, size_t size,
                            hnbrdf_error *error);
 
@@ -45,14 +45,16 @@ hnbrdf_result gpu_program_open(const gpu_device *device, const uint32_t *spirv, 
                                uint32_t push_size, gpu_program *program, hnbrdf_error *error);
 void gpu_program_close(const gpu_device *device, gpu_program *program);
 
-/* Entry point main with specialisation constant 0 set to `constant`. Destroy with vkDestroyPipeline. */
-hnbrdf_result gpu_pipeline_open(const gpu_device *device, const gpu_program *program, int32_t constant,
-                                VkPipeline *pipeline, hnbrdf_error *error);
+/* Entry point main with specialisation constant 0 set to `constant`. Destroy with
+ * vkDestroyPipeline. */
+hnbrdf_result gpu_pipeline_open(const gpu_device *device, const gpu_program *program,
+                                int32_t constant, VkPipeline *pipeline, hnbrdf_error *error);
 
-/* Runs at least `invocations` in groups of GPU_GROUP_SIZE, `repeats` times one after the other. ns, if
- * not NULL, receives the device's time for all of it, or NaN on a device without timestamps. */
-hnbrdf_result gpu_dispatch(const gpu_device *device, const gpu_program *program, VkPipeline pipeline,
-                           const void *push, size_t invocations, int repeats, double *ns,
-                           hnbrdf_error *error);
+/* Runs at least `invocations` in groups of GPU_GROUP_SIZE, `repeats` times one after the other.
+ * ns, if not NULL, receives the device's time for all of it, or NaN on a device without
+ * timestamps. */
+hnbrdf_result gpu_dispatch(const gpu_device *device, const gpu_program *program,
+                           VkPipeline pipeline, const void *push, size_t invocations, int repeats,
+                           double *ns, hnbrdf_error *error);
 
 #endif

@@ -83,8 +83,8 @@ static void list_devices(gpu_instance *instance)
     for (int i = 0; i < instance->count; i++) {
         VkPhysicalDeviceDriverProperties driver = {
             .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES};
-        VkPhysicalDeviceProperties2 properties = {.sType =
-                                                      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2};
+        VkPhysicalDeviceProperties2 properties = {
+            .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2};
         vkGetPhysicalDeviceProperties(instance->devices[i], &instance->properties[i]);
         if (instance->properties[i].apiVersion >= VK_API_VERSION_1_2)
             properties.pNext = &driver;
@@ -205,8 +205,9 @@ static hnbrdf_result make_pools(gpu_device *device, uint32_t family, hnbrdf_erro
     VkQueryPoolCreateInfo queries = {.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO,
                                      .queryType = VK_QUERY_TYPE_TIMESTAMP,
                                      .queryCount = 2};
-    hnbrdf_result result = gpu_check(vkCreateCommandPool(device->handle, &pool, NULL, &device->pool),
-                                     "creating a command pool", error);
+    hnbrdf_result result =
+        gpu_check(vkCreateCommandPool(device->handle, &pool, NULL, &device->pool),
+                  "creating a command pool", error);
     if (result || device->tick_ns == 0)
         return result;
     return gpu_check(vkCreateQueryPool(device->handle, &queries, NULL, &device->timestamps),
@@ -253,8 +254,8 @@ hnbrdf_result gpu_device_open(const gpu_instance *instance, int index, gpu_devic
                                .pNext = device->has_half ? &half : NULL,
                                .queueCreateInfoCount = 1,
                                .pQueueCreateInfos = &queue};
-    hnbrdf_result result =
-        gpu_check(vkCreateDevice(physical, &info, NULL, &device->handle), "creating a device", error);
+    hnbrdf_result result = gpu_check(vkCreateDevice(physical, &info, NULL, &device->handle),
+                                     "creating a device", error);
     if (result)
         return result;
     vkGetDeviceQueue(device->handle, (uint32_t)family, 0, &device->queue);

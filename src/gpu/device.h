@@ -23,11 +23,12 @@ typedef struct gpu_instance {
 typedef enum gpu_validation {
     GPU_NOT_VALIDATED = 0,
     GPU_VALIDATED,
-    GPU_VALIDATED_SYNC /* synchronization too; the layer leaks when it does that (seen in 1.3.239) */
+    /* synchronization too; the layer leaks when it does that (seen in 1.3.239) */
+    GPU_VALIDATED_SYNC
 } gpu_validation;
 
-/* HNBRDF_ERROR_UNSUPPORTED if validation is asked for and not installed. The instance must stay where
- * it is. No Vulkan loader or no device is no error: count is then 0. */
+/* HNBRDF_ERROR_UNSUPPORTED if validation is asked for and not installed. The instance must stay
+ * where it is. No Vulkan loader or no device is no error: count is then 0. */
 hnbrdf_result gpu_open(gpu_validation validation, gpu_instance *instance, hnbrdf_error *error);
 void gpu_close(gpu_instance *instance);
 

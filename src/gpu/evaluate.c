@@ -1,4 +1,5 @@
-/* evaluate.c: the exported shader of a model on one device as a function: any material, any directions.
+/* evaluate.c: the exported shader of a model on one device as a function: any material, any
+ * directions.
  */
 #include "gpu/evaluate.h"
 
@@ -12,8 +13,8 @@
 /* The texts of shaders/evaluate.comp and shaders/hybrid_brdf.glsl. */
 extern const char hnbrdf_evaluate_comp[], hnbrdf_hybrid_brdf_glsl[];
 
-/* Floats of one evaluation: wi, wo, kd, eta, alpha, cosine and sine of the rotation, latent, scales and
- * shares of the lobes, u. */
+/* Floats of one evaluation: wi, wo, kd, eta, alpha, cosine and sine of the rotation, latent,
+ * scales and shares of the lobes, u. */
 enum {
     AT_KD = 6,
     AT_ETA = 9,
@@ -37,11 +38,11 @@ static void write_reader(const hnbrdf_model_desc *desc, char text[1024])
                            "    m.kd = read3(at + %d);\n    m.eta = read3(at + %d);\n    m.alpha = "
                            "read4(at + %d).xy;\n",
                            AT_KD, AT_ETA, AT_ALPHA);
-    length += snprintf(text + length, 1024 - (size_t)length, "    m.rotation = read4(at + %d).xy;\n",
-                       AT_ROTATION);
+    length += snprintf(text + length, 1024 - (size_t)length,
+                       "    m.rotation = read4(at + %d).xy;\n", AT_ROTATION);
     for (int v = 0; v < vectors; v++)
-        length += snprintf(text + length, 1024 - (size_t)length, "    m.latent%d = read4(at + %d);\n",
-                           v, AT_LATENT + 4 * v);
+        length += snprintf(text + length, 1024 - (size_t)length,
+                           "    m.latent%d = read4(at + %d);\n", v, AT_LATENT + 4 * v);
     snprintf(text + length, 1024 - (size_t)length,
              "    m.lobes = hnbrdf_lobes(read4(at + %d).xy, read4(at + %d), read4(at + %d));\n    "
              "return m;\n}\n",
@@ -65,8 +66,8 @@ static hnbrdf_result general_model(const hnbrdf_model *model, hnbrdf_model **gen
     return hnbrdf_model_create(&desc, NULL, general, error);
 }
 
-static hnbrdf_result export_scene(const hnbrdf_model *general, const gpu_style *style, gpu_text *scene,
-                                  gpu_text *weights, hnbrdf_error *error)
+static hnbrdf_result export_scene(const hnbrdf_model *general, const gpu_style *style,
+                                  gpu_text *scene, gpu_text *weights, hnbrdf_error *error)
 {
     const hnbrdf_glsl_options options = {.weights = style->weights, .precision = style->precision};
     hnbrdf_result result = hnbrdf_export_glsl(general, &options, gpu_text_append, scene, error);
@@ -75,8 +76,9 @@ static hnbrdf_result export_scene(const hnbrdf_model *general, const gpu_style *
     return result;
 }
 
-static hnbrdf_result open_program(gpu_evaluator *e, const hnbrdf_model *general, const gpu_style *style,
-                                  const gpu_text *scene, const gpu_text *weights, hnbrdf_error *error)
+static hnbrdf_result open_program(gpu_evaluator *e, const hnbrdf_model *general,
+                                  const gpu_style *style, const gpu_text *scene,
+                                  const gpu_text *weights, hnbrdf_error *error)
 {
     hnbrdf_model_desc desc;
     char reader[1024];
@@ -115,13 +117,13 @@ hnbrdf_result gpu_evaluator_open(const gpu_device *device, const hnbrdf_model *m
         result = export_scene(general, style, &scene, &weights, error);
     e.packed = calloc(capacity, INPUTS * sizeof *e.packed);
     if (!result && !e.packed)
-        result =
-            hnbrdf_fail(error, HNBRDF_ERROR_MEMORY, "evaluating: no memory for %zu pairs", capacity);
+        result = hnbrdf_fail(error, HNBRDF_ERROR_MEMORY, "evaluating: no memory for %zu pairs",
+                             capacity);
     if (!result)
         result = gpu_buffer_open(device, capacity * INPUTS * sizeof(float), &e.inputs, error);
     if (!result)
-        result = gpu_buffer_open(device, capacity * GPU_EVALUATION_NUMBERS * sizeof(float), &e.values,
-                                 error);
+        result = gpu_buffer_open(device, capacity * GPU_EVALUATION_NUMBERS * sizeof(float),
+                                 &e.values, error);
     if (!result)
         result = open_program(&e, general, style, &scene, &weights, error);
     for (int what = 0; what < GPU_EVALUATIONS && !result; what++)
@@ -150,9 +152,10 @@ void gpu_evaluator_close(gpu_evaluator *e)
     memset(e, 0, sizeof *e);
 }
 
-hnbrdf_result gpu_evaluator_run(gpu_evaluator *e, gpu_evaluation what, const hnbrdf_material *material,
-                                const float *pairs, const float *u, size_t count,
-                                float (*values)[GPU_EVALUATION_NUMBERS], hnbrdf_error *error)
+hnbrdf_result gpu_evaluator_run(gpu_evaluator *e, gpu_evaluation what,
+                                const hnbrdf_material *material, const float *pairs, const float *u,
+                                size_t count, float (*values)[GPU_EVALUATION_NUMBERS],
+                                hnbrdf_error *error)
 {
     hnbrdf_prepared prepared;
     uint32_t push = (uint32_t)count;
@@ -177,7 +180,8 @@ hnbrdf_result gpu_evaluator_run(gpu_evaluator *e, gpu_evaluation what, const hnb
     hnbrdf_result result =
         gpu_upload(e->device, &e->inputs, e->packed, count * INPUTS * sizeof(float), error);
     if (!result)
-        result = gpu_dispatch(e->device, &e->program, e->pipelines[what], &push, count, 1, NULL, error);
+        result =
+            gpu_dispatch(e->device, &e->program, e->pipelines[what], &push, count, 1, NULL, error);
     if (!result)
         result = gpu_download(e->device, &e->values, values, count * sizeof *values, error);
     return result;

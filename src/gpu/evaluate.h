@@ -1,4 +1,5 @@
-/* evaluate.h: the exported shader of a model on one device as a function: any material, any directions.
+/* evaluate.h: the exported shader of a model on one device as a function: any material, any
+ * directions.
  */
 #ifndef HNBRDF_GPU_EVALUATE_H
 #define HNBRDF_GPU_EVALUATE_H
@@ -17,7 +18,8 @@ typedef enum gpu_evaluation {
     GPU_EVALUATE_ANALYTIC = 0, /* hnbrdf_eval_analytic(): 3 */
     GPU_EVALUATE_VALUE,        /* hnbrdf_eval(): 3 */
     GPU_EVALUATE_PDF,          /* hnbrdf_pdf(): 1 */
-    GPU_EVALUATE_SAMPLE,       /* hnbrdf_sample(): wi, weight, pdf, then hnbrdf_pdf() of that wi: 8 */
+    /* hnbrdf_sample(): wi, weight, pdf, then hnbrdf_pdf() of that wi: 8 */
+    GPU_EVALUATE_SAMPLE,
     GPU_EVALUATIONS
 } gpu_evaluation;
 enum { GPU_EVALUATION_NUMBERS = 8 };
@@ -32,8 +34,9 @@ typedef struct gpu_evaluator {
     size_t capacity;
 } gpu_evaluator;
 
-/* Exports and compiles the model, which must outlive the evaluator, for at most `capacity` evaluations
- * a run. The scene is made to read every field of a material, so it is anisotropic and turned. */
+/* Exports and compiles the model, which must outlive the evaluator, for at most `capacity`
+ * evaluations a run. The scene is made to read every field of a material, so it is anisotropic
+ * and turned. */
 hnbrdf_result gpu_evaluator_open(const gpu_device *device, const hnbrdf_model *model,
                                  const gpu_style *style, size_t capacity, gpu_evaluator *evaluator,
                                  hnbrdf_error *error);

@@ -1,8 +1,8 @@
 /* half.c: the half-precision variant of a network as exported, in C, each number with a bound.
  *
- * A sum or product of two halves, taken in float and then rounded, is the correctly rounded one: float
- * has more than twice the digits. So each operation here is what a device with exact half arithmetic
- * does. */
+ * A sum or product of two halves, taken in float and then rounded, is the correctly rounded one:
+ * float has more than twice the digits. So each operation here is what a device with exact half
+ * arithmetic does. */
 #include "gpu/half.h"
 
 #include "core/compose.h"
@@ -16,15 +16,16 @@ typedef gpu_tracked num;
 /* Of this file's own rounding: relative, and absolute among the subnormal halves. */
 static const double NEAREST = 0x1p-11, TINY = 0x1p-25;
 
-/* How far a device that rounds as hnbrdf_round_to_half() does can be from its result for v, when what it
- * rounds is within spread of v: rounding is monotonic, so only the ends count. Mostly 0. */
+/* How far a device that rounds as hnbrdf_round_to_half() does can be from its result for v, when
+ * what it rounds is within spread of v: rounding is monotonic, so only the ends count. Mostly 0. */
 static double moved(float v, double spread)
 {
     float high = nextafterf((float)((double)v + spread), INFINITY);
     float low = nextafterf((float)((double)v - spread), -INFINITY), here = hnbrdf_round_to_half(v);
     if (!(spread < (double)INFINITY))
         return (double)INFINITY;
-    return fmax((double)(hnbrdf_round_to_half(high) - here), (double)(here - hnbrdf_round_to_half(low)));
+    return fmax((double)(hnbrdf_round_to_half(high) - here),
+                (double)(here - hnbrdf_round_to_half(low)));
 }
 
 /* v before it is rounded here; spread: what the operands differ by, carried through. */
@@ -67,8 +68,8 @@ static void half_inputs(const gpu_rules *rules, const hnbrdf_model_desc *desc, c
         inputs[desc->latent + i] = rounded(rules, hnbrdf_clamp(x[i].v, -limit, limit), x[i].e);
 }
 
-/* n products and a bias in any order, contracted or not, err by at most r u / (1 - r u) times the sum
- * of sizes, r = n + 1 (Higham 2002, 3.1). */
+/* n products and a bias in any order, contracted or not, err by at most r u / (1 - r u) times the
+ * sum of sizes, r = n + 1 (Higham 2002, 3.1). */
 static double growth(int terms, double unit)
 {
     double r = (terms + 1) * unit;
@@ -97,7 +98,8 @@ static num half_row(const gpu_rules *rules, const hnbrdf_model_desc *desc, int l
 }
 
 void gpu_half_hidden(const gpu_rules *rules, const hnbrdf_model_desc *desc, const float *latent,
-                     const gpu_tracked x[HNBRDF_ENCODING_SIZE], gpu_tracked units[HNBRDF_MAX_HIDDEN])
+                     const gpu_tracked x[HNBRDF_ENCODING_SIZE],
+                     gpu_tracked units[HNBRDF_MAX_HIDDEN])
 {
     num from[HNBRDF_MAX_HIDDEN];
     half_inputs(rules, desc, latent, x, from);

@@ -4,14 +4,16 @@
 
 #include "gpu/bounds.h"
 
-/* The units of the last hidden layer from latent code and encoded directions: every conversion, product
- * and sum rounded to the nearest half, ties to even, which is what a device does that the probe found
- * exact. The bounds are on how far another one, or another order of the sums, may be from that. */
+/* The units of the last hidden layer from latent code and encoded directions: every conversion,
+ * product and sum rounded to the nearest half, ties to even, which is what a device does that the
+ * probe found exact. The bounds are on how far another one, or another order of the sums, may be
+ * from that. */
 void gpu_half_hidden(const gpu_rules *rules, const hnbrdf_model_desc *desc, const float *latent,
-                     const gpu_tracked x[HNBRDF_ENCODING_SIZE], gpu_tracked units[HNBRDF_MAX_HIDDEN]);
+                     const gpu_tracked x[HNBRDF_ENCODING_SIZE],
+                     gpu_tracked units[HNBRDF_MAX_HIDDEN]);
 
-/* hnbrdf_network() and hnbrdf_eval() of that variant, values alone. Kinds without a network evaluate as
- * ever. */
+/* hnbrdf_network() and hnbrdf_eval() of that variant, values alone. Kinds without a network
+ * evaluate as ever. */
 void gpu_half_network(const hnbrdf_model_desc *desc, const float *latent,
                       const float x[HNBRDF_ENCODING_SIZE], float out[HNBRDF_MAX_OUTPUTS]);
 void gpu_half_eval(const hnbrdf_model *model, const hnbrdf_material *material, const float wi[3],

@@ -6,8 +6,9 @@
 
 const char *gpu_pair_class_name(gpu_pair_class class_of_pair)
 {
-    static const char *const names[GPU_PAIR_CLASSES] = {
-        "uniform", "grid", "mirror", "grazing", "retro", "normal", "swapped", "extreme", "not finite"};
+    static const char *const names[GPU_PAIR_CLASSES] = {"uniform", "grid",    "mirror",
+                                                        "grazing", "retro",   "normal",
+                                                        "swapped", "extreme", "not finite"};
     return names[class_of_pair];
 }
 
@@ -101,8 +102,8 @@ gpu_pair_class gpu_pair_draw(hnbrdf_rng *rng, size_t k, float pair[6])
     float *wi = pair, *wo = pair + 3, before[6];
     gpu_pair_class class_of_pair = class_of(k);
     memcpy(before, pair, sizeof before);
-    hnbrdf_sampler_draw(class_of_pair == GPU_PAIR_GRID ? HNBRDF_SAMPLER_GRID : HNBRDF_SAMPLER_UNIFORM,
-                        rng, wi, wo);
+    hnbrdf_sampler_draw(
+        class_of_pair == GPU_PAIR_GRID ? HNBRDF_SAMPLER_GRID : HNBRDF_SAMPLER_UNIFORM, rng, wi, wo);
     switch (class_of_pair) {
     case GPU_PAIR_MIRROR:
         wo[0] = -wi[0];

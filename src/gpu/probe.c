@@ -62,7 +62,8 @@ gpu_rules gpu_rules_exact(const gpu_arithmetic *arithmetic)
     gpu_rules rules = vulkan_rules();
     apply_probe(arithmetic, &rules);
     rules.repeats_functions = 1;
-    /* hnbrdf_exp: 1.1 ulp. hnbrdf_log: 1.05 ulp + 5e-8; s = f/(2 + f), |s| <= 0.172, enters as 2.06 s.
+    /* hnbrdf_exp: 1.1 ulp. hnbrdf_log: 1.05 ulp + 5e-8; s = f/(2 + f), |s| <= 0.172, enters as
+     * 2.06 s.
      */
     rules.exp = 1.1 * ULP;
     rules.exp_slope = 0;
@@ -76,10 +77,11 @@ gpu_rules gpu_rules_fast(const gpu_arithmetic *arithmetic, VkDriverId driver)
 {
     gpu_rules rules = vulkan_rules();
     if (driver == VK_DRIVER_ID_MESA_LLVMPIPE) {
-        /* Each of its operations rounds as the probe saw, but without `precise` its compiler may order
-         * sums anew and divide by a constant through its reciprocal (1.5 ulp), as it does when a shader
-         * holds one material: C's bits are not repeated. And it keeps to neither limit of exp and log:
-         * measured with Mesa 22.3, exp errs by 16 ulp where Vulkan allows 3, log by 5.7e-7 near 1. */
+        /* Each of its operations rounds as the probe saw, but without `precise` its compiler may
+         * order sums anew and divide by a constant through its reciprocal (1.5 ulp), as it does
+         * when a shader holds one material: C's bits are not repeated. And it keeps to neither
+         * limit of exp and log: measured with Mesa 22.3, exp errs by 16 ulp where Vulkan allows
+         * 3, log by 5.7e-7 near 1. */
         apply_probe(arithmetic, &rules);
         rules.repeats_basic = rules.repeats_divide = rules.repeats_sqrt = rules.repeats_half = 0;
         rules.divide = fmax(rules.divide, 1.5 * ULP);
@@ -157,7 +159,8 @@ static float flushed(float x)
 /* Clears *flushes if the device's bits are not the flushed reference. */
 static void compare_flushed(float reference, float device, int *flushes)
 {
-    if (isfinite(reference) && hnbrdf_float_to_bits(flushed(reference)) != hnbrdf_float_to_bits(device))
+    if (isfinite(reference) &&
+        hnbrdf_float_to_bits(flushed(reference)) != hnbrdf_float_to_bits(device))
         *flushes = 0;
 }
 
@@ -184,7 +187,8 @@ static double error_in_ulp(double truth, float device)
 static void compare_functions(const gpu_rules *rules, const float operands[OPERANDS],
                               const float *device, gpu_arithmetic *seen)
 {
-    double x = (double)operands[2], y = (double)operands[3], exponential = exp(x), logarithm = log(y);
+    double x = (double)operands[2], y = (double)operands[3], exponential = exp(x),
+           logarithm = log(y);
     double exp_error = fabs((double)device[6] - exponential),
            log_error = fabs((double)device[7] - logarithm);
     seen->exp_ulp = larger(seen->exp_ulp, error_in_ulp(exponential, device[6]));
@@ -217,7 +221,8 @@ static void compare_all(const gpu_rules *rules, const float (*operands)[OPERANDS
             continue;
         compare_bits(operands[k], a / b, device[4], &seen->exact_divide, keeps);
         if (!subnormal(a) && !subnormal(a / b) && a / b != 0.0f)
-            seen->divide_ulp = larger(seen->divide_ulp, error_in_ulp((double)a / (double)b, device[4]));
+            seen->divide_ulp =
+                larger(seen->divide_ulp, error_in_ulp((double)a / (double)b, device[4]));
     }
     seen->flushes_denormals &= !seen->keeps_denormals;
 }
@@ -225,8 +230,8 @@ static void compare_all(const gpu_rules *rules, const float (*operands)[OPERANDS
 /* ---- Running it ------------------------------------------------------------------------------ */
 
 static hnbrdf_result run(const gpu_device *device, const gpu_program *program, gpu_buffer *input,
-                         gpu_buffer *output, const void *operands, size_t operand_bytes, void *results,
-                         size_t result_bytes, hnbrdf_error *error)
+                         gpu_buffer *output, const void *operands, size_t operand_bytes,
+                         void *results, size_t result_bytes, hnbrdf_error *error)
 {
     VkPipeline pipeline = VK_NULL_HANDLE;
     uint32_t count = PROBE_VALUES;
@@ -258,11 +263,11 @@ static hnbrdf_result probe_with(const gpu_device *device, const uint32_t *spirv,
         result = gpu_buffer_open(device, result_bytes, &output, error);
     const gpu_buffer *const buffers[] = {&input, &output};
     if (!result)
-        result =
-            gpu_program_open(device, spirv, spirv_size, buffers, 2, sizeof(uint32_t), &program, error);
+        result = gpu_program_open(device, spirv, spirv_size, buffers, 2, sizeof(uint32_t), &program,
+                                  error);
     if (!result)
-        result = run(device, &program, &input, &output, operands, operand_bytes, results, result_bytes,
-                     error);
+        result = run(device, &program, &input, &output, operands, operand_bytes, results,
+                     result_bytes, error);
     gpu_program_close(device, &program);
     gpu_buffer_close(device, &input);
     gpu_buffer_close(device, &output);
@@ -273,7 +278,8 @@ hnbrdf_result gpu_probe(const gpu_device *device, gpu_arithmetic *arithmetic, hn
 {
     uint32_t *spirv = NULL;
     size_t spirv_size = 0;
-    hnbrdf_result result = gpu_compile(hnbrdf_probe_comp, NULL, 0, NULL, &spirv, &spirv_size, error);
+    hnbrdf_result result =
+        gpu_compile(hnbrdf_probe_comp, NULL, 0, NULL, &spirv, &spirv_size, error);
     if (result)
         return result;
     float(*operands)[OPERANDS] = calloc(PROBE_VALUES, sizeof *operands);

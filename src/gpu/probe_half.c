@@ -84,7 +84,8 @@ static hnbrdf_result run(const gpu_device *device, const uint32_t *spirv, size_t
     if (!result)
         result = gpu_buffer_open(device, sizeof p->results, &p->output, error);
     if (!result)
-        result = gpu_program_open(device, spirv, size, buffers, 2, sizeof count, &p->program, error);
+        result =
+            gpu_program_open(device, spirv, size, buffers, 2, sizeof count, &p->program, error);
     if (!result)
         result = gpu_pipeline_open(device, &p->program, 0, &p->pipeline, error);
     if (!result)
@@ -100,7 +101,8 @@ static hnbrdf_result run(const gpu_device *device, const uint32_t *spirv, size_t
     return result;
 }
 
-hnbrdf_result gpu_probe_half(const gpu_device *device, gpu_arithmetic *arithmetic, hnbrdf_error *error)
+hnbrdf_result gpu_probe_half(const gpu_device *device, gpu_arithmetic *arithmetic,
+                             hnbrdf_error *error)
 {
     uint32_t *spirv = NULL;
     size_t size = 0;

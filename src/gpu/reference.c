@@ -58,7 +58,8 @@ void gpu_reference_close(gpu_reference *reference)
     memset(reference, 0, sizeof *reference);
 }
 
-static void encode(const hnbrdf_model_desc *desc, hnbrdf_frame frame, const float pair[6], float x[6])
+static void encode(const hnbrdf_model_desc *desc, hnbrdf_frame frame, const float pair[6],
+                   float x[6])
 {
     float i[3], o[3];
     hnbrdf_to_tangent(frame, pair, i);
@@ -73,8 +74,8 @@ void gpu_reference_fill(const hnbrdf_model *model, const hnbrdf_material *materi
     int half = reference->precision == HNBRDF_GLSL_HALF;
     void (*network)(const hnbrdf_model_desc *, const float *, const float *, float *) =
         half ? gpu_half_network : hnbrdf_network;
-    void (*eval)(const hnbrdf_model *, const hnbrdf_material *, const float *, const float *, float *) =
-        half ? gpu_half_eval : hnbrdf_eval;
+    void (*eval)(const hnbrdf_model *, const hnbrdf_material *, const float *, const float *,
+                 float *) = half ? gpu_half_eval : hnbrdf_eval;
     hnbrdf_frame frame = hnbrdf_frame_of(material);
     float pair[6] = {0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 1.0f};
     for (size_t k = 0; k < reference->count; k++) {
@@ -164,7 +165,8 @@ static const gpu_tracked *stage_bounds(const gpu_bounds *bounds, int stage)
     return stages[stage];
 }
 
-/* Every operation of this build gives C's bits: so does every stage then, and no bound is derived. */
+/* Every operation of this build gives C's bits: so does every stage then, and no bound is
+ * derived. */
 static int repeats_all(const gpu_rules *rules, hnbrdf_glsl_precision precision)
 {
     return (precision == HNBRDF_GLSL_FLOAT || rules->repeats_half) && rules->repeats_basic &&
@@ -179,8 +181,8 @@ static int same_bits(float a, float b)
 
 hnbrdf_result gpu_compare(const gpu_rules *rules, const hnbrdf_model *model,
                           const hnbrdf_material *material, const gpu_reference *reference,
-                          const float *const device[GPU_STAGES], gpu_comparison comparisons[GPU_STAGES],
-                          hnbrdf_error *error)
+                          const float *const device[GPU_STAGES],
+                          gpu_comparison comparisons[GPU_STAGES], hnbrdf_error *error)
 {
     const hnbrdf_model_desc *desc = &model->desc;
     memset(comparisons, 0, GPU_STAGES * sizeof *comparisons);
@@ -203,7 +205,8 @@ hnbrdf_result gpu_compare(const gpu_rules *rules, const hnbrdf_model *model,
                 place.component = c;
                 place.device = device[stage][first + (size_t)c];
                 place.reference = reference->stages[stage][first + (size_t)c];
-                /* Below the horizon f is 0 on every device; the other stages do not matter there. */
+                /* Below the horizon f is 0 on every device; the other stages do not matter there.
+                 * */
                 place.bound = finite && (above ? 1 : must_be_value) ? 0.0 : (double)INFINITY;
                 if (derived) {
                     gpu_tracked tracked = stage_bounds(&bounds, stage)[c];

@@ -5,8 +5,8 @@
 #include "gpu/bounds.h"
 #include "gpu/verify.h"
 
-/* `count` pairs of one material, for a shader of this precision: in half, network and value are those
- * of half.h. Stages keep 6, 6, 3 and 3 numbers a pair. */
+/* `count` pairs of one material, for a shader of this precision: in half, network and value are
+ * those of half.h. Stages keep 6, 6, 3 and 3 numbers a pair. */
 typedef struct gpu_reference {
     hnbrdf_glsl_precision precision;
     size_t count;
@@ -24,11 +24,11 @@ void gpu_reference_close(gpu_reference *reference);
 void gpu_reference_fill(const hnbrdf_model *model, const hnbrdf_material *material, hnbrdf_rng *rng,
                         gpu_reference *reference);
 
-/* Compares what the device returned for each stage. HNBRDF_ERROR_FORMAT if bounds.c does not reproduce
- * the bits of the C library, in which case its bounds mean nothing. */
+/* Compares what the device returned for each stage. HNBRDF_ERROR_FORMAT if bounds.c does not
+ * reproduce the bits of the C library, in which case its bounds mean nothing. */
 hnbrdf_result gpu_compare(const gpu_rules *rules, const hnbrdf_model *model,
                           const hnbrdf_material *material, const gpu_reference *reference,
-                          const float *const device[GPU_STAGES], gpu_comparison comparisons[GPU_STAGES],
-                          hnbrdf_error *error);
+                          const float *const device[GPU_STAGES],
+                          gpu_comparison comparisons[GPU_STAGES], hnbrdf_error *error);
 
 #endif

@@ -58,15 +58,16 @@ hnbrdf_result gpu_scene_program(const gpu_device *device, const gpu_scene *scene
 {
     const gpu_include includes[] = {{"hybrid_brdf.glsl", hnbrdf_hybrid_brdf_glsl},
                                     {"scene.glsl", scene->text}};
-    const char *const defines[] = {build == GPU_BUILD_EXACT ? "HNBRDF_EXACT=1" : "HNBRDF_EXACT=0",
-                                   device->has_half ? "HNBRDF_HALF_NATIVE=1" : "HNBRDF_HALF_NATIVE=0",
-                                   NULL};
+    const char *const defines[] = {
+        build == GPU_BUILD_EXACT ? "HNBRDF_EXACT=1" : "HNBRDF_EXACT=0",
+        device->has_half ? "HNBRDF_HALF_NATIVE=1" : "HNBRDF_HALF_NATIVE=0", NULL};
     const gpu_buffer *const all[] = {&buffers->directions, &buffers->encoded, &buffers->values,
                                      &buffers->weights};
     uint32_t *spirv = NULL;
     size_t size = 0;
     double started = milliseconds();
-    hnbrdf_result result = gpu_compile(hnbrdf_verify_comp, includes, 2, defines, &spirv, &size, error);
+    hnbrdf_result result =
+        gpu_compile(hnbrdf_verify_comp, includes, 2, defines, &spirv, &size, error);
     if (compile_ms)
         *compile_ms = milliseconds() - started;
     if (spirv_bytes)
@@ -78,8 +79,9 @@ hnbrdf_result gpu_scene_program(const gpu_device *device, const gpu_scene *scene
     return result;
 }
 
-hnbrdf_result gpu_scene_run(const gpu_device *device, const gpu_program *program, VkPipeline pipeline,
-                            int material, size_t pairs, int repeats, double *ns, hnbrdf_error *error)
+hnbrdf_result gpu_scene_run(const gpu_device *device, const gpu_program *program,
+                            VkPipeline pipeline, int material, size_t pairs, int repeats,
+                            double *ns, hnbrdf_error *error)
 {
     push_constants push = {(uint32_t)pairs, material};
     return gpu_dispatch(device, program, pipeline, &push, pairs, repeats, ns, error);
@@ -102,8 +104,8 @@ static hnbrdf_result time_pipeline(timer *t, VkPipeline pipeline, double *ns)
     int repeats = 1;
     for (int run = 0; run < TIMED_RUNS && !result;) {
         double total;
-        result = gpu_scene_run(t->device, &t->program, pipeline, 0, TIMED_EVALUATIONS, repeats, &total,
-                               t->error);
+        result = gpu_scene_run(t->device, &t->program, pipeline, 0, TIMED_EVALUATIONS, repeats,
+                               &total, t->error);
         if (total < 5e6 && repeats < MOST_REPEATS) {
             repeats *= 4;
             continue;
@@ -130,7 +132,8 @@ static hnbrdf_result upload_pairs(timer *t, uint64_t seed)
     return result;
 }
 
-/* What a renderer waits for before the first picture: drivers compile here or at the first dispatch. */
+/* What a renderer waits for before the first picture: drivers compile here or at the first
+ * dispatch. */
 static hnbrdf_result open_timed_pipeline(timer *t, double *first_ms)
 {
     double started = milliseconds();

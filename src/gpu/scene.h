@@ -47,8 +47,9 @@ hnbrdf_result gpu_scene_program(const gpu_device *device, const gpu_scene *scene
                                 double *compile_ms, size_t *spirv_bytes, hnbrdf_error *error);
 
 /* Runs a stage over the first `pairs` of the buffers, `repeats` times; ns as for gpu_dispatch(). */
-hnbrdf_result gpu_scene_run(const gpu_device *device, const gpu_program *program, VkPipeline pipeline,
-                            int material, size_t pairs, int repeats, double *ns, hnbrdf_error *error);
+hnbrdf_result gpu_scene_run(const gpu_device *device, const gpu_program *program,
+                            VkPipeline pipeline, int material, size_t pairs, int repeats,
+                            double *ns, hnbrdf_error *error);
 
 typedef struct gpu_timing {
     int evaluations; /* per measurement */
@@ -59,8 +60,8 @@ typedef struct gpu_timing {
     size_t spirv_bytes;
 } gpu_timing;
 
-/* The fast build of the scene's first material on uniform pairs: the best of a few runs of at least 5
- * ms each. */
+/* The fast build of the scene's first material on uniform pairs: the best of a few runs of at
+ * least 5 ms each. */
 hnbrdf_result gpu_time_scene(const gpu_device *device, const gpu_scene *scene, uint64_t seed,
                              gpu_timing *timing, hnbrdf_error *error);
 

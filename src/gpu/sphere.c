@@ -1,4 +1,5 @@
-/* sphere.c: the sphere of `hnbrdf render` on one Vulkan device, in dispatches of a fraction of a second. */
+/* sphere.c: the sphere of `hnbrdf render` on one Vulkan device, in dispatches of a fraction of a
+ * second. */
 #include "gpu/sphere.h"
 
 #include "core/error.h"
@@ -36,9 +37,10 @@ static hnbrdf_result open_filled(const gpu_device *device, const render_environm
 {
     uint32_t most = device->properties.limits.maxStorageBufferRange;
     if (size > most)
-        return hnbrdf_fail(error, HNBRDF_ERROR_UNSUPPORTED,
-                           "%s: a map of %d x %d pixels takes a buffer of %zu bytes, this device has up to %u",
-                           device->properties.deviceName, environment->width, environment->height, size, most);
+        return hnbrdf_fail(
+            error, HNBRDF_ERROR_UNSUPPORTED,
+            "%s: a map of %d x %d pixels takes a buffer of %zu bytes, this device has up to %u",
+            device->properties.deviceName, environment->width, environment->height, size, most);
     void *data = malloc(size);
     if (!data)
         return hnbrdf_fail(error, HNBRDF_ERROR_MEMORY, "rendering: no memory for %zu bytes", size);
@@ -85,27 +87,32 @@ static hnbrdf_result open_buffers(gpu_sphere *s, const render_environment *envir
     size_t height = (size_t)environment->height, texels = (size_t)environment->width * height;
     size_t results = mode == GPU_SPHERE_RECORD ? GPU_SPHERE_DRAWS * sizeof(gpu_sphere_draw)
                                                : CAPACITY * NUMBERS * sizeof(float);
-    hnbrdf_result result = open_filled(s->device, environment, texels * 4 * sizeof(float), fill_texels,
-                                       &s->texels, error);
+    hnbrdf_result result = open_filled(s->device, environment, texels * 4 * sizeof(float),
+                                       fill_texels, &s->texels, error);
     if (!result)
-        result = open_filled(s->device, environment, (height + texels) * 2 * sizeof(uint32_t), fill_places,
-                             &s->places, error);
+        result = open_filled(s->device, environment, (height + texels) * 2 * sizeof(uint32_t),
+                             fill_places, &s->places, error);
     if (!result)
-        result = open_filled(s->device, environment, (height + 1) * sizeof(float), fill_caps, &s->caps, error);
+        result = open_filled(s->device, environment, (height + 1) * sizeof(float), fill_caps,
+                             &s->caps, error);
     return result ? result : gpu_buffer_open(s->device, results, &s->results, error);
 }
 
-static hnbrdf_result open_program(gpu_sphere *s, const char *scene, gpu_build build, hnbrdf_error *error)
+static hnbrdf_result open_program(gpu_sphere *s, const char *scene, gpu_build build,
+                                  hnbrdf_error *error)
 {
-    const gpu_include includes[] = {{"hybrid_brdf.glsl", hnbrdf_hybrid_brdf_glsl}, {"scene.glsl", scene}};
-    const char *const defines[] = {build == GPU_BUILD_EXACT ? "HNBRDF_EXACT=1" : "HNBRDF_EXACT=0", NULL};
+    const gpu_include includes[] = {{"hybrid_brdf.glsl", hnbrdf_hybrid_brdf_glsl},
+                                    {"scene.glsl", scene}};
+    const char *const defines[] = {build == GPU_BUILD_EXACT ? "HNBRDF_EXACT=1" : "HNBRDF_EXACT=0",
+                                   NULL};
     const gpu_buffer *const buffers[] = {&s->texels, &s->places, &s->results, &s->caps};
     uint32_t *spirv = NULL;
     size_t size = 0;
-    hnbrdf_result result = gpu_compile(hnbrdf_sphere_comp, includes, 2, defines, &spirv, &size, error);
+    hnbrdf_result result =
+        gpu_compile(hnbrdf_sphere_comp, includes, 2, defines, &spirv, &size, error);
     if (!result)
-        result = gpu_program_open(s->device, spirv, size, buffers, 4, sizeof(push_constants), &s->program,
-                                  error);
+        result = gpu_program_open(s->device, spirv, size, buffers, 4, sizeof(push_constants),
+                                  &s->program, error);
     free(spirv);
     return result;
 }
@@ -129,8 +136,8 @@ hnbrdf_result gpu_sphere_open(const gpu_device *device, const hnbrdf_model *mode
     if (!result)
         result = open_program(&s, scene.bytes, build, error);
     if (!result)
-        result = gpu_pipeline_open(device, &s.program, (int)strategy + (int)mode * strategies, &s.pipeline,
-                                   error);
+        result = gpu_pipeline_open(device, &s.program, (int)strategy + (int)mode * strategies,
+                                   &s.pipeline, error);
     free(scene.bytes);
     if (result)
         gpu_sphere_close(&s);
@@ -180,7 +187,8 @@ static hnbrdf_result dispatch(gpu_sphere *s, const render_options *options, uint
                                  .distance = RENDER_DISTANCE,
                                  .scale = RENDER_SCALE};
     double started = nanoseconds();
-    hnbrdf_result result = gpu_dispatch(s->device, &s->program, s->pipeline, &push, pixels, 1, ns, error);
+    hnbrdf_result result =
+        gpu_dispatch(s->device, &s->program, s->pipeline, &push, pixels, 1, ns, error);
     *ns = isnan(*ns) ? nanoseconds() - started : *ns;
     return result;
 }
@@ -204,7 +212,8 @@ static uint32_t at_least(uint32_t least, double value, uint32_t most)
     return whole > least ? whole : least < most ? least : most;
 }
 
-/* The next dispatch gets what would have taken DISPATCH_NS, at most four times as much as this one. */
+/* The next dispatch gets what would have taken DISPATCH_NS, at most four times as much as this
+ * one. */
 static void learn(painting *p, double samples, double ns)
 {
     double fits = ns > 0.0 ? samples * DISPATCH_NS / ns : 4.0 * samples;
@@ -267,11 +276,12 @@ static hnbrdf_result paint(painting *p)
     return result;
 }
 
-hnbrdf_result gpu_sphere_render(gpu_sphere *sphere, const render_options *options, render_image *image,
-                                double *sample_ns, hnbrdf_error *error)
+hnbrdf_result gpu_sphere_render(gpu_sphere *sphere, const render_options *options,
+                                render_image *image, double *sample_ns, hnbrdf_error *error)
 {
     render_image result_image;
-    painting p = {.sphere = sphere, .image = &result_image, .budget = FIRST_SAMPLES, .error = error};
+    painting p = {
+        .sphere = sphere, .image = &result_image, .budget = FIRST_SAMPLES, .error = error};
     hnbrdf_result result = render_options_settle(options, &p.options, error);
     if (!result)
         result = render_image_create(p.options.size, p.options.size, 1, &result_image, error);
@@ -279,7 +289,8 @@ hnbrdf_result gpu_sphere_render(gpu_sphere *sphere, const render_options *option
         return result;
     p.pixels = (uint32_t)p.options.size * (uint32_t)p.options.size;
     p.results = malloc(CAPACITY * NUMBERS * sizeof *p.results);
-    result = p.results ? paint(&p) : hnbrdf_fail(error, HNBRDF_ERROR_MEMORY, "rendering: no memory");
+    result =
+        p.results ? paint(&p) : hnbrdf_fail(error, HNBRDF_ERROR_MEMORY, "rendering: no memory");
     free(p.results);
     if (result) {
         render_image_free(&result_image);
@@ -301,12 +312,13 @@ hnbrdf_result gpu_sphere_record(gpu_sphere *sphere, const render_options *option
     if (result)
         return result;
     if (count > GPU_SPHERE_DRAWS)
-        return hnbrdf_fail(error, HNBRDF_ERROR_LIMIT, "recording: %zu draws, expected at most %d", count,
-                           (int)GPU_SPHERE_DRAWS);
+        return hnbrdf_fail(error, HNBRDF_ERROR_LIMIT, "recording: %zu draws, expected at most %d",
+                           count, (int)GPU_SPHERE_DRAWS);
     memset(draws, 0, count * sizeof *draws);
     result = gpu_upload(sphere->device, &sphere->results, draws, count * sizeof *draws, error);
     if (!result)
         result = dispatch(sphere, &settled, first, pixels, 0, (uint32_t)settled.spp, &ns, error);
     return result ? result
-                  : gpu_download(sphere->device, &sphere->results, draws, count * sizeof *draws, error);
+                  : gpu_download(sphere->device, &sphere->results, draws, count * sizeof *draws,
+                                 error);
 }

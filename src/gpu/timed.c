@@ -24,7 +24,8 @@ static double milliseconds(void)
     return (double)now.tv_sec * 1e3 + (double)now.tv_nsec * 1e-6;
 }
 
-/* ---- Buffers ------------------------------------------------------------------------------------- */
+/* ---- Buffers
+ * ------------------------------------------------------------------------------------- */
 
 static hnbrdf_result upload_directions(const gpu_device *device, gpu_timed_buffers *buffers,
                                        hnbrdf_error *error)
@@ -65,7 +66,8 @@ void gpu_timed_buffers_close(const gpu_device *device, gpu_timed_buffers *buffer
     gpu_buffer_close(device, &buffers->values);
 }
 
-/* ---- Scenes -------------------------------------------------------------------------------------- */
+/* ---- Scenes
+ * -------------------------------------------------------------------------------------- */
 
 static hnbrdf_result open_program(const gpu_device *device, const gpu_timed_buffers *buffers,
                                   const gpu_scene *scene, gpu_work work, gpu_timed *timed,
@@ -82,7 +84,8 @@ static hnbrdf_result open_program(const gpu_device *device, const gpu_timed_buff
         gpu_compile(hnbrdf_bench_comp, &include, 1, defines, &spirv, &timed->spirv_bytes, error);
     timed->compile_ms = milliseconds() - started;
     if (!result && scene->weights)
-        result = gpu_uniform_open(device, scene->weights, scene->weights_size, &timed->weights, error);
+        result =
+            gpu_uniform_open(device, scene->weights, scene->weights_size, &timed->weights, error);
     if (!result)
         result = gpu_program_open(device, spirv, timed->spirv_bytes, bound, scene->weights ? 3 : 2,
                                   sizeof(push_constants), &timed->program, error);
@@ -90,7 +93,8 @@ static hnbrdf_result open_program(const gpu_device *device, const gpu_timed_buff
     return result;
 }
 
-/* What a renderer waits for before the first picture: drivers compile here or at the first dispatch. */
+/* What a renderer waits for before the first picture: drivers compile here or at the first
+ * dispatch. */
 static hnbrdf_result open_pipeline(const gpu_device *device, gpu_timed *timed, hnbrdf_error *error)
 {
     push_constants push = {1, 0};
@@ -127,12 +131,13 @@ hnbrdf_result gpu_timed_run(const gpu_device *device, const gpu_timed_buffers *b
                             const gpu_timed *timed, int repeats, double *ns, hnbrdf_error *error)
 {
     push_constants push = {buffers->count, 0};
-    return gpu_dispatch(device, &timed->program, timed->pipeline, &push, buffers->count, repeats, ns,
-                        error);
+    return gpu_dispatch(device, &timed->program, timed->pipeline, &push, buffers->count, repeats,
+                        ns, error);
 }
 
-hnbrdf_result gpu_timed_download(const gpu_device *device, gpu_timed_buffers *buffers, uint32_t count,
-                                 float (*pairs)[6], float (*values)[3], hnbrdf_error *error)
+hnbrdf_result gpu_timed_download(const gpu_device *device, gpu_timed_buffers *buffers,
+                                 uint32_t count, float (*pairs)[6], float (*values)[3],
+                                 hnbrdf_error *error)
 {
     hnbrdf_result result =
         gpu_download(device, &buffers->directions, pairs, count * sizeof *pairs, error);

@@ -31,19 +31,22 @@ typedef struct gpu_timed {
     size_t spirv_bytes; /* of the shader with nothing but this work in it */
 } gpu_timed;
 
-/* The scene's text is standalone, with hnbrdf_scene_material() and hnbrdf_eval(), as exports are. */
+/* The scene's text is standalone, with hnbrdf_scene_material() and hnbrdf_eval(), as exports are.
+ * */
 hnbrdf_result gpu_timed_open(const gpu_device *device, const gpu_timed_buffers *buffers,
                              const gpu_scene *scene, gpu_work work, gpu_timed *timed,
                              hnbrdf_error *error);
 void gpu_timed_close(const gpu_device *device, gpu_timed *timed);
 
-/* Nanoseconds that `repeats` dispatches over all pairs took on the device; NaN without timestamps. */
+/* Nanoseconds that `repeats` dispatches over all pairs took on the device; NaN without
+ * timestamps. */
 hnbrdf_result gpu_timed_run(const gpu_device *device, const gpu_timed_buffers *buffers,
                             const gpu_timed *timed, int repeats, double *ns, hnbrdf_error *error);
 
 /* The first `count` pairs of directions (wi, wo) and what the last run made of them; tests look at
  * that. */
-hnbrdf_result gpu_timed_download(const gpu_device *device, gpu_timed_buffers *buffers, uint32_t count,
-                                 float (*pairs)[6], float (*values)[3], hnbrdf_error *error);
+hnbrdf_result gpu_timed_download(const gpu_device *device, gpu_timed_buffers *buffers,
+                                 uint32_t count, float (*pairs)[6], float (*values)[3],
+                                 hnbrdf_error *error);
 
 #endif

@@ -36,8 +36,8 @@ typedef struct verifier {
 
 static hnbrdf_result open_buffers(verifier *s)
 {
-    hnbrdf_result result =
-        gpu_scene_buffers_open(s->device, &s->options->scene, s->options->pairs, &s->buffers, s->error);
+    hnbrdf_result result = gpu_scene_buffers_open(s->device, &s->options->scene, s->options->pairs,
+                                                  &s->buffers, s->error);
     for (int stage = 0; stage < GPU_STAGES && !result; stage++) {
         size_t stride = (size_t)gpu_stage_stride((gpu_stage)stage) * sizeof(float);
         s->device_values[stage] = calloc(s->options->pairs, stride);
@@ -45,9 +45,9 @@ static hnbrdf_result open_buffers(verifier *s)
             result = hnbrdf_fail(s->error, HNBRDF_ERROR_MEMORY, "verify: no memory for %zu pairs",
                                  s->options->pairs);
     }
-    return result
-               ? result
-               : gpu_reference_open(s->options->pairs, s->options->precision, &s->reference, s->error);
+    return result ? result
+                  : gpu_reference_open(s->options->pairs, s->options->precision, &s->reference,
+                                       s->error);
 }
 
 static hnbrdf_result open_program(verifier *s, gpu_build build)
@@ -55,8 +55,8 @@ static hnbrdf_result open_program(verifier *s, gpu_build build)
     hnbrdf_result result = gpu_scene_program(s->device, &s->options->scene, build, &s->buffers,
                                              &s->programs[build], NULL, NULL, s->error);
     for (int stage = 0; stage < GPU_STAGES && !result; stage++)
-        result = gpu_pipeline_open(s->device, &s->programs[build], stage, &s->pipelines[build][stage],
-                                   s->error);
+        result = gpu_pipeline_open(s->device, &s->programs[build], stage,
+                                   &s->pipelines[build][stage], s->error);
     return result;
 }
 
@@ -86,14 +86,15 @@ static hnbrdf_result run_stages(verifier *s, gpu_build build, int material)
 {
     hnbrdf_result result = HNBRDF_OK;
     for (int stage = 0; stage < GPU_STAGES && !result; stage++) {
-        size_t bytes = s->options->pairs * (size_t)gpu_stage_stride((gpu_stage)stage) * sizeof(float);
+        size_t bytes =
+            s->options->pairs * (size_t)gpu_stage_stride((gpu_stage)stage) * sizeof(float);
         if (!stage_exists(s, stage))
             continue;
         result = gpu_scene_run(s->device, &s->programs[build], s->pipelines[build][stage], material,
                                s->options->pairs, 1, NULL, s->error);
         if (!result)
-            result =
-                gpu_download(s->device, &s->buffers.values, s->device_values[stage], bytes, s->error);
+            result = gpu_download(s->device, &s->buffers.values, s->device_values[stage], bytes,
+                                  s->error);
     }
     return result;
 }
@@ -130,9 +131,10 @@ static hnbrdf_result run_verifier(verifier *s)
     hnbrdf_result result = gpu_probe(s->device, &report->arithmetic, s->error);
     if (!result && s->options->precision == HNBRDF_GLSL_HALF)
         result = gpu_probe_half(s->device, &report->arithmetic, s->error);
-    if (!result && !s->options->without_timing) /* first, or the driver would have compiled before */
-        result =
-            gpu_time_scene(s->device, &s->options->scene, s->options->seed, &report->timing, s->error);
+    /* first, or the driver would have compiled before */
+    if (!result && !s->options->without_timing)
+        result = gpu_time_scene(s->device, &s->options->scene, s->options->seed, &report->timing,
+                                s->error);
     if (!result)
         result = open_buffers(s);
     for (int build = 0; build < GPU_BUILDS && !result; build++)

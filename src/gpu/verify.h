@@ -20,10 +20,10 @@ typedef struct gpu_place {
     double ulp;
 } gpu_place;
 
-/* Errors are in ulp of, and relative to, the reference, but where it is small of 2^-10 for f and f_a
- * (below that, what is left of f when the floor is subtracted has no digits of its own) and of 1 for
- * what goes in and out of the network (numbers around 1, of which absolute errors count). Bounds know
- * no such limit. */
+/* Errors are in ulp of, and relative to, the reference, but where it is small of 2^-10 for f and
+ * f_a (below that, what is left of f when the floor is subtracted has no digits of its own) and
+ * of 1 for what goes in and out of the network (numbers around 1, of which absolute errors
+ * count). Bounds know no such limit. */
 typedef struct gpu_comparison {
     int applies;      /* 0: this kind of model has no such stage */
     size_t values;    /* compared */
@@ -32,7 +32,8 @@ typedef struct gpu_comparison {
     size_t unbounded; /* not compared: nothing can be promised there (extreme pairs) */
     double sum_ulp, worst_ulp, sum_relative, worst_relative;
     double worst_share; /* largest error/bound; infinite for any error where the bound is 0 */
-    gpu_place worst; /* the first value outside of its bound if there is one, else the largest in ulp */
+    /* the first value outside of its bound if there is one, else the largest in ulp */
+    gpu_place worst;
 } gpu_comparison;
 
 /* Sums over several comparisons of one stage. */
@@ -53,15 +54,16 @@ typedef struct gpu_verify_options {
 typedef struct gpu_report {
     gpu_arithmetic arithmetic;
     gpu_timing timing; /* times are NaN if it was not asked for */
-    int within; /* every comparison within its bounds, and exp and log as accurate as the bounds assume
-                 */
+    /* every comparison within its bounds, and exp and log as accurate as the bounds assume */
+    int within;
     int material_count;
     gpu_comparison (*comparisons)[GPU_BUILDS][GPU_STAGES]; /* [material_count] */
 } gpu_report;
 
 /* Fails if something could not be run; a shader that is wrong gives HNBRDF_OK and within = 0. */
 hnbrdf_result gpu_verify(const gpu_device *device, const hnbrdf_model *model,
-                         const gpu_verify_options *options, gpu_report *report, hnbrdf_error *error);
+                         const gpu_verify_options *options, gpu_report *report,
+                         hnbrdf_error *error);
 void gpu_report_free(gpu_report *report);
 
 #endif

@@ -18,8 +18,9 @@ int hnbrdf_measured_builtin_count(void)
 
 const char *hnbrdf_measured_builtin_name(int index)
 {
-    return index >= 0 && index < hnbrdf_builtin_material_count ? hnbrdf_builtin_materials[index].name
-                                                               : NULL;
+    return index >= 0 && index < hnbrdf_builtin_material_count
+               ? hnbrdf_builtin_materials[index].name
+               : NULL;
 }
 
 static int builtin_eval(const void *data, const double wi[3], const double wo[3], double f[3])

@@ -19,9 +19,10 @@ typedef struct film_table {
 /* Two directions above the horizon and their half vector, in the frame of a lobe. */
 typedef struct pair {
     double wi[3], wo[3];
-    double h[3];            /* unit */
-    double c;               /* wi.h = wo.h */
-    const film_table *film; /* of the material that is evaluated; only set on the pair it is given */
+    double h[3]; /* unit */
+    double c;    /* wi.h = wo.h */
+    /* of the material that is evaluated; only set on the pair it is given */
+    const film_table *film;
 } pair;
 
 typedef struct builtin_material {

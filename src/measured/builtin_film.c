@@ -1,6 +1,7 @@
-/* builtin_film.c: the colour of a thin film: Airy's sum over the visible spectrum, seen by the CIE 1931
- * observer under equal-energy light, as linear sRGB with a flat spectrum grey. Saturated colours
- * outside the gamut come out negative and are clipped where f is, as in real RGB measurements. */
+/* builtin_film.c: the colour of a thin film: Airy's sum over the visible spectrum, seen by the
+ * CIE 1931 observer under equal-energy light, as linear sRGB with a flat spectrum grey. Saturated
+ * colours outside the gamut come out negative and are clipped where f is, as in real RGB
+ * measurements. */
 #include "measured/builtin.h"
 
 #include <complex.h>
@@ -9,8 +10,9 @@
 static const double PI = 3.14159265358979323846;
 enum { FIRST_NM = 380, LAST_NM = 720, STEP_NM = 5 };
 
-/* ---- Colour: multi-lobe fits of Wyman, Sloan and Shirley 2013, Simple Analytic Approximations to the
- * CIE XYZ Color Matching Functions ---------------------------------------------------------------- */
+/* ---- Colour: multi-lobe fits of Wyman, Sloan and Shirley 2013, Simple Analytic Approximations
+ * to the CIE XYZ Color Matching Functions
+ * ---------------------------------------------------------------- */
 
 static double lobe(double nm, double peak, double below, double above)
 {
@@ -35,7 +37,8 @@ static void srgb_from_xyz(const double xyz[3], double rgb[3])
         rgb[c] = M[c][0] * xyz[0] + M[c][1] * xyz[1] + M[c][2] * xyz[2];
 }
 
-/* ---- Interference: Born and Wolf, Principles of Optics, 7.6; Belcour and Barla 2017 ---------------
+/* ---- Interference: Born and Wolf, Principles of Optics, 7.6; Belcour and Barla 2017
+ * ---------------
  */
 
 /* Amplitude reflected by the boundary from index n0 to n1, polarised s (0) or p (1). */

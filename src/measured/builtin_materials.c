@@ -1,6 +1,6 @@
-/* builtin_materials.c: the built-in procedural materials: what measurements contain and Lambert plus
- * one GGX lobe cannot follow. f may be negative where a colour is outside the sRGB gamut; measured.c
- * clips it to 0, and so do the RGB editions of real measurements. */
+/* builtin_materials.c: the built-in procedural materials: what measurements contain and Lambert
+ * plus one GGX lobe cannot follow. f may be negative where a colour is outside the sRGB gamut;
+ * measured.c clips it to 0, and so do the RGB editions of real measurements. */
 #include "measured/builtin_terms.h"
 
 /* n and k of metals in the red, green and blue, rounded: right enough for their colours. */
@@ -44,10 +44,12 @@ static void metal(double f[3], const pair *p, double lobe, const double n[3], co
         f[c] += lobe * fresnel_conductor(n[c], k[c], p->c);
 }
 
-/* ---- Metals -------------------------------------------------------------------------------------- */
+/* ---- Metals
+ * -------------------------------------------------------------------------------------- */
 
 /* Aluminium flakes at two depths of a blue binder, no coat: two lobes of different width and colour
- * (as fitted to car paints by Ngan et al. 2005 and Guenther et al. 2005), over a dark diffuse base. */
+ * (as fitted to car paints by Ngan et al. 2005 and Guenther et al. 2005), over a dark diffuse
+ * base. */
 static void metallic_paint_blue(const pair *p, double f[3])
 {
     static const double near_top[3] = {0.36, 0.48, 0.66}, deep[3] = {0.02, 0.09, 0.42};
@@ -70,8 +72,8 @@ static void haze_aluminium(const pair *p, double f[3])
     metal(f, p, 0.6 * ggx(p, 0.03, 0.03) + 0.4 * ggx(p, 0.3, 0.3), ALUMINIUM_N, ALUMINIUM_K);
 }
 
-/* Brushed steel: scratches at 30 degrees to the tangent, a fine grain within coarser, shallower ones
- * (two elliptical lobes: Ward 1992; Heitz 2014). */
+/* Brushed steel: scratches at 30 degrees to the tangent, a fine grain within coarser, shallower
+ * ones (two elliptical lobes: Ward 1992; Heitz 2014). */
 static void brushed_steel(const pair *p, double f[3])
 {
     pair grain = turned_pair(p, PI / 6);
@@ -84,8 +86,8 @@ static void near_mirror_chrome(const pair *p, double f[3])
     metal(f, p, 0.96 * ggx(p, 0.006, 0.006) + 0.04 * ggx(p, 0.07, 0.07), CHROMIUM_N, CHROMIUM_K);
 }
 
-/* Anodised titanium: an oxide film on the metal; the colour runs through the spectrum with the angle
- * and leaves the gamut on the way. */
+/* Anodised titanium: an oxide film on the metal; the colour runs through the spectrum with the
+ * angle and leaves the gamut on the way. */
 static void anodised_titanium(const pair *p, double f[3])
 {
     double colour[3];
@@ -93,7 +95,8 @@ static void anodised_titanium(const pair *p, double f[3])
     add(f, 0.7 * ggx(p, 0.16, 0.16) + 0.3 * ggx(p, 0.4, 0.4), colour);
 }
 
-/* ---- Under a coat -------------------------------------------------------------------------------- */
+/* ---- Under a coat
+ * -------------------------------------------------------------------------------- */
 
 /* Red lacquer: a sharp coat over a saturated diffuse base, whose green lies outside the gamut. */
 static void clear_coat_red(const pair *p, double f[3])
@@ -104,7 +107,8 @@ static void clear_coat_red(const pair *p, double f[3])
         f[c] += diffuse_under_coat(p, albedo[c]);
 }
 
-/* Injection-moulded plastic: a glossy surface over a diffuse base of pigment; red outside the gamut. */
+/* Injection-moulded plastic: a glossy surface over a diffuse base of pigment; red outside the
+ * gamut. */
 static void glossy_plastic_green(const pair *p, double f[3])
 {
     static const double albedo[3] = {-0.02, 0.34, 0.09};
@@ -113,8 +117,8 @@ static void glossy_plastic_green(const pair *p, double f[3])
         f[c] += diffuse_under_coat(p, albedo[c]);
 }
 
-/* Candy paint: metal flakes below a dyed clear coat. Light crosses the dye twice along slanted paths,
- * so the colour deepens towards grazing (Weidlich and Wilkie 2007, with Beer's law). */
+/* Candy paint: metal flakes below a dyed clear coat. Light crosses the dye twice along slanted
+ * paths, so the colour deepens towards grazing (Weidlich and Wilkie 2007, with Beer's law). */
 static void candy_copper(const pair *p, double f[3])
 {
     static const double depth[3] = {0.06, 0.55, 1.3}; /* optical, one way at normal incidence */
@@ -127,8 +131,8 @@ static void candy_copper(const pair *p, double f[3])
         f[c] += through * exp(-depth[c] * path);
 }
 
-/* Pearl paint: mica flakes coated with titania below a clear coat. What interference does not reflect
- * goes on to a dark base. */
+/* Pearl paint: mica flakes coated with titania below a clear coat. What interference does not
+ * reflect goes on to a dark base. */
 static void pearl_flake_paint(const pair *p, double f[3])
 {
     static const double base[3] = {0.012, 0.012, 0.022};
@@ -141,7 +145,8 @@ static void pearl_flake_paint(const pair *p, double f[3])
         f[c] += diffuse_under_coat(p, base[c]);
 }
 
-/* ---- Rough, woven and granular ------------------------------------------------------------------- */
+/* ---- Rough, woven and granular
+ * ------------------------------------------------------------------- */
 
 /* Fired clay: rough Lambertian facets, flat towards grazing and brighter towards the light. */
 static void rough_clay(const pair *p, double f[3])
@@ -158,8 +163,8 @@ static void velvet_crimson(const pair *p, double f[3])
     add(f, 1.0 / PI, ground);
 }
 
-/* Satin weave: shiny warp threads across dull weft threads of another colour, each an elliptical lobe
- * (the two thread families of Irawan and Marschner 2012). */
+/* Satin weave: shiny warp threads across dull weft threads of another colour, each an elliptical
+ * lobe (the two thread families of Irawan and Marschner 2012). */
 static void satin_weave(const pair *p, double f[3])
 {
     static const double warp[3] = {0.30, 0.34, 0.38}, weft[3] = {0.22, 0.07, 0.16};
@@ -182,8 +187,8 @@ static void retro_tape(const pair *p, double f[3])
     add(f, through / PI, body);
 }
 
-/* Cardboard: a broad highlight that peaks nearer to grazing than the mirror direction (off-specular:
- * Torrance and Sparrow 1967). */
+/* Cardboard: a broad highlight that peaks nearer to grazing than the mirror direction
+ * (off-specular: Torrance and Sparrow 1967). */
 static void off_specular_cardboard(const pair *p, double f[3])
 {
     static const double fibre[3] = {0.36, 0.24, 0.14}, sheen[3] = {0.95, 0.9, 0.8};
@@ -191,7 +196,8 @@ static void off_specular_cardboard(const pair *p, double f[3])
     add(f, 1.1 * lafortune(p, 0.7, 9.0), sheen);
 }
 
-/* Lunar dust: brightest at full moon, where every grain hides its own shadow, and flat to the limb. */
+/* Lunar dust: brightest at full moon, where every grain hides its own shadow, and flat to the
+ * limb. */
 static void moon_dust(const pair *p, double f[3])
 {
     static const double albedo[3] = {0.34, 0.30, 0.25};
@@ -199,7 +205,8 @@ static void moon_dust(const pair *p, double f[3])
         f[c] += hapke(p, albedo[c], 1.0, 0.06, -0.3);
 }
 
-/* ---- The list ------------------------------------------------------------------------------------ */
+/* ---- The list
+ * ------------------------------------------------------------------------------------ */
 
 const builtin_material hnbrdf_builtin_materials[] = {
     {"metallic-paint-blue", "two flake lobes over a diffuse base", 1, NULL, metallic_paint_blue},
@@ -208,7 +215,8 @@ const builtin_material hnbrdf_builtin_materials[] = {
     {"glossy-plastic-green", "glossy surface over a saturated diffuse base", 1, NULL,
      glossy_plastic_green},
     {"candy-copper", "metal flakes below a dyed clear coat", 1, NULL, candy_copper},
-    {"pearl-flake-paint", "interference flakes below a clear coat", 1, &PEARL_FILM, pearl_flake_paint},
+    {"pearl-flake-paint", "interference flakes below a clear coat", 1, &PEARL_FILM,
+     pearl_flake_paint},
     {"anodised-titanium", "oxide film on metal, colours by interference", 1, &TITANIUM_FILM,
      anodised_titanium},
     {"haze-aluminium", "sharp lobe on a wide skirt", 1, NULL, haze_aluminium},

@@ -1,6 +1,6 @@
-/* builtin_terms.h: the reflection terms the built-in materials combine, each named after its source.
- * All in double precision, unchanged to the last bit when wi and wo swap; values are in 1/sr, or
- * reflectances where the name says Fresnel. */
+/* builtin_terms.h: the reflection terms the built-in materials combine, each named after its
+ * source. All in double precision, unchanged to the last bit when wi and wo swap; values are in
+ * 1/sr, or reflectances where the name says Fresnel. */
 #ifndef HNBRDF_MEASURED_BUILTIN_TERMS_H
 #define HNBRDF_MEASURED_BUILTIN_TERMS_H
 
@@ -11,8 +11,8 @@
 
 #define PI 3.14159265358979323846
 #define COAT_ETA 1.5 /* index of every coat */
-/* Fresnel reflectance of a surface of index 1.5 in a diffuse field outside: the integral of 2 c F(c)
- * over c. Inside, transmission is that of outside over eta^2. */
+/* Fresnel reflectance of a surface of index 1.5 in a diffuse field outside: the integral of 2 c
+ * F(c) over c. Inside, transmission is that of outside over eta^2. */
 #define DIFFUSE_FRESNEL_OUTSIDE 0.0918
 
 static inline double square(double x)
@@ -20,7 +20,8 @@ static inline double square(double x)
     return x * x;
 }
 
-/* ---- Pairs --------------------------------------------------------------------------------------- */
+/* ---- Pairs
+ * --------------------------------------------------------------------------------------- */
 
 static inline pair make_pair(const double wi[3], const double wo[3])
 {
@@ -66,7 +67,8 @@ static inline pair retro_pair(const pair *p)
     return make_pair(mirrored, p->wo);
 }
 
-/* ---- Specular ------------------------------------------------------------------------------------ */
+/* ---- Specular
+ * ------------------------------------------------------------------------------------ */
 
 /* D G1 G1 / (4 wi.z wo.z) of GGX with Smith shadowing: Walter et al. 2007; Heitz 2014. */
 static inline double ggx(const pair *p, double alpha_x, double alpha_y)
@@ -83,8 +85,8 @@ static inline double ggx(const pair *p, double alpha_x, double alpha_y)
 static inline double fresnel_dielectric(double eta, double c)
 {
     double g = sqrt(eta * eta - 1.0 + c * c), difference = (eta * eta - 1.0) / (g + c);
-    return square(difference / (g + c)) * (1.0 + square((c * (g + c) - 1.0) / (c * difference + 1.0))) /
-           2;
+    return square(difference / (g + c)) *
+           (1.0 + square((c * (g + c) - 1.0) / (c * difference + 1.0))) / 2;
 }
 
 /* Unpolarised, index n - ik: Born and Wolf, Principles of Optics, 14.2. */
@@ -104,11 +106,12 @@ static inline double schlick(double f0, double c)
     return f0 + (1.0 - f0) * square(square(m)) * m;
 }
 
-/* ---- Coats --------------------------------------------------------------------------------------- */
+/* ---- Coats
+ * --------------------------------------------------------------------------------------- */
 
-/* What gets into and out of a smooth coat of index 1.5: Weidlich and Wilkie 2007, Arbitrarily Layered
- * Micro-Facet Surfaces. Over a base that sees refracted directions, divide by 1.5^2: radiance
- * leaving the coat spreads. */
+/* What gets into and out of a smooth coat of index 1.5: Weidlich and Wilkie 2007, Arbitrarily
+ * Layered Micro-Facet Surfaces. Over a base that sees refracted directions, divide by 1.5^2:
+ * radiance leaving the coat spreads. */
 static inline double coat_transmission(const pair *p)
 {
     return (1.0 - fresnel_dielectric(COAT_ETA, p->wi[2])) *
@@ -124,7 +127,8 @@ static inline double diffuse_under_coat(const pair *p, double albedo)
     return coat_transmission(p) / (COAT_ETA * COAT_ETA) * albedo / (PI * (1.0 - albedo * inside));
 }
 
-/* ---- Rough, fibrous and granular ----------------------------------------------------------------- */
+/* ---- Rough, fibrous and granular
+ * ----------------------------------------------------------------- */
 
 /* Reflectance factor 1: Oren and Nayar 1994 in the form of Y. Fujii, whose lobe loses energy but
  * never gains any; roughness in [0, 1]. */
@@ -136,8 +140,8 @@ static inline double oren_nayar(const pair *p, double roughness)
     return a * (1.0 + roughness * s / t) / PI;
 }
 
-/* Fibres standing up: the distribution of Estevez and Kulla 2017, Production Friendly Microfacet Sheen
- * BRDF, with the visibility of Neubelt and Pettineo 2013. */
+/* Fibres standing up: the distribution of Estevez and Kulla 2017, Production Friendly Microfacet
+ * Sheen BRDF, with the visibility of Neubelt and Pettineo 2013. */
 static inline double charlie_sheen(const pair *p, double roughness)
 {
     double sine2 = fmin(square(p->h[0]) + square(p->h[1]), 1.0);
@@ -145,17 +149,19 @@ static inline double charlie_sheen(const pair *p, double roughness)
     return d / (4.0 * (p->wi[2] + p->wo[2] - p->wi[2] * p->wo[2]));
 }
 
-/* One generalised cosine lobe (Lafortune et al. 1997): z_weight < 1 pulls it from the mirror direction
- * down to the horizon. Peak 1 towards grazing; the caller scales it. */
+/* One generalised cosine lobe (Lafortune et al. 1997): z_weight < 1 pulls it from the mirror
+ * direction down to the horizon. Peak 1 towards grazing; the caller scales it. */
 static inline double lafortune(const pair *p, double z_weight, double exponent)
 {
     double lobe = z_weight * p->wi[2] * p->wo[2] - (p->wi[0] * p->wo[0] + p->wi[1] * p->wo[1]);
     return lobe > 0.0 ? pow(lobe, exponent) : 0.0;
 }
 
-/* Dust: Hapke 1981 and 1986, Bidirectional Reflectance Spectroscopy 1 and 4: single scattering with the
- * opposition surge B and a Henyey-Greenstein phase function, multiple scattering through H. */
-static inline double hapke(const pair *p, double albedo, double surge, double width, double asymmetry)
+/* Dust: Hapke 1981 and 1986, Bidirectional Reflectance Spectroscopy 1 and 4: single scattering
+ * with the opposition surge B and a Henyey-Greenstein phase function, multiple scattering through
+ * H. */
+static inline double hapke(const pair *p, double albedo, double surge, double width,
+                           double asymmetry)
 {
     double backward = p->wi[0] * p->wo[0] + p->wi[1] * p->wo[1] + p->wi[2] * p->wo[2];
     double cosine =

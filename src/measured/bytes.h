@@ -1,4 +1,5 @@
-/* bytes.h: little-endian numbers from bytes, whatever the host. The caller has checked the bounds. */
+/* bytes.h: little-endian numbers from bytes, whatever the host. The caller has checked the
+ * bounds. */
 #ifndef HNBRDF_MEASURED_BYTES_H
 #define HNBRDF_MEASURED_BYTES_H
 

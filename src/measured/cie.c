@@ -1,5 +1,6 @@
-/* cie.c: colour of a reflected spectrum: X = sum f S x / sum S y with the CIE 1931 2-degree observer
- * and illuminant D65 (CIE 15:2004, tables T.4 and T.1), then linear sRGB (IEC 61966-2-1). */
+/* cie.c: colour of a reflected spectrum: X = sum f S x / sum S y with the CIE 1931 2-degree
+ * observer and illuminant D65 (CIE 15:2004, tables T.4 and T.1), then linear sRGB (IEC
+ * 61966-2-1). */
 #include "measured/cie.h"
 
 enum { FIRST_NM = 380, LAST_NM = 780, OBSERVER_STEP = 5, D65_STEP = 10 };
@@ -37,10 +38,11 @@ static const double OBSERVER[][3] = {
 
 /* Every 10 nm; the standard itself interpolates linearly between these. */
 static const double D65[] = {
-    49.9755, 54.6482, 82.7549, 91.486,  93.4318, 86.6823, 104.865, 117.008, 117.812, 114.861, 115.923,
-    108.811, 109.354, 107.802, 104.79,  107.689, 104.405, 104.046, 100.0,   96.3342, 95.788,  88.6856,
-    90.0062, 89.5991, 87.6987, 83.2886, 83.6992, 80.0268, 80.2146, 82.2778, 78.2842, 69.7213, 71.6091,
-    74.349,  61.604,  69.8856, 75.087,  63.5927, 46.4182, 66.8054, 63.3828,
+    49.9755, 54.6482, 82.7549, 91.486,  93.4318, 86.6823, 104.865, 117.008, 117.812,
+    114.861, 115.923, 108.811, 109.354, 107.802, 104.79,  107.689, 104.405, 104.046,
+    100.0,   96.3342, 95.788,  88.6856, 90.0062, 89.5991, 87.6987, 83.2886, 83.6992,
+    80.0268, 80.2146, 82.2778, 78.2842, 69.7213, 71.6091, 74.349,  61.604,  69.8856,
+    75.087,  63.5927, 46.4182, 66.8054, 63.3828,
 };
 
 /* Of R, G, B. */
@@ -77,13 +79,15 @@ static void channel_row(int c, double row[3])
     }
 }
 
-/* Gives rgb to the nodes that make up a spectrum at nm, each its share. `below` nodes lie below nm. */
-static void add_to_nodes(const float *nodes, size_t count, size_t below, int nm, const double rgb[3],
-                         double (*weights)[3])
+/* Gives rgb to the nodes that make up a spectrum at nm, each its share. `below` nodes lie below
+ * nm. */
+static void add_to_nodes(const float *nodes, size_t count, size_t below, int nm,
+                         const double rgb[3], double (*weights)[3])
 {
     size_t left = below > 0 ? below - 1 : 0, right = below < count ? below : left;
-    double t =
-        right > left ? (nm - (double)nodes[left]) / ((double)nodes[right] - (double)nodes[left]) : 0.0;
+    double t = right > left
+                   ? (nm - (double)nodes[left]) / ((double)nodes[right] - (double)nodes[left])
+                   : 0.0;
     for (int c = 0; c < 3; c++) {
         weights[left][c] += (1.0 - t) * rgb[c];
         weights[right][c] += t * rgb[c];

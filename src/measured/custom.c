@@ -40,7 +40,8 @@ hnbrdf_result hnbrdf_custom_open(const hnbrdf_measured_custom *custom, measured_
         return hnbrdf_fail(error, HNBRDF_ERROR_MEMORY, "out of memory for a custom material");
     *copy = *custom;
     copy->name = copy->summary = NULL; /* the caller's; measured.c and body have their own */
-    snprintf(body->summary, sizeof body->summary, "%s", custom->summary ? custom->summary : "custom");
+    snprintf(body->summary, sizeof body->summary, "%s",
+             custom->summary ? custom->summary : "custom");
     body->data = copy;
     body->eval = eval;
     body->release = release;

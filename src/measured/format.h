@@ -8,7 +8,8 @@
 typedef struct measured_body {
     void *data;
     /* f of two unit vectors with z > 0. Returns 0 where nothing was measured, f is then unused;
-     * otherwise f may be negative, infinite or NaN: the caller clamps it to [0, HNBRDF_MAX_VALUE]. */
+     * otherwise f may be negative, infinite or NaN: the caller clamps it to [0,
+     * HNBRDF_MAX_VALUE]. */
     int (*eval)(const void *data, const double wi[3], const double wo[3], double f[3]);
     void (*release)(void *data);
     int isotropic;
@@ -22,8 +23,8 @@ typedef struct measured_body {
 } measured_body;
 
 /* Each reader: does the content claim this format (then every further complaint is about it), and
- * read it. `label` names the file in messages. The bytes are not needed afterwards. `options` is never
- * NULL, has been checked, and has its defaults filled in. */
+ * read it. `label` names the file in messages. The bytes are not needed afterwards. `options` is
+ * never NULL, has been checked, and has its defaults filled in. */
 int hnbrdf_merl_recognise(const unsigned char *bytes, size_t size);
 hnbrdf_result hnbrdf_merl_open(const unsigned char *bytes, size_t size, const char *label,
                                const hnbrdf_measured_options *options, measured_body *body,
@@ -34,7 +35,8 @@ hnbrdf_result hnbrdf_rgl_open(const unsigned char *bytes, size_t size, const cha
                               const hnbrdf_measured_options *options, measured_body *body,
                               hnbrdf_error *error);
 
-/* A file without a header: recognised by its size, and as a failed one by a label that ends in ".bin".
+/* A file without a header: recognised by its size, and as a failed one by a label that ends in
+ * ".bin".
  */
 int hnbrdf_utia_recognise(size_t size, const char *label);
 hnbrdf_result hnbrdf_utia_open(const unsigned char *bytes, size_t size, const char *label,

@@ -1,5 +1,6 @@
-/* measured.c: open a measured material from a file, from memory or from the built-in list, and ask it
- * for values. Which format it is, is decided here by content; everything else lies in the formats. */
+/* measured.c: open a measured material from a file, from memory or from the built-in list, and
+ * ask it for values. Which format it is, is decided here by content; everything else lies in the
+ * formats. */
 #include "measured/format.h"
 #include "measured/merl_known.h"
 #include "core/error.h"
@@ -22,9 +23,11 @@ struct hnbrdf_measured {
     char name[HNBRDF_MAX_NAME + 1];
 };
 
-/* ---- Names --------------------------------------------------------------------------------------- */
+/* ---- Names
+ * --------------------------------------------------------------------------------------- */
 
-/* Bytes of the character at p, 0 if it is a control character or not UTF-8 (Unicode 15, table 3-7). */
+/* Bytes of the character at p, 0 if it is a control character or not UTF-8 (Unicode 15, table
+ * 3-7). */
 static size_t utf8_length(const unsigned char *p)
 {
     unsigned first = p[0];
@@ -89,7 +92,8 @@ static const char *base_name(const char *path)
     return base;
 }
 
-/* The file's name without directory, extension and a trailing "_rgb"; all of it if nothing is left. */
+/* The file's name without directory, extension and a trailing "_rgb"; all of it if nothing is
+ * left. */
 static void make_name(char name[HNBRDF_MAX_NAME + 1], const char *path)
 {
     const char *base = base_name(path), *dot = strrchr(base, '.');
@@ -103,7 +107,8 @@ static void make_name(char name[HNBRDF_MAX_NAME + 1], const char *path)
         memcpy(name, "unnamed", sizeof "unnamed");
 }
 
-/* ---- Opening ------------------------------------------------------------------------------------- */
+/* ---- Opening
+ * ------------------------------------------------------------------------------------- */
 
 /* given, or the defaults where it is NULL or has 0s that stand for something else. */
 static hnbrdf_result settle_options(const hnbrdf_measured_options *given,
@@ -113,7 +118,8 @@ static hnbrdf_result settle_options(const hnbrdf_measured_options *given,
     if (given)
         settled = *given;
     int known =
-        (settled.merl_lookup == HNBRDF_MERL_NEAREST || settled.merl_lookup == HNBRDF_MERL_TRILINEAR) &&
+        (settled.merl_lookup == HNBRDF_MERL_NEAREST ||
+         settled.merl_lookup == HNBRDF_MERL_TRILINEAR) &&
         (settled.merl_node == HNBRDF_MERL_CENTRE || settled.merl_node == HNBRDF_MERL_EDGE) &&
         (settled.utia_mode == HNBRDF_UTIA_DJB || settled.utia_mode == HNBRDF_UTIA_RAW ||
          settled.utia_mode == HNBRDF_UTIA_SRGB);
@@ -124,8 +130,9 @@ static hnbrdf_result settle_options(const hnbrdf_measured_options *given,
             "of their enums",
             (int)settled.merl_lookup, (int)settled.merl_node, (int)settled.utia_mode);
     if (!(settled.utia_scale >= 0.0 && settled.utia_scale <= (double)HNBRDF_MAX_VALUE))
-        return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT,
-                           "measured options: utia_scale is negative or not finite, expected a factor");
+        return hnbrdf_fail(
+            error, HNBRDF_ERROR_ARGUMENT,
+            "measured options: utia_scale is negative or not finite, expected a factor");
     if (settled.utia_scale == 0.0)
         settled.utia_scale = 1.0;
     if (settled.max_bytes == 0)
@@ -136,8 +143,8 @@ static hnbrdf_result settle_options(const hnbrdf_measured_options *given,
 
 /* Everything up to the end of the stream, at most limit bytes, into *bytes (malloc'ed, also when
  * empty). The size is what could be read: pipes and special files have no other. */
-static hnbrdf_result read_stream(FILE *stream, size_t limit, const char *label, unsigned char **bytes,
-                                 size_t *size, hnbrdf_error *error)
+static hnbrdf_result read_stream(FILE *stream, size_t limit, const char *label,
+                                 unsigned char **bytes, size_t *size, hnbrdf_error *error)
 {
     size_t capacity = FIRST_CHUNK, used = 0;
     unsigned char *buffer = malloc(capacity);
@@ -165,8 +172,8 @@ static hnbrdf_result read_stream(FILE *stream, size_t limit, const char *label, 
         buffer = larger;
         capacity *= 2;
     }
-    return hnbrdf_fail(error, HNBRDF_ERROR_MEMORY, "%s: out of memory after reading %zu bytes", label,
-                       used);
+    return hnbrdf_fail(error, HNBRDF_ERROR_MEMORY, "%s: out of memory after reading %zu bytes",
+                       label, used);
 }
 
 static hnbrdf_result unrecognised(const unsigned char *bytes, size_t size, const char *label,
@@ -266,7 +273,8 @@ hnbrdf_result hnbrdf_measured_open_memory(const void *data, size_t size, const c
     return open_labelled(data, size, path, label, &settled, measured, error);
 }
 
-hnbrdf_result hnbrdf_measured_open_builtin(int index, hnbrdf_measured **measured, hnbrdf_error *error)
+hnbrdf_result hnbrdf_measured_open_builtin(int index, hnbrdf_measured **measured,
+                                           hnbrdf_error *error)
 {
     const char *name = hnbrdf_measured_builtin_name(index);
     if (!name || !measured)
@@ -291,8 +299,9 @@ hnbrdf_result hnbrdf_measured_create_custom(const hnbrdf_measured_custom *custom
                                             hnbrdf_measured **measured, hnbrdf_error *error)
 {
     if (!custom || !measured || !custom->eval || !custom->name)
-        return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT,
-                           "hnbrdf_measured_create_custom: description, name, eval or result is NULL");
+        return hnbrdf_fail(
+            error, HNBRDF_ERROR_ARGUMENT,
+            "hnbrdf_measured_create_custom: description, name, eval or result is NULL");
     hnbrdf_measured *made = calloc(1, sizeof *made);
     if (!made)
         return hnbrdf_fail(error, HNBRDF_ERROR_MEMORY, "out of memory for a custom material");
@@ -301,10 +310,11 @@ hnbrdf_result hnbrdf_measured_create_custom(const hnbrdf_measured_custom *custom
     made->format = HNBRDF_MEASURED_CUSTOM;
     hnbrdf_result result = HNBRDF_OK;
     if (length == 0 || strcmp(made->name, custom->name) != 0)
-        result = hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT,
-                             "custom material '%s': expected a name of 1 to %d bytes of UTF-8 without "
-                             "control characters",
-                             made->name, HNBRDF_MAX_NAME);
+        result =
+            hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT,
+                        "custom material '%s': expected a name of 1 to %d bytes of UTF-8 without "
+                        "control characters",
+                        made->name, HNBRDF_MAX_NAME);
     if (!result)
         result = hnbrdf_custom_open(custom, &made->body, error);
     if (result) {
@@ -323,7 +333,8 @@ void hnbrdf_measured_close(hnbrdf_measured *measured)
     free(measured);
 }
 
-/* ---- Asking -------------------------------------------------------------------------------------- */
+/* ---- Asking
+ * -------------------------------------------------------------------------------------- */
 
 const char *hnbrdf_measured_format_name(hnbrdf_measured_format format)
 {
@@ -407,8 +418,8 @@ int hnbrdf_measured_eval(const hnbrdf_measured *measured, const float wi[3], con
     return 1;
 }
 
-int hnbrdf_measured_eval_spectrum(const hnbrdf_measured *measured, const float wi[3], const float wo[3],
-                                  size_t count, const float *nm, float *f)
+int hnbrdf_measured_eval_spectrum(const hnbrdf_measured *measured, const float wi[3],
+                                  const float wo[3], size_t count, const float *nm, float *f)
 {
     double i[3], o[3];
     if (measured->body.eval_spectrum && unit_above_horizon(wi, i) && unit_above_horizon(wo, o) &&

@@ -1,5 +1,6 @@
-/* merl.c: MERL .binary tables (Matusik et al. 2003): 90 x 90 x 180 bins over the half and difference
- * angles of Rusinkiewicz 1998. Nearest bin, as the database's own code looks up, or trilinear. */
+/* merl.c: MERL .binary tables (Matusik et al. 2003): 90 x 90 x 180 bins over the half and
+ * difference angles of Rusinkiewicz 1998. Nearest bin, as the database's own code looks up, or
+ * trilinear. */
 #include "measured/format.h"
 #include "measured/bytes.h"
 #include "core/error.h"
@@ -35,8 +36,8 @@ static int min_int(int a, int b)
 
 /* The place of two unit vectors above the horizon among the bins: their lower edges are at whole
  * numbers. With h the half vector, t and b the frame that carries z to h, wi.t = (wi - wo).t / 2:
- * swapping wi and wo negates both components to the last bit, and the fold to [0, pi) makes the place
- * the same. */
+ * swapping wi and wo negates both components to the last bit, and the fold to [0, pi) makes the
+ * place the same. */
 static void locate(const double wi[3], const double wo[3], double place[3])
 {
     double s[3] = {wi[0] + wo[0], wi[1] + wo[1], wi[2] + wo[2]};
@@ -198,7 +199,8 @@ static const char *lookup_name(const hnbrdf_measured_options *options)
                                                     : "trilinear between lower edges of bins";
 }
 
-static void summarise(char summary[256], const hnbrdf_measured_options *options, int valid, size_t size)
+static void summarise(char summary[256], const hnbrdf_measured_options *options, int valid,
+                      size_t size)
 {
     int permille = (int)((int64_t)valid * 1000 / BINS);
     int unusual = valid < TYPICAL_VALID / 10 * 9 || valid > TYPICAL_VALID / 10 * 11;

@@ -1,5 +1,5 @@
-/* merl_known.c: the SHA-256 of the 100 files of the MERL BRDF database (Matusik et al. 2003), so that
- * a user can tell the published measurements from files that only look like them. */
+/* merl_known.c: the SHA-256 of the 100 files of the MERL BRDF database (Matusik et al. 2003), so
+ * that a user can tell the published measurements from files that only look like them. */
 #include "measured/merl_known.h"
 #include "measured/sha256.h"
 
@@ -84,12 +84,16 @@ static const struct {
     {"65ea5c3b6a7e48a1be05b83237f55eb81e8134f6f96aa28aed1dd48645d69396", "specular-black-phenolic"},
     {"8df9d49f4f5e2e0b52583d46b3b5ab9641a028efa3c9049bc13c01a2783911ae", "specular-blue-phenolic"},
     {"05b389a759d555b6f7a45ae33763d555b93d373b4d6db2fe0c52ca461321a7b0", "specular-green-phenolic"},
-    {"3c0fd0d9a9932a772854eca3bae8b6506659cab63c2820ee918304265709713b", "specular-maroon-phenolic"},
-    {"61e3ee38c2b541abe755dc0f1541c9cf572306409b9eccec849fa85b9811f3b0", "specular-orange-phenolic"},
+    {"3c0fd0d9a9932a772854eca3bae8b6506659cab63c2820ee918304265709713b",
+     "specular-maroon-phenolic"},
+    {"61e3ee38c2b541abe755dc0f1541c9cf572306409b9eccec849fa85b9811f3b0",
+     "specular-orange-phenolic"},
     {"e4821c9618b0eb931c536548af6b58bae86f2752200e3a24b4e44800b87516b5", "specular-red-phenolic"},
-    {"09acfbb1d8e7eb63872c25edffe6ab65e1f643d2e9522612cc80a7ec8eb60a08", "specular-violet-phenolic"},
+    {"09acfbb1d8e7eb63872c25edffe6ab65e1f643d2e9522612cc80a7ec8eb60a08",
+     "specular-violet-phenolic"},
     {"dab007a599a34eedbc3a1afe6757b24ac5943798e1d45713d3d1c7f51f0b996a", "specular-white-phenolic"},
-    {"745b9868b6c28b1d7e4132879a046e066f5d4c45516e940de0dc0811bdacf1ea", "specular-yellow-phenolic"},
+    {"745b9868b6c28b1d7e4132879a046e066f5d4c45516e940de0dc0811bdacf1ea",
+     "specular-yellow-phenolic"},
     {"ddf0c7b5369a86023470dd55d3c28cd48a8fe41944885dd6e6dc3f93c8d5b832", "ss440"},
     {"75f2555e75d2a58864f223ad6269b84279bc2793d32a6f987e1768a94c065808", "steel"},
     {"84519c4158b66a6abfa0f7e3ab83143983d4a2a638d8c254e0b16dd3950575df", "teflon"},

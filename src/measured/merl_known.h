@@ -4,7 +4,8 @@
 
 #include <stddef.h>
 
-/* The material whose published file has this SHA-256 (64 lower-case digits), NULL if none of the 100 has. */
+/* The material whose published file has this SHA-256 (64 lower-case digits), NULL if none of the
+ * 100 has. */
 const char *hnbrdf_merl_known_digest(const char *sha256);
 /* The material whose published file has these bytes, NULL if none of the 100 has. */
 const char *hnbrdf_merl_known(const unsigned char *bytes, size_t size);

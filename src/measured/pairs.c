@@ -1,5 +1,5 @@
-/* pairs.c: random numbers and the three ways to draw pairs of directions. Every error figure names one
- * of them, so what they draw from a seed must never change. */
+/* pairs.c: random numbers and the three ways to draw pairs of directions. Every error figure
+ * names one of them, so what they draw from a seed must never change. */
 #include "hnbrdf/measured.h"
 
 #include <math.h>
@@ -7,8 +7,9 @@
 static const double PI = 3.14159265358979323846;
 static const float MIN_Z = 0.01f; /* nearer to the horizon measurements are extrapolated */
 
-/* ---- PCG32: M. O'Neill, PCG: A Family of Simple Fast Space-Efficient Statistically Good Algorithms
- * for Random Number Generation, 2014; the XSH-RR variant with 64 bits of state. ------------------- */
+/* ---- PCG32: M. O'Neill, PCG: A Family of Simple Fast Space-Efficient Statistically Good
+ * Algorithms for Random Number Generation, 2014; the XSH-RR variant with 64 bits of state.
+ * ------------------- */
 
 uint32_t hnbrdf_rng_u32(hnbrdf_rng *rng)
 {
@@ -33,7 +34,8 @@ float hnbrdf_rng_float(hnbrdf_rng *rng)
     return (float)(hnbrdf_rng_u32(rng) >> 8) * 0x1p-24f;
 }
 
-/* ---- Samplers ------------------------------------------------------------------------------------ */
+/* ---- Samplers
+ * ------------------------------------------------------------------------------------ */
 
 const char *hnbrdf_sampler_name(hnbrdf_sampler sampler)
 {
@@ -83,8 +85,9 @@ static void turn(double x, double y, double z, double phi, float w[3])
     w[2] = (float)z;
 }
 
-/* Uniform in MERL's bins (theta_h grows as the square of its bin), over the full circle of phi_d, so
- * that neither direction is preferred; then turned about n as a whole. May fall below the horizon. */
+/* Uniform in MERL's bins (theta_h grows as the square of its bin), over the full circle of phi_d,
+ * so that neither direction is preferred; then turned about n as a whole. May fall below the
+ * horizon. */
 static void draw_grid(hnbrdf_rng *rng, float wi[3], float wo[3])
 {
     double u = uniform(rng), theta_h = u * u * PI / 2, theta_d = uniform(rng) * PI / 2;

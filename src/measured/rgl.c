@@ -1,5 +1,5 @@
-/* rgl.c: read RGL .bsdf files (Dupuy and Jakob 2018), RGB and spectral: check every field, and build
- * the tables that rgl_eval.c looks up. */
+/* rgl.c: read RGL .bsdf files (Dupuy and Jakob 2018), RGB and spectral: check every field, and
+ * build the tables that rgl_eval.c looks up. */
 #include "measured/rgl.h"
 #include "measured/bytes.h"
 #include "measured/cie.h"
@@ -33,7 +33,8 @@ int hnbrdf_rgl_recognise(const unsigned char *bytes, size_t size)
     return hnbrdf_tensor_file_recognise(bytes, size);
 }
 
-/* ---- Fields and shapes --------------------------------------------------------------------------- */
+/* ---- Fields and shapes
+ * --------------------------------------------------------------------------- */
 
 static hnbrdf_result check_kind(const reader *r, const tensor *field, tensor_type type, int dims)
 {
@@ -73,7 +74,8 @@ static hnbrdf_result find_fields(const reader *r, rgl_fields *fields)
             return hnbrdf_fail(r->error, HNBRDF_ERROR_FORMAT,
                                "%s: no field \"%s\" among %zu, expected one in an RGL material",
                                r->label, name, r->file->count);
-        hnbrdf_result result = field ? check_kind(r, field, wanted[i].type, wanted[i].dims) : HNBRDF_OK;
+        hnbrdf_result result =
+            field ? check_kind(r, field, wanted[i].type, wanted[i].dims) : HNBRDF_OK;
         if (result)
             return result;
         *wanted[i].place = field;
@@ -126,7 +128,8 @@ static hnbrdf_result check_shapes(const reader *r, const rgl_fields *fields)
     return result;
 }
 
-/* ---- Values -------------------------------------------------------------------------------------- */
+/* ---- Values
+ * -------------------------------------------------------------------------------------- */
 
 static float element(const tensor *field, size_t i)
 {
@@ -158,8 +161,9 @@ static hnbrdf_result check_finite(const reader *r, const tensor *field)
 
 static hnbrdf_result check_values(const reader *r, const rgl_fields *fields)
 {
-    const tensor *finite[] = {fields->phi_i, fields->theta_i, fields->ndf,       fields->sigma,
-                              fields->vndf,  fields->colours, fields->luminance, fields->wavelengths};
+    const tensor *finite[] = {fields->phi_i,     fields->theta_i,    fields->ndf,
+                              fields->sigma,     fields->vndf,       fields->colours,
+                              fields->luminance, fields->wavelengths};
     for (size_t k = 0; k < sizeof finite / sizeof finite[0]; k++) {
         hnbrdf_result result = finite[k] ? check_finite(r, finite[k]) : HNBRDF_OK;
         if (result)
@@ -203,7 +207,8 @@ static hnbrdf_result read_grid(const reader *r, const tensor *field, rgl_grid *g
     return HNBRDF_OK;
 }
 
-/* ---- Building ------------------------------------------------------------------------------------ */
+/* ---- Building
+ * ------------------------------------------------------------------------------------ */
 
 static hnbrdf_result read_directions(const reader *r, const rgl_fields *fields, rgl *material)
 {
@@ -224,7 +229,8 @@ static hnbrdf_result read_directions(const reader *r, const rgl_fields *fields, 
     material->reduction = 1;
     if (material->isotropic)
         return HNBRDF_OK;
-    double turns = floor(2 * PI / (material->phi[material->phi_count - 1] - material->phi[0]) + 0.5);
+    double turns =
+        floor(2 * PI / (material->phi[material->phi_count - 1] - material->phi[0]) + 0.5);
     if (turns != 1.0 && turns != 2.0 && turns != 4.0)
         return hnbrdf_fail(
             r->error, HNBRDF_ERROR_UNSUPPORTED,
@@ -236,8 +242,8 @@ static hnbrdf_result read_directions(const reader *r, const rgl_fields *fields, 
 }
 
 /* One slice of the density by the trapezoid rule, summed in double; returns its integral. */
-static double sum_slice(const tensor *field, size_t slice, size_t width, size_t height, double *cells,
-                        double *rows)
+static double sum_slice(const tensor *field, size_t slice, size_t width, size_t height,
+                        double *cells, double *rows)
 {
     double total = 0.0, previous = 0.0;
     for (size_t y = 0; y < height; y++) {
@@ -245,7 +251,8 @@ static double sum_slice(const tensor *field, size_t slice, size_t width, size_t 
         double along = 0.0;
         cells[y * width] = 0.0;
         for (size_t x = 1; x < width; x++) {
-            along += ((double)element(field, first + x - 1) + (double)element(field, first + x)) / 2;
+            along +=
+                ((double)element(field, first + x - 1) + (double)element(field, first + x)) / 2;
             cells[y * width + x] = along;
         }
         if (y > 0)
@@ -264,12 +271,13 @@ static hnbrdf_result fill_warp(const reader *r, const tensor *field, rgl *materi
         double total = sum_slice(field, slice, width, height, cells, rows);
         if (!(total > 0.0))
             return hnbrdf_fail(r->error, HNBRDF_ERROR_FORMAT,
-                               "%s: field \"%s\" is 0 all over slice %zu, expected a density", r->label,
-                               field->shown, slice);
+                               "%s: field \"%s\" is 0 all over slice %zu, expected a density",
+                               r->label, field->shown, slice);
         rgl_node *nodes = material->nodes + slice * height * width;
         for (size_t i = 0; i < height * width; i++)
-            nodes[i] = (rgl_node){(float)((double)element(field, slice * height * width + i) / total),
-                                  (float)(cells[i] / total)};
+            nodes[i] =
+                (rgl_node){(float)((double)element(field, slice * height * width + i) / total),
+                           (float)(cells[i] / total)};
         for (size_t y = 0; y < height; y++)
             material->rows[slice * height + y] =
                 (rgl_row){(float)(cells[y * width + width - 1] / total), (float)(rows[y] / total)};
@@ -305,8 +313,8 @@ static void read_rgb(const tensor *field, rgl *material, size_t *negative)
     }
 }
 
-/* From planes [slice][wavelength][y][x] to linear sRGB pixels, and to spectra where they are kept. One
- * slice is summed at a time, in double. */
+/* From planes [slice][wavelength][y][x] to linear sRGB pixels, and to spectra where they are
+ * kept. One slice is summed at a time, in double. */
 static void read_spectra(const tensor *field, rgl *material, double (*weights)[3], double *sum,
                          size_t *negative)
 {
@@ -430,23 +438,24 @@ static int nearest_nm(float nm)
     return nm >= 0.0f && nm < 1e6f ? (int)(nm + 0.5f) : -1;
 }
 
-static void summarise(char summary[256], const rgl *material, const hnbrdf_measured_options *options,
-                      size_t negative, unsigned minor)
+static void summarise(char summary[256], const rgl *material,
+                      const hnbrdf_measured_options *options, size_t negative, unsigned minor)
 {
-    size_t values = material->phi_count * material->theta_count * material->side * material->side * 3;
+    size_t values =
+        material->phi_count * material->theta_count * material->side * material->side * 3;
     unsigned permille = (unsigned)((double)negative / (double)values * 1000.0);
     char kind[96] = "RGB";
     if (material->wavelengths)
         snprintf(kind, sizeof kind, "spectral (%zu wavelengths, %d to %d nm, made sRGB)",
                  material->wavelength_count, nearest_nm(material->wavelengths[0]),
                  nearest_nm(material->wavelengths[material->wavelength_count - 1]));
-    int n =
-        snprintf(summary, 256,
-                 "RGL %s %s, %zu x %zu incident directions (phi_i, theta_i), %zu x %zu colours each, "
-                 "%u.%u %% of them negative (%s)",
-                 material->isotropic ? "isotropic" : "anisotropic", kind, material->phi_count,
-                 material->theta_count, material->side, material->side, permille / 10, permille % 10,
-                 options->rgl_signed ? "kept" : "clipped");
+    int n = snprintf(
+        summary, 256,
+        "RGL %s %s, %zu x %zu incident directions (phi_i, theta_i), %zu x %zu colours each, "
+        "%u.%u %% of them negative (%s)",
+        material->isotropic ? "isotropic" : "anisotropic", kind, material->phi_count,
+        material->theta_count, material->side, material->side, permille / 10, permille % 10,
+        options->rgl_signed ? "kept" : "clipped");
     if (material->reduction > 1 && n > 0 && n < 256)
         n += snprintf(summary + n, (size_t)(256 - n), ", 1/%d of the circle", material->reduction);
     if (minor && n > 0 && n < 256)

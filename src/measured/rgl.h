@@ -4,8 +4,8 @@
 
 #include <stddef.h>
 
-/* Node (x, y) at values[y * width + x]; width, height >= 2. Width is the theta-like axis u_x, height
- * the phi-like one u_y; node x sits at u_x = x / (width - 1). */
+/* Node (x, y) at values[y * width + x]; width, height >= 2. Width is the theta-like axis u_x,
+ * height the phi-like one u_y; node x sits at u_x = x / (width - 1). */
 typedef struct rgl_grid {
     size_t width, height;
     float *values;

@@ -1,6 +1,6 @@
 /* rgl_eval.c: evaluate an RGL material (Dupuy and Jakob 2018, An Adaptive Parameterization for
- * Efficient Material Acquisition and Rendering): the half vector is warped by the cumulative density
- * of visible normals, and the colours lie on a regular grid of the warped square. */
+ * Efficient Material Acquisition and Rendering): the half vector is warped by the cumulative
+ * density of visible normals, and the colours lie on a regular grid of the warped square. */
 #include "measured/rgl.h"
 #include "hnbrdf/hnbrdf.h"
 
@@ -79,8 +79,8 @@ static int neighbours(const rgl *material, double phi_i, double theta_i, slice_w
 
 /* The inverse of sampling visible normals: u to s, by the blended cumulative tables. All tables are
  * linear in the density, so the sums are blended, not the tables. 0 if the row has no density. */
-static int invert_warp(const rgl *material, const slice_weight *slices, int count, const double u[2],
-                       double s[2])
+static int invert_warp(const rgl *material, const slice_weight *slices, int count,
+                       const double u[2], double s[2])
 {
     size_t width = material->warp_width, height = material->warp_height;
     axis_cell x = locate(u[0], width), y = locate(u[1], height);
@@ -112,8 +112,8 @@ typedef struct colour_cell {
     double factor;                     /* of the blended colour, to be f */
 } colour_cell;
 
-static void find_colours(const rgl *material, const slice_weight *slices, int count, const double s[2],
-                         colour_cell *cell)
+static void find_colours(const rgl *material, const slice_weight *slices, int count,
+                         const double s[2], colour_cell *cell)
 {
     axis_cell x = locate(s[0], material->side), y = locate(s[1], material->side);
     cell->slices = count;
@@ -249,7 +249,10 @@ int hnbrdf_rgl_eval_spectrum(const void *data, const double wi[3], const double 
             value = mix(value, blend(&cell, material->spectra, channels, at.node + 1), at.fraction);
         value *= cell.factor;
         double limit = (double)HNBRDF_MAX_VALUE;
-        f[k] = (float)(value > limit ? limit : value > -limit ? value : value <= -limit ? -limit : 0.0);
+        f[k] = (float)(value > limit     ? limit
+                       : value > -limit  ? value
+                       : value <= -limit ? -limit
+                                         : 0.0);
     }
     return 1;
 }

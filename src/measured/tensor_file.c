@@ -1,5 +1,5 @@
-/* tensor_file.c: parse the container of RGL .bsdf files with one bounds-checked cursor. No size in the
- * file is believed before it was compared with the bytes that are there. */
+/* tensor_file.c: parse the container of RGL .bsdf files with one bounds-checked cursor. No size
+ * in the file is believed before it was compared with the bytes that are there. */
 #include "measured/tensor_file.h"
 #include "measured/bytes.h"
 #include "core/error.h"
@@ -53,8 +53,8 @@ static hnbrdf_result truncated_record(const cursor *c, size_t index, const char 
 {
     return hnbrdf_fail(
         c->error, HNBRDF_ERROR_FORMAT,
-        "%s: truncated in the record of field %zu: %zu bytes left at byte %zu, expected %s", c->label,
-        index, left(c), c->at, what);
+        "%s: truncated in the record of field %zu: %zu bytes left at byte %zu, expected %s",
+        c->label, index, left(c), c->at, what);
 }
 
 static void show_name(tensor *field)
@@ -76,10 +76,11 @@ static hnbrdf_result parse_shape(cursor *c, tensor *field)
                                "%s: field \"%s\" has size 0 along axis %d, expected at least 1",
                                c->label, field->shown, axis);
         if (dim > c->size / field->count)
-            return hnbrdf_fail(c->error, HNBRDF_ERROR_FORMAT,
-                               "%s: field \"%s\" claims size %llu along axis %d, more than the whole "
-                               "file of %zu bytes holds",
-                               c->label, field->shown, (unsigned long long)dim, axis, c->size);
+            return hnbrdf_fail(
+                c->error, HNBRDF_ERROR_FORMAT,
+                "%s: field \"%s\" claims size %llu along axis %d, more than the whole "
+                "file of %zu bytes holds",
+                c->label, field->shown, (unsigned long long)dim, axis, c->size);
         field->shape[axis] = (size_t)dim;
         field->count *= (size_t)dim;
     }
@@ -94,8 +95,8 @@ static hnbrdf_result locate_data(const cursor *c, tensor *field, uint64_t offset
             c->error, HNBRDF_ERROR_FORMAT,
             "%s: field \"%s\" has %zu elements of %s at byte %llu, expected them inside the "
             "file of %zu bytes",
-            c->label, field->shown, field->count, TYPES[field->type].name, (unsigned long long)offset,
-            c->size);
+            c->label, field->shown, field->count, TYPES[field->type].name,
+            (unsigned long long)offset, c->size);
     field->data = c->bytes + offset;
     return HNBRDF_OK;
 }
@@ -134,20 +135,21 @@ static hnbrdf_result parse_header(cursor *c, size_t *count, unsigned *minor)
 {
     if (c->size < HEADER_SIZE)
         return hnbrdf_fail(c->error, HNBRDF_ERROR_FORMAT,
-                           "%s: truncated tensor file: %zu bytes, expected a header of %d", c->label,
-                           c->size, HEADER_SIZE);
+                           "%s: truncated tensor file: %zu bytes, expected a header of %d",
+                           c->label, c->size, HEADER_SIZE);
     take(c, MAGIC_SIZE);
     unsigned major = *take(c, 1);
     *minor = *take(c, 1);
     *count = le32(take(c, 4));
     if (major != 1)
         return hnbrdf_fail(c->error, HNBRDF_ERROR_UNSUPPORTED,
-                           "%s: tensor file of version %u.%u, expected 1.0", c->label, major, *minor);
+                           "%s: tensor file of version %u.%u, expected 1.0", c->label, major,
+                           *minor);
     if (*count > left(c) / MIN_RECORD_SIZE)
         return hnbrdf_fail(
             c->error, HNBRDF_ERROR_FORMAT,
-            "%s: header claims %zu fields, expected at most %zu in the %zu bytes after it", c->label,
-            *count, left(c) / MIN_RECORD_SIZE, left(c));
+            "%s: header claims %zu fields, expected at most %zu in the %zu bytes after it",
+            c->label, *count, left(c) / MIN_RECORD_SIZE, left(c));
     if (*count > TENSOR_MAX_FIELDS)
         return hnbrdf_fail(c->error, HNBRDF_ERROR_LIMIT, "%s: %zu fields, expected at most %d",
                            c->label, *count, TENSOR_MAX_FIELDS);
@@ -169,8 +171,8 @@ static hnbrdf_result parse_records(cursor *c, tensor *fields, size_t count)
             if (same_name(&fields[i], &fields[j]))
                 return hnbrdf_fail(
                     c->error, HNBRDF_ERROR_FORMAT,
-                    "%s: fields %zu and %zu are both named \"%s\", expected each name once", c->label,
-                    j, i, fields[i].shown);
+                    "%s: fields %zu and %zu are both named \"%s\", expected each name once",
+                    c->label, j, i, fields[i].shown);
     }
     return HNBRDF_OK;
 }
@@ -206,7 +208,8 @@ const tensor *hnbrdf_tensor_file_find(const tensor_file *file, const char *name)
 {
     size_t length = strlen(name);
     for (size_t i = 0; i < file->count; i++)
-        if (file->fields[i].name_length == length && memcmp(file->fields[i].name, name, length) == 0)
+        if (file->fields[i].name_length == length &&
+            memcmp(file->fields[i].name, name, length) == 0)
             return &file->fields[i];
     return NULL;
 }

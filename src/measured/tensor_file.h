@@ -1,5 +1,5 @@
-/* tensor_file.h: the container of RGL .bsdf files: named n-dimensional arrays. Every bound is checked
- * here, so that whoever uses a tensor may trust its shape and its bytes. */
+/* tensor_file.h: the container of RGL .bsdf files: named n-dimensional arrays. Every bound is
+ * checked here, so that whoever uses a tensor may trust its shape and its bytes. */
 #ifndef HNBRDF_MEASURED_TENSOR_FILE_H
 #define HNBRDF_MEASURED_TENSOR_FILE_H
 

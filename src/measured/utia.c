@@ -1,5 +1,6 @@
-/* utia.c: UTIA .bin tables (Filip and Vavra 2014, Template-Based Sampling of Anisotropic BRDFs): 5-D
- * grids of doubles without a header, and the three readings of their numbers that public readers have.
+/* utia.c: UTIA .bin tables (Filip and Vavra 2014, Template-Based Sampling of Anisotropic BRDFs):
+ * 5-D grids of doubles without a header, and the three readings of their numbers that public
+ * readers have.
  */
 #include "measured/format.h"
 #include "measured/bytes.h"
@@ -15,7 +16,8 @@ enum {
     PAIRS = DIRECTIONS * DIRECTIONS,
     SAMPLES = 3 * PAIRS,
     ALBEDO_AZIMUTHS = 8, /* of the light */
-    ALBEDO_RINGS = 24    /* of the viewer, of equal projected solid angle; PHIS directions in each */
+    /* of the viewer, of equal projected solid angle; PHIS directions in each */
+    ALBEDO_RINGS = 24
 };
 static const size_t FILE_SIZE = (size_t)SAMPLES * 8;
 static const uint64_t DENSE_FILE_SIZE = 1505433600; /* 44 x 180 directions, 2 degrees apart */
@@ -27,7 +29,8 @@ typedef struct utia_table {
     float v[PAIRS][3];       /* [theta_i][phi_i][theta_v][phi_v]; i is the light, v the viewer */
 } utia_table;
 
-/* ---- What the numbers mean ----------------------------------------------------------------------- */
+/* ---- What the numbers mean
+ * ----------------------------------------------------------------------- */
 
 /* IEC 61966-2-1 from `threshold` on, where the two branches of the standard meet near 0.04045. */
 static double decode(double v, double threshold)
@@ -55,9 +58,11 @@ static double brdf_value(const utia_table *table, double interpolated)
     return table->scale * interpolated;
 }
 
-/* ---- Lookup -------------------------------------------------------------------------------------- */
+/* ---- Lookup
+ * -------------------------------------------------------------------------------------- */
 
-/* The four neighbours of one direction. Weights are negative where theta is beyond the last sample. */
+/* The four neighbours of one direction. Weights are negative where theta is beyond the last
+ * sample. */
 typedef struct corners {
     int direction[4];
     double weight[4];
@@ -92,7 +97,8 @@ static int utia_eval(const void *data, const double wi[3], const double wo[3], d
     return 1;
 }
 
-/* ---- Energy -------------------------------------------------------------------------------------- */
+/* ---- Energy
+ * -------------------------------------------------------------------------------------- */
 
 static void direction(double sine2, double phi, double w[3])
 {
@@ -102,8 +108,8 @@ static void direction(double sine2, double phi, double w[3])
     w[2] = sqrt(1.0 - sine2);
 }
 
-/* Directional albedo of the brightest channel, mean over the azimuths of the light: midpoint rule, to
- * about 1 % on smooth materials. sine2 is that of the light's theta. */
+/* Directional albedo of the brightest channel, mean over the azimuths of the light: midpoint
+ * rule, to about 1 % on smooth materials. sine2 is that of the light's theta. */
 static double albedo(const utia_table *table, double sine2)
 {
     double sum[3] = {0};
@@ -119,7 +125,8 @@ static double albedo(const utia_table *table, double sine2)
     return PI * fmax(sum[0], fmax(sum[1], sum[2])) / (ALBEDO_AZIMUTHS * ALBEDO_RINGS * PHIS);
 }
 
-/* ---- Opening ------------------------------------------------------------------------------------- */
+/* ---- Opening
+ * ------------------------------------------------------------------------------------- */
 
 int hnbrdf_utia_recognise(size_t size, const char *label)
 {

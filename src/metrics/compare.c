@@ -8,7 +8,8 @@
 
 enum { BLOCK = 256, DRAWS_PER_PAIR = 1000 };
 
-/* "compare": a sequence of its own, so that no error is measured on the pairs a fit was trained on. */
+/* "compare": a sequence of its own, so that no error is measured on the pairs a fit was trained
+ * on. */
 static const uint64_t compare_sequence = 0x636f6d70617265u;
 
 typedef struct pair_block {

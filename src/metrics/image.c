@@ -1,5 +1,6 @@
-/* image.c: MAE, MSE and PSNR between two linear images, and what noise does to them; the peak of PSNR
- * is the reference's largest value, as a rendering in radiance has no fixed white (DESIGN section 8).
+/* image.c: MAE, MSE and PSNR between two linear images, and what noise does to them; the peak of
+ * PSNR is the reference's largest value, as a rendering in radiance has no fixed white (DESIGN
+ * section 8).
  */
 #include "hnbrdf/metrics.h"
 
@@ -41,11 +42,11 @@ void hnbrdf_image_compare(const float *image, const float *reference, size_t cou
     finish(&sums, error);
 }
 
-/* Let the differences of a pixel be d1 = t + n1 and d2 = t + n2: t without noise, n1 and n2 of mean 0
- * and covariance C over the channels, independent of each other. With s = (d1 + d2)/2, e = (d1 - d2)/2
- * the mean picture's error is s.s, on average t.t + tr C/2; e.e is tr C/2 on average, so s.s - e.e =
- * d1.d2 is right on average. Its variance is 2 t'Ct + tr C^2. For normal noise s and e are independent,
- * and (s.e)^2 is on average t'Ct/2 + tr C^2/4: a quarter of that. */
+/* Let the differences of a pixel be d1 = t + n1 and d2 = t + n2: t without noise, n1 and n2 of
+ * mean 0 and covariance C over the channels, independent of each other. With s = (d1 + d2)/2, e =
+ * (d1 - d2)/2 the mean picture's error is s.s, on average t.t + tr C/2; e.e is tr C/2 on average,
+ * so s.s - e.e = d1.d2 is right on average. Its variance is 2 t'Ct + tr C^2. For normal noise s
+ * and e are independent, and (s.e)^2 is on average t'Ct/2 + tr C^2/4: a quarter of that. */
 void hnbrdf_image_compare_twice(const float *const image[2], const float *const reference[2],
                                 size_t pixels, hnbrdf_image_error *error, hnbrdf_image_noise *noise)
 {

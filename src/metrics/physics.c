@@ -5,10 +5,10 @@
 #include <string.h>
 
 /* ---- Directional albedo
- * ------------------------------------------------------------------------------ wi is charted by the
- * normal h that mirrors wo to it, by its slopes in units of the roughness on a scale that is linear
- * near 0 and logarithmic far out, x = asinh(h.x/(h.z a)). That resolves a narrow lobe and the diffuse
- * rest together; the midpoint rule on it converges like one on a smooth function. */
+ * ------------------------------------------------------------------------------ wi is charted by
+ * the normal h that mirrors wo to it, by its slopes in units of the roughness on a scale that is
+ * linear near 0 and logarithmic far out, x = asinh(h.x/(h.z a)). That resolves a narrow lobe and
+ * the diffuse rest together; the midpoint rule on it converges like one on a smooth function. */
 
 enum { SIDE = 72, BLOCK = 72, ANGLES = 23, AZIMUTHS = 8 };
 
@@ -16,9 +16,10 @@ static const double PI = 3.14159265358979323846;
 
 typedef struct chart {
     double cosine, sine; /* of the rotation */
-    double a[2];         /* widths; those of the lobe, but not so wide that the far side is missed */
-    double wo[3];        /* in the tangent frame */
-    double end[2];       /* beyond, wi is below the horizon */
+    /* widths; those of the lobe, but not so wide that the far side is missed */
+    double a[2];
+    double wo[3];  /* in the tangent frame */
+    double end[2]; /* beyond, wi is below the horizon */
 } chart;
 
 static chart chart_make(const hnbrdf_material *m, hnbrdf_kind kind, const float wo[3])

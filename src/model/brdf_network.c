@@ -42,11 +42,12 @@ static hnbrdf_result fail(const reading *r, const char *expected)
 /* What is wrong when no single word is to blame. */
 static hnbrdf_result fail_line(const reading *r, const char *message)
 {
-    return hnbrdf_fail(r->error, HNBRDF_ERROR_FORMAT, "%s: line %d: %s", r->words->file, r->words->line,
-                       message);
+    return hnbrdf_fail(r->error, HNBRDF_ERROR_FORMAT, "%s: line %d: %s", r->words->file,
+                       r->words->line, message);
 }
 
-/* ---- Names and constructors -------------------------------------------------------------------- */
+/* ---- Names and constructors
+ * -------------------------------------------------------------------- */
 
 /* vec2, mat3, mat2x4 and the like, with what they make. */
 static int is_constructor(const hnbrdf_words *words, block *made)
@@ -55,43 +56,36 @@ static int is_constructor(const hnbrdf_words *words, block *made)
     const size_t length = (size_t)(words->stop - words->begin);
     const int size = length >= 4 ? name[3] - '0' : 0;
     const int other = length == 6 && name[4] == 'x' ? name[5] - '0' : size;
-    if (words->kind != HNBRDF_WORD_NAME || size < 2 || size > 4 || other < 2 || other > 4) {
+    if (words->kind != HNBRDF_WORD_NAME || size < 2 || size > 4 || other < 2 || other > 4)
         return 0;
-    }
     made->is_matrix = memcmp(name, "mat", 3) == 0;
     made->columns = made->is_matrix ? size : 1;
     made->rows = other;
-    return made->is_matrix ? length == 4 || length == 6 : length == 4 && memcmp(name, "vec", 3) == 0;
+    return made->is_matrix ? length == 4 || length == 6
+                           : length == 4 && memcmp(name, "vec", 3) == 0;
 }
 
 static hnbrdf_result read_block(reading *r, block *b)
 {
     int count = 0;
-    if (!is_constructor(r->words, b)) {
+    if (!is_constructor(r->words, b))
         return fail(r, "a matrix or vector of numbers");
-    }
     const int wanted = b->columns * b->rows;
     hnbrdf_words_next(r->words);
-    if (!hnbrdf_words_take(r->words, "(")) {
+    if (!hnbrdf_words_take(r->words, "("))
         return fail(r, "'('");
-    }
     do {
-        if (count == wanted) {
+        if (count == wanted)
             return fail(r, "')' after the last number of a matrix or vector");
-        }
-        if (!hnbrdf_words_take_number(r->words, &b->numbers[count])) {
+        if (!hnbrdf_words_take_number(r->words, &b->numbers[count]))
             return fail(r, "a number");
-        }
         ++count;
     } while (hnbrdf_words_take(r->words, ","));
-    if (!b->is_matrix && count == 1) { /* one number for all */
-        for (; count < wanted; ++count) {
+    if (!b->is_matrix && count == 1) /* one number for all */
+        for (; count < wanted; ++count)
             b->numbers[count] = b->numbers[0];
-        }
-    }
-    if (count < wanted) {
+    if (count < wanted)
         return fail(r, "',' and more numbers of a matrix or vector");
-    }
     return hnbrdf_words_take(r->words, ")") ? HNBRDF_OK : fail(r, "')'");
 }
 
@@ -101,30 +95,27 @@ static hnbrdf_result read_operand(reading *r, char name[MAX_OPERAND])
     size_t used = 0;
     for (int part = 0; part < 2; ++part) {
         const size_t length = (size_t)(r->words->stop - r->words->begin);
-        if (r->words->kind != HNBRDF_WORD_NAME || used + length + 2 > MAX_OPERAND) {
+        if (r->words->kind != HNBRDF_WORD_NAME || used + length + 2 > MAX_OPERAND)
             return fail(r, "the name of a vector, up to 30 letters");
-        }
         memcpy(name + used, r->words->begin, length);
         used += length;
         hnbrdf_words_next(r->words);
-        if (part == 1 || !hnbrdf_words_take(r->words, ".")) {
+        if (part == 1 || !hnbrdf_words_take(r->words, "."))
             break;
-        }
         name[used++] = '.';
     }
     name[used] = '\0';
     return HNBRDF_OK;
 }
 
-/* ---- Groups ------------------------------------------------------------------------------------ */
+/* ---- Groups
+ * ------------------------------------------------------------------------------------ */
 
 static const group *find(const groups *list, const char *name)
 {
-    for (int i = 0; i < list->count; ++i) {
-        if (strcmp(list->items[i].name, name) == 0) {
+    for (int i = 0; i < list->count; ++i)
+        if (strcmp(list->items[i].name, name) == 0)
             return &list->items[i];
-        }
-    }
     return NULL;
 }
 
@@ -140,15 +131,13 @@ static int resolve(const groups *list, const char *name, int *first, int *size)
         *size = whole->size;
         return 1;
     }
-    if (!point || strlen(point) != 2 || !strchr(COMPONENTS, point[1])) {
+    if (!point || strlen(point) != 2 || !strchr(COMPONENTS, point[1]))
         return 0;
-    }
     memcpy(base, name, (size_t)(point - name));
     whole = find(list, base);
     const int component = (int)(strchr(COMPONENTS, point[1]) - COMPONENTS);
-    if (!whole || component >= whole->size) {
+    if (!whole || component >= whole->size)
         return 0;
-    }
     *first = whole->first + component;
     *size = 1;
     return 1;
@@ -156,16 +145,16 @@ static int resolve(const groups *list, const char *name, int *first, int *size)
 
 static hnbrdf_result fail_width(const reading *r)
 {
-    return hnbrdf_fail(r->error, HNBRDF_ERROR_LIMIT,
-                       "%s: line %d: found one more input or output of a layer, expected at most %d",
-                       r->words->file, r->words->line, WIDTH);
+    return hnbrdf_fail(
+        r->error, HNBRDF_ERROR_LIMIT,
+        "%s: line %d: found one more input or output of a layer, expected at most %d",
+        r->words->file, r->words->line, WIDTH);
 }
 
 static hnbrdf_result append(reading *r, groups *list, const char *name, int size)
 {
-    if (list->total + size > WIDTH) {
+    if (list->total + size > WIDTH)
         return fail_width(r);
-    }
     group *added = &list->items[list->count++];
     memcpy(added->name, name, MAX_OPERAND);
     added->first = list->total;
@@ -174,7 +163,8 @@ static hnbrdf_result append(reading *r, groups *list, const char *name, int size
     return HNBRDF_OK;
 }
 
-/* ---- Statements -------------------------------------------------------------------------------- */
+/* ---- Statements
+ * -------------------------------------------------------------------------------- */
 
 /* One statement while it is read: some rows of a layer. */
 typedef struct rows {
@@ -191,7 +181,8 @@ static hnbrdf_result start_layer(reading *r)
 {
     hnbrdf_brdf_network *n = r->network;
     if (n->layers > 0 && !r->activated) {
-        return fail_line(r, "the layer before has no hardGeLU, expected it around all but the last");
+        return fail_line(r,
+                         "the layer before has no hardGeLU, expected it around all but the last");
     }
     if (n->layers == HNBRDF_BRDF_LAYERS) {
         return hnbrdf_fail(r->error, HNBRDF_ERROR_LIMIT,
@@ -211,32 +202,31 @@ static hnbrdf_result place(reading *r, rows *s, const char *operand)
     const int is_start = r->network->layers == 0;
     if (is_start || resolve(&r->outputs, operand, &first, &size)) {
         const hnbrdf_result result = start_layer(r);
-        if (result) {
+        if (result)
             return result;
-        }
         r->learning = is_start;
     }
     s->first = r->outputs.total;
     return s->first + s->count <= WIDTH ? HNBRDF_OK : fail_width(r);
 }
 
-static hnbrdf_result multiply(reading *r, rows *s, const block *b, const char *operand, int negative)
+static hnbrdf_result multiply(reading *r, rows *s, const block *b, const char *operand,
+                              int negative)
 {
     hnbrdf_result result;
     int first = 0, size = 0;
-    if (s->first < 0 && (result = place(r, s, operand))) {
+    if (s->first < 0 && (result = place(r, s, operand)))
         return result;
-    }
     if (r->learning && !find(&r->inputs, operand) &&
-        (result = append(r, &r->inputs, operand, b->columns))) {
+        (result = append(r, &r->inputs, operand, b->columns)))
         return result;
-    }
     if (!resolve(&r->inputs, operand, &first, &size) || size != b->columns ||
         memchr(s->seen + first, 1, (size_t)size)) {
-        return hnbrdf_fail(r->error, HNBRDF_ERROR_FORMAT,
-                           "%s: line %d: %d columns are multiplied by %s, expected every output of the "
-                           "layer before once",
-                           r->words->file, r->words->line, b->columns, operand);
+        return hnbrdf_fail(
+            r->error, HNBRDF_ERROR_FORMAT,
+            "%s: line %d: %d columns are multiplied by %s, expected every output of the "
+            "layer before once",
+            r->words->file, r->words->line, b->columns, operand);
     }
     float *weights = r->network->weights[r->network->layers - 1];
     for (int c = 0; c < b->columns; ++c) {
@@ -253,12 +243,12 @@ static hnbrdf_result multiply(reading *r, rows *s, const block *b, const char *o
 static hnbrdf_result add_bias(reading *r, rows *s, const block *b, int negative)
 {
     if (b->is_matrix || s->has_bias) {
-        return fail(r, b->is_matrix ? "'*' after a matrix" : "'*' after a second vector of numbers");
+        return fail(r,
+                    b->is_matrix ? "'*' after a matrix" : "'*' after a second vector of numbers");
     }
     s->has_bias = 1;
-    for (int i = 0; i < b->rows; ++i) {
+    for (int i = 0; i < b->rows; ++i)
         s->bias[i] = negative ? -b->numbers[i] : b->numbers[i];
-    }
     return HNBRDF_OK;
 }
 
@@ -270,29 +260,22 @@ static hnbrdf_result read_term(reading *r, rows *s, int negative)
     hnbrdf_result result;
     const int operand_first = !is_constructor(r->words, &b);
     if (operand_first) {
-        if ((result = read_operand(r, operand))) {
+        if ((result = read_operand(r, operand)))
             return result;
-        }
-        if (!hnbrdf_words_take(r->words, "*")) {
+        if (!hnbrdf_words_take(r->words, "*"))
             return fail(r, "'*'");
-        }
     }
-    if ((result = read_block(r, &b))) {
+    if ((result = read_block(r, &b)))
         return result;
-    }
-    if (operand_first && b.is_matrix) {
+    if (operand_first && b.is_matrix)
         return fail_line(r, "a matrix stands behind its vector, expected it before");
-    }
-    if (s->count != 0 && s->count != b.rows) {
+    if (s->count != 0 && s->count != b.rows)
         return fail_line(r, "a term has more or fewer rows than those before, expected the same");
-    }
     s->count = b.rows;
-    if (!operand_first && !hnbrdf_words_take(r->words, "*")) {
+    if (!operand_first && !hnbrdf_words_take(r->words, "*"))
         return add_bias(r, s, &b, negative);
-    }
-    if (!operand_first && (result = read_operand(r, operand))) {
+    if (!operand_first && (result = read_operand(r, operand)))
         return result;
-    }
     return multiply(r, s, &b, operand, negative);
 }
 
@@ -305,9 +288,8 @@ static hnbrdf_result read_sum(reading *r, rows *s)
             hnbrdf_words_next(r->words);
         }
         const hnbrdf_result result = read_term(r, s, negative);
-        if (result) {
+        if (result)
             return result;
-        }
     } while (hnbrdf_words_at(r->words, "+") || hnbrdf_words_at(r->words, "-"));
     return HNBRDF_OK;
 }
@@ -317,14 +299,11 @@ static int is_activation(const hnbrdf_words *words)
 {
     static const char NAME[] = "hardgelu";
     const size_t length = (size_t)(words->stop - words->begin);
-    if (words->kind != HNBRDF_WORD_NAME || length != sizeof NAME - 1) {
+    if (words->kind != HNBRDF_WORD_NAME || length != sizeof NAME - 1)
         return 0;
-    }
-    for (size_t i = 0; i < length; ++i) {
-        if ((words->begin[i] | 0x20) != NAME[i]) {
+    for (size_t i = 0; i < length; ++i)
+        if ((words->begin[i] | 0x20) != NAME[i])
             return 0;
-        }
-    }
     return 1;
 }
 
@@ -336,12 +315,10 @@ static hnbrdf_result take_activation(reading *r, int *activated)
     *activated = 0;
     hnbrdf_words_next(&ahead);
     if (r->words->kind != HNBRDF_WORD_NAME || is_constructor(r->words, &unused) ||
-        !hnbrdf_words_take(&ahead, "(")) {
+        !hnbrdf_words_take(&ahead, "("))
         return HNBRDF_OK;
-    }
-    if (!is_activation(r->words)) {
+    if (!is_activation(r->words))
         return fail(r, "hardGeLU as the activation");
-    }
     *r->words = ahead;
     *activated = 1;
     return HNBRDF_OK;
@@ -356,9 +333,8 @@ static hnbrdf_result finish_rows(reading *r, const rows *s, const char *name)
                            "%s: line %d: %s multiplies %d inputs, expected all %d of its layer",
                            r->words->file, r->words->line, name, s->covered, r->inputs.total);
     }
-    if (r->outputs.count > 0 && s->activated != r->activated) {
+    if (r->outputs.count > 0 && s->activated != r->activated)
         return fail_line(r, "some rows of a layer are in hardGeLU, expected all or none");
-    }
     r->learning = 0;
     r->activated = s->activated;
     memcpy(&n->biases[n->layers - 1][s->first], s->bias, (size_t)s->count * sizeof(float));
@@ -373,23 +349,20 @@ static hnbrdf_result read_statement(reading *r)
     char name[MAX_OPERAND] = "";
     hnbrdf_result result;
     do { /* const vec4 NAME */
-        if ((result = read_operand(r, name))) {
+        if ((result = read_operand(r, name)))
             return result;
-        }
     } while (!hnbrdf_words_take(r->words, "="));
-    if ((result = take_activation(r, &s.activated)) || (result = read_sum(r, &s))) {
+    if ((result = take_activation(r, &s.activated)) || (result = read_sum(r, &s)))
         return result;
-    }
-    if (s.activated && !hnbrdf_words_take(r->words, ")")) {
+    if (s.activated && !hnbrdf_words_take(r->words, ")"))
         return fail(r, "'+', '-' or ')' of hardGeLU");
-    }
-    if (!hnbrdf_words_at(r->words, ";")) {
+    if (!hnbrdf_words_at(r->words, ";"))
         return fail(r, "'+', '-' or ';'");
-    }
     return finish_rows(r, &s, name);
 }
 
-/* ---- Function body ----------------------------------------------------------------------------- */
+/* ---- Function body
+ * ----------------------------------------------------------------------------- */
 
 static int ends_statement(const hnbrdf_words *words)
 {
@@ -397,7 +370,8 @@ static int ends_statement(const hnbrdf_words *words)
            hnbrdf_words_at(words, "{") || hnbrdf_words_at(words, "}");
 }
 
-/* Whether hardGeLU or a matrix of numbers stands in the statement that begins here; moves to its end.
+/* Whether hardGeLU or a matrix of numbers stands in the statement that begins here; moves to its
+ * end.
  */
 static int skip_statement(hnbrdf_words *words)
 {
@@ -419,20 +393,17 @@ static hnbrdf_result read_body(reading *r)
 {
     for (int depth = 1; depth > 0;) {
         hnbrdf_words ahead = *r->words;
-        if (ahead.kind == HNBRDF_WORD_END) {
+        if (ahead.kind == HNBRDF_WORD_END)
             return fail(r, "'}' at the end of mlp_eval");
-        }
         if (skip_statement(&ahead)) {
             const hnbrdf_result result = read_statement(r);
-            if (result) {
+            if (result)
                 return result;
-            }
             ahead = *r->words;
         }
         depth += hnbrdf_words_at(&ahead, "{") - hnbrdf_words_at(&ahead, "}");
-        if (ahead.kind != HNBRDF_WORD_END) {
+        if (ahead.kind != HNBRDF_WORD_END)
             hnbrdf_words_next(&ahead);
-        }
         *r->words = ahead;
     }
     return HNBRDF_OK;
@@ -456,14 +427,13 @@ hnbrdf_result hnbrdf_brdf_read_network(hnbrdf_words *words, hnbrdf_brdf_network 
     reading r = {.words = words, .network = network, .error = error};
     memset(network, 0, sizeof *network);
     const hnbrdf_result result = read_body(&r);
-    if (result) {
+    if (result)
         return result;
-    }
     if (network->layers == 0 || r.activated) {
-        return hnbrdf_fail(error, HNBRDF_ERROR_FORMAT,
-                           "%s: line %d: mlp_eval ends with %s, expected a last layer without hardGeLU",
-                           words->file, words->line,
-                           network->layers ? "a layer in hardGeLU" : "no layer at all");
+        return hnbrdf_fail(
+            error, HNBRDF_ERROR_FORMAT,
+            "%s: line %d: mlp_eval ends with %s, expected a last layer without hardGeLU",
+            words->file, words->line, network->layers ? "a layer in hardGeLU" : "no layer at all");
     }
     make_dense(network);
     return HNBRDF_OK;

@@ -15,12 +15,12 @@ typedef struct hnbrdf_brdf_network {
     float biases[HNBRDF_BRDF_LAYERS][HNBRDF_BRDF_WIDTH];
 } hnbrdf_brdf_network;
 
-/* Reads the body of mlp_eval, from behind its '{' to behind its '}'. Every statement that multiplies by
- * a matrix of numbers is some rows of a layer, vecR NAME = [hardGeLU(] matCxR(numbers) * OPERAND + ...
- * + vecR(numbers) [)]; one column can also be written vecR(numbers) * OPERAND. Operands of the first
- * layer are its inputs in the order in which they first appear, of the others the names of the layer
- * before; all other statements are passed over. Hidden layers are those with hardGeLU, the last has
- * none. */
+/* Reads the body of mlp_eval, from behind its '{' to behind its '}'. Every statement that
+ * multiplies by a matrix of numbers is some rows of a layer, vecR NAME = [hardGeLU(]
+ * matCxR(numbers) * OPERAND + ... + vecR(numbers) [)]; one column can also be written
+ * vecR(numbers) * OPERAND. Operands of the first layer are its inputs in the order in which they
+ * first appear, of the others the names of the layer before; all other statements are passed
+ * over. Hidden layers are those with hardGeLU, the last has none. */
 hnbrdf_result hnbrdf_brdf_read_network(hnbrdf_words *words, hnbrdf_brdf_network *network,
                                        hnbrdf_error *error);
 

@@ -31,9 +31,8 @@ static char look(const hnbrdf_words *words, int ahead)
 
 static void skip_line(hnbrdf_words *words)
 {
-    while (words->at < words->end && *words->at != '\n') {
+    while (words->at < words->end && *words->at != '\n')
         ++words->at;
-    }
 }
 
 static void skip_block(hnbrdf_words *words)
@@ -85,9 +84,8 @@ void hnbrdf_words_next(hnbrdf_words *words)
         words->kind = HNBRDF_WORD_END;
     } else if (is_letter(*words->at)) {
         words->kind = HNBRDF_WORD_NAME;
-        while (is_letter(look(words, 0)) || is_digit(look(words, 0))) {
+        while (is_letter(look(words, 0)) || is_digit(look(words, 0)))
             ++words->at;
-        }
     } else if (is_digit(*words->at) || (*words->at == '.' && is_digit(look(words, 1)))) {
         scan_number(words);
     } else {
@@ -115,9 +113,8 @@ int hnbrdf_words_at(const hnbrdf_words *words, const char *text)
 
 int hnbrdf_words_take(hnbrdf_words *words, const char *text)
 {
-    if (!hnbrdf_words_at(words, text)) {
+    if (!hnbrdf_words_at(words, text))
         return 0;
-    }
     hnbrdf_words_next(words);
     return 1;
 }
@@ -129,15 +126,15 @@ int hnbrdf_words_take_number(hnbrdf_words *words, float *number)
         negative ^= hnbrdf_words_at(words, "-");
         hnbrdf_words_next(words);
     }
-    if (words->kind != HNBRDF_WORD_NUMBER) {
+    if (words->kind != HNBRDF_WORD_NUMBER)
         return 0;
-    }
     *number = negative ? -words->number : words->number;
     hnbrdf_words_next(words);
     return 1;
 }
 
-hnbrdf_result hnbrdf_words_fail(const hnbrdf_words *words, const char *expected, hnbrdf_error *error)
+hnbrdf_result hnbrdf_words_fail(const hnbrdf_words *words, const char *expected,
+                                hnbrdf_error *error)
 {
     const ptrdiff_t length = words->stop - words->begin;
     if (words->kind == HNBRDF_WORD_END) {
@@ -145,10 +142,11 @@ hnbrdf_result hnbrdf_words_fail(const hnbrdf_words *words, const char *expected,
                            words->file, words->line, expected);
     }
     if (words->kind == HNBRDF_WORD_MARK && (*words->begin <= 0x20 || *words->begin >= 0x7f)) {
-        return hnbrdf_fail(error, HNBRDF_ERROR_FORMAT, "%s: line %d: found byte 0x%02x, expected %s",
-                           words->file, words->line, (unsigned)(unsigned char)*words->begin, expected);
+        return hnbrdf_fail(error, HNBRDF_ERROR_FORMAT,
+                           "%s: line %d: found byte 0x%02x, expected %s", words->file, words->line,
+                           (unsigned)(unsigned char)*words->begin, expected);
     }
-    return hnbrdf_fail(error, HNBRDF_ERROR_FORMAT, "%s: line %d: found %.*s, expected %s", words->file,
-                       words->line, (int)(length < MAX_SHOWN ? length : MAX_SHOWN), words->begin,
-                       expected);
+    return hnbrdf_fail(error, HNBRDF_ERROR_FORMAT, "%s: line %d: found %.*s, expected %s",
+                       words->file, words->line, (int)(length < MAX_SHOWN ? length : MAX_SHOWN),
+                       words->begin, expected);
 }

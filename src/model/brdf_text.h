@@ -1,5 +1,6 @@
-/* brdf_text.h: the words of a BRDF-Explorer .brdf file: parameter lines and GLSL. Comments, from # or
- * // to the end of the line and between slash-star and star-slash, are skipped like white space. */
+/* brdf_text.h: the words of a BRDF-Explorer .brdf file: parameter lines and GLSL. Comments, from
+ * # or // to the end of the line and between slash-star and star-slash, are skipped like white
+ * space. */
 #ifndef HNBRDF_MODEL_BRDF_TEXT_H
 #define HNBRDF_MODEL_BRDF_TEXT_H
 
@@ -34,6 +35,7 @@ int hnbrdf_words_take(hnbrdf_words *words, const char *text);
 int hnbrdf_words_take_number(hnbrdf_words *words, float *number);
 
 /* "FILE: line N: found WORD, expected ..."; returns HNBRDF_ERROR_FORMAT. */
-hnbrdf_result hnbrdf_words_fail(const hnbrdf_words *words, const char *expected, hnbrdf_error *error);
+hnbrdf_result hnbrdf_words_fail(const hnbrdf_words *words, const char *expected,
+                                hnbrdf_error *error);
 
 #endif

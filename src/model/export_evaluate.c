@@ -1,5 +1,5 @@
-/* export_evaluate.c: the functions a shader calls: evaluate, its analytic part alone, sample, pdf. Each
- * does what the C function of the same name does, in the same order of operations. */
+/* export_evaluate.c: the functions a shader calls: evaluate, its analytic part alone, sample,
+ * pdf. Each does what the C function of the same name does, in the same order of operations. */
 #include "model/export_evaluate.h"
 
 #include "model/export_material.h"
@@ -46,10 +46,11 @@ static void put_analytic(hnbrdf_printer *out, const hnbrdf_scene *s)
 {
     hnbrdf_put(out, "// f_a before it is clamped to what f may be.\n");
     hnbrdf_put(out, "vec3 hnbrdf_analytic(hnbrdf_material m, hnbrdf_pair p)\n{\n");
-    hnbrdf_put(out, s->fixed ? "    float specular = hnbrdf_specular_of_area(p, m.alpha, m.area);\n"
-                               "    return hnbrdf_microfacet_of(m.diffuse, m.e, p.c, specular);\n}\n\n"
-                             : "    float specular = hnbrdf_specular(p, m.alpha);\n"
-                               "    return hnbrdf_microfacet(m.kd, m.eta, p.c, specular);\n}\n\n");
+    hnbrdf_put(out, s->fixed
+                        ? "    float specular = hnbrdf_specular_of_area(p, m.alpha, m.area);\n"
+                          "    return hnbrdf_microfacet_of(m.diffuse, m.e, p.c, specular);\n}\n\n"
+                        : "    float specular = hnbrdf_specular(p, m.alpha);\n"
+                          "    return hnbrdf_microfacet(m.kd, m.eta, p.c, specular);\n}\n\n");
 }
 
 static void put_eval_analytic(hnbrdf_printer *out, const hnbrdf_scene *s)
@@ -59,7 +60,8 @@ static void put_eval_analytic(hnbrdf_printer *out, const hnbrdf_scene *s)
                analytic ? "" : "; this kind of model has none");
     hnbrdf_put(out, "vec3 hnbrdf_eval_analytic(hnbrdf_material m, vec3 wi, vec3 wo)\n{\n");
     if (analytic)
-        hnbrdf_put(out, "%s    return %shnbrdf_finish(hnbrdf_analytic(m, p));\n}\n\n", HORIZON, factor(s));
+        hnbrdf_put(out, "%s    return %shnbrdf_finish(hnbrdf_analytic(m, p));\n}\n\n", HORIZON,
+                   factor(s));
     else
         hnbrdf_put(out, "    return vec3(0.0);\n}\n\n");
 }
@@ -89,14 +91,15 @@ static void put_eval(hnbrdf_printer *out, const hnbrdf_scene *s)
 /* Roughness that the scales of lobes refer to. */
 static const char *alpha_text(const hnbrdf_scene *s)
 {
-    return !hnbrdf_scene_has_analytic(s) ? "vec2(1.0)" : s->anisotropic ? "m.alpha" : "vec2(m.alpha)";
+    return !hnbrdf_scene_has_analytic(s) ? "vec2(1.0)"
+           : s->anisotropic              ? "m.alpha"
+                                         : "vec2(m.alpha)";
 }
 
 static void put_pdf(hnbrdf_printer *out, const hnbrdf_scene *s)
 {
-    hnbrdf_put(
-        out,
-        "\n// Density in 1/sr with which hnbrdf_sample() draws wi given wo; 0 below the horizon.\n");
+    hnbrdf_put(out, "\n// Density in 1/sr with which hnbrdf_sample() draws wi given wo; 0 below "
+                    "the horizon.\n");
     hnbrdf_put(out, "float hnbrdf_pdf(hnbrdf_material m, vec3 wi, vec3 wo)\n{\n"
                     "    if (!(wi.z > 0.0 && wo.z > 0.0))\n        return 0.0;\n");
     if (s->rotated)
@@ -107,12 +110,14 @@ static void put_pdf(hnbrdf_printer *out, const hnbrdf_scene *s)
 
 static void put_sample_direction(hnbrdf_printer *out, const hnbrdf_scene *s)
 {
-    hnbrdf_put(out, "\n// Draws wi alone, for renderers that weigh it otherwise; u is three numbers in [0, 1): make "
+    hnbrdf_put(out, "\n// Draws wi alone, for renderers that weigh it otherwise; u is three "
+                    "numbers in [0, 1): make "
                     "them as\n// float(u32 >> 8) * 2^-24. Returns its density; 0: no direction, "
                     "(0, 0, 1).\n");
-    hnbrdf_put(out, "float hnbrdf_sample_direction(hnbrdf_material m, vec3 wo, vec3 u, out vec3 wi)\n{\n"
-                    "    wi = vec3(0.0, 0.0, 1.0);\n"
-                    "    if (!(wo.z > 0.0))\n        return 0.0;\n");
+    hnbrdf_put(out,
+               "float hnbrdf_sample_direction(hnbrdf_material m, vec3 wo, vec3 u, out vec3 wi)\n{\n"
+               "    wi = vec3(0.0, 0.0, 1.0);\n"
+               "    if (!(wo.z > 0.0))\n        return 0.0;\n");
     hnbrdf_put(out, "    vec3 drawn = hnbrdf_draw(%s, m.lobes, %s, u);\n", alpha_text(s),
                s->rotated ? "hnbrdf_to_tangent(m.rotation, wo)" : "wo");
     if (s->rotated)
@@ -125,13 +130,15 @@ static void put_sample_direction(hnbrdf_printer *out, const hnbrdf_scene *s)
 static void put_sample(hnbrdf_printer *out)
 {
     hnbrdf_put(out, "\n// Draws wi given wo and weighs it.\n");
-    hnbrdf_put(out, "hnbrdf_sample_result hnbrdf_sample(hnbrdf_material m, vec3 wo, vec3 u)\n{\n"
-                    "    hnbrdf_sample_result drawn;\n"
-                    "    drawn.pdf = hnbrdf_sample_direction(m, wo, u, drawn.wi);\n"
-                    "    drawn.weight = vec3(0.0);\n"
-                    "    if (!(drawn.pdf > 0.0))\n        return drawn;\n"
-                    "    HNBRDF_PRECISE vec3 weight = hnbrdf_eval(m, drawn.wi, wo) * drawn.wi.z / drawn.pdf;\n"
-                    "    drawn.weight = hnbrdf_finish(weight);\n    return drawn;\n}\n");
+    hnbrdf_put(
+        out,
+        "hnbrdf_sample_result hnbrdf_sample(hnbrdf_material m, vec3 wo, vec3 u)\n{\n"
+        "    hnbrdf_sample_result drawn;\n"
+        "    drawn.pdf = hnbrdf_sample_direction(m, wo, u, drawn.wi);\n"
+        "    drawn.weight = vec3(0.0);\n"
+        "    if (!(drawn.pdf > 0.0))\n        return drawn;\n"
+        "    HNBRDF_PRECISE vec3 weight = hnbrdf_eval(m, drawn.wi, wo) * drawn.wi.z / drawn.pdf;\n"
+        "    drawn.weight = hnbrdf_finish(weight);\n    return drawn;\n}\n");
 }
 
 /* ---- All of it ------------------------------------------------------------------------------- */

@@ -12,14 +12,16 @@
 
 /* ---- Sections -------------------------------------------------------------------------------- */
 
-/* What the weights take in the shader or in its uniform block, which holds single precision alone. */
+/* What the weights take in the shader or in its uniform block, which holds single precision
+ * alone. */
 static size_t weight_bytes(const hnbrdf_scene *s)
 {
     const hnbrdf_model_desc *desc = s->desc;
     if (s->style == HNBRDF_GLSL_UNIFORM)
         return (size_t)hnbrdf_layer_start(desc, desc->layers + 1) * 4 * sizeof(float);
     size_t single = (size_t)hnbrdf_layer_outputs(desc, desc->layers) * ((size_t)desc->hidden + 1);
-    return s->precision == HNBRDF_GLSL_HALF ? 2 * (s->weights + single) : s->weights * sizeof(float);
+    return s->precision == HNBRDF_GLSL_HALF ? 2 * (s->weights + single)
+                                            : s->weights * sizeof(float);
 }
 
 /* "name, " for each of a list of which some are there; the last without comma. */
@@ -61,8 +63,8 @@ static void put_contents(hnbrdf_printer *out, const hnbrdf_scene *s)
 static void put_heading(hnbrdf_printer *out, const hnbrdf_scene *s)
 {
     const hnbrdf_model_desc *desc = s->desc;
-    hnbrdf_put(out,
-               "// Written by hnbrdf " HNBRDF_VERSION_STRING "; export again rather than edit.\n//\n");
+    hnbrdf_put(out, "// Written by hnbrdf " HNBRDF_VERSION_STRING
+                    "; export again rather than edit.\n//\n");
     hnbrdf_put(out, "//   kind       %s\n", hnbrdf_kind_name(desc->kind));
     if (hnbrdf_scene_has_network(s)) {
         hnbrdf_put(out, "//   network    %d", HNBRDF_ENCODING_SIZE + desc->latent);
@@ -70,14 +72,15 @@ static void put_heading(hnbrdf_printer *out, const hnbrdf_scene *s)
             hnbrdf_put(out, " -> %d", desc->hidden);
         hnbrdf_put(out, " -> %d (%dx%d)\n", desc->kind == HNBRDF_KIND_HYBRID ? 6 : 3, desc->hidden,
                    desc->layers);
-        hnbrdf_put(out, "//   encoding   %s, then %d latent\n", hnbrdf_encoding_name(desc->encoding),
-                   desc->latent);
+        hnbrdf_put(out, "//   encoding   %s, then %d latent\n",
+                   hnbrdf_encoding_name(desc->encoding), desc->latent);
         hnbrdf_put(out, "//   weights    %zu, %zu bytes, %s\n", s->weights, weight_bytes(s),
                    s->style == HNBRDF_GLSL_UNIFORM   ? "in a uniform block"
                    : s->style == HNBRDF_GLSL_COLUMNS ? "as constants in columns"
                                                      : "as constants");
         hnbrdf_put(out, "//   precision  %s\n",
-                   s->precision == HNBRDF_GLSL_HALF ? "half in hidden layers, else single" : "single");
+                   s->precision == HNBRDF_GLSL_HALF ? "half in hidden layers, else single"
+                                                    : "single");
         hnbrdf_put(out, "//   cost       %zu multiplications per evaluation\n", s->multiplications);
     }
     hnbrdf_put(out, "//   materials  %d%s%s\n", s->count,
@@ -85,12 +88,14 @@ static void put_heading(hnbrdf_printer *out, const hnbrdf_scene *s)
     if (s->packing)
         hnbrdf_put_texel_summary(out, s->packing);
     put_contents(out, s);
+    hnbrdf_put(
+        out,
+        "//\n// f = hnbrdf_eval(hnbrdf_scene_material(HNBRDF_MATERIAL_%s), wi, wo), without the "
+        "cosine.\n",
+        s->names[0]);
     hnbrdf_put(out,
-               "//\n// f = hnbrdf_eval(hnbrdf_scene_material(HNBRDF_MATERIAL_%s), wi, wo), without the "
-               "cosine.\n",
-               s->names[0]);
-    hnbrdf_put(out, "#ifndef HNBRDF_HYBRID_BRDF_GLSL\n#error \"include hybrid_brdf.glsl before this "
-                    "file\"\n#endif\n\n");
+               "#ifndef HNBRDF_HYBRID_BRDF_GLSL\n#error \"include hybrid_brdf.glsl before this "
+               "file\"\n#endif\n\n");
 }
 
 /* For code that serves scenes of every kind. */

@@ -1,6 +1,6 @@
-/* export_library.c: the text of shaders/hybrid_brdf.glsl, whole or as far as a scene needs it. The text
- * is taken apart into its top-level pieces, which blank lines separate; what defines a function or a
- * struct stays only if something that stays names it. */
+/* export_library.c: the text of shaders/hybrid_brdf.glsl, whole or as far as a scene needs it.
+ * The text is taken apart into its top-level pieces, which blank lines separate; what defines a
+ * function or a struct stays only if something that stays names it. */
 #include "model/export_library.h"
 
 #include <string.h>
@@ -31,7 +31,8 @@ static int in_word(char c)
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
 }
 
-/* The word in front of the first of "({" on the first line that is neither comment nor directive. */
+/* The word in front of the first of "({" on the first line that is neither comment nor directive.
+ * */
 static void find_name(piece *p)
 {
     const char *line = p->text, *end = p->text + p->size;

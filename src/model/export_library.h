@@ -7,8 +7,8 @@
 
 typedef void (*hnbrdf_put_scene_fn)(hnbrdf_printer *out, const hnbrdf_scene *s);
 
-/* The whole of it for a scene that leaves nothing out; else what the text written by put_scene calls,
- * directly or not, and the preprocessor's lines. */
+/* The whole of it for a scene that leaves nothing out; else what the text written by put_scene
+ * calls, directly or not, and the preprocessor's lines. */
 void hnbrdf_put_library(hnbrdf_printer *out, const hnbrdf_scene *s, hnbrdf_put_scene_fn put_scene);
 
 #endif

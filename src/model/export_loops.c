@@ -1,4 +1,5 @@
-/* export_loops.c: the network of a scene as loops over a uniform block, for weights loaded at run time.
+/* export_loops.c: the network of a scene as loops over a uniform block, for weights loaded at run
+ * time.
  *
  * On llvmpipe nearly all of the time is in the loads: a weight at an index that is not constant is
  * fetched once a lane, however the loops are nested or the units are kept. Constant indices bring a
@@ -6,40 +7,41 @@
 #include "model/export_network.h"
 #include "model/export_weights.h"
 
-static const char BLOCK[] = "// The weights: the bytes of hnbrdf_export_weights() or `hnbrdf export "
-                            "--weights-out`, laid out as told in\n"
-                            "// hnbrdf.h. Any network of the same kind, encoding and size. HNBRDF_LOOP "
-                            "keeps a loop a loop: unrolled, such\n"
-                            "// a shader takes a compiler minutes.\n"
-                            "#ifndef HNBRDF_WEIGHTS_SET\n"
-                            "#define HNBRDF_WEIGHTS_SET 0\n"
-                            "#endif\n"
-                            "#ifndef HNBRDF_WEIGHTS_BINDING\n"
-                            "#define HNBRDF_WEIGHTS_BINDING 0\n"
-                            "#endif\n"
-                            "#ifndef HNBRDF_WEIGHTS_LAYOUT\n"
-                            "#ifdef VULKAN\n"
-                            "#define HNBRDF_WEIGHTS_LAYOUT layout(std140, set = HNBRDF_WEIGHTS_SET, "
-                            "binding = HNBRDF_WEIGHTS_BINDING)\n"
-                            "#else\n"
-                            "#define HNBRDF_WEIGHTS_LAYOUT layout(std140)\n"
-                            "#endif\n"
-                            "#endif\n"
-                            "#ifndef HNBRDF_LOOP\n"
-                            "#if defined(VULKAN) && defined(GL_EXT_control_flow_attributes)\n"
-                            "#extension GL_EXT_control_flow_attributes : require\n"
-                            "#define HNBRDF_LOOP [[dont_unroll]]\n"
-                            "#else\n"
-                            "#define HNBRDF_LOOP\n"
-                            "#endif\n"
-                            "#endif\n";
+static const char BLOCK[] =
+    "// The weights: the bytes of hnbrdf_export_weights() or `hnbrdf export "
+    "--weights-out`, laid out as told in\n"
+    "// hnbrdf.h. Any network of the same kind, encoding and size. HNBRDF_LOOP "
+    "keeps a loop a loop: unrolled, such\n"
+    "// a shader takes a compiler minutes.\n"
+    "#ifndef HNBRDF_WEIGHTS_SET\n"
+    "#define HNBRDF_WEIGHTS_SET 0\n"
+    "#endif\n"
+    "#ifndef HNBRDF_WEIGHTS_BINDING\n"
+    "#define HNBRDF_WEIGHTS_BINDING 0\n"
+    "#endif\n"
+    "#ifndef HNBRDF_WEIGHTS_LAYOUT\n"
+    "#ifdef VULKAN\n"
+    "#define HNBRDF_WEIGHTS_LAYOUT layout(std140, set = HNBRDF_WEIGHTS_SET, "
+    "binding = HNBRDF_WEIGHTS_BINDING)\n"
+    "#else\n"
+    "#define HNBRDF_WEIGHTS_LAYOUT layout(std140)\n"
+    "#endif\n"
+    "#endif\n"
+    "#ifndef HNBRDF_LOOP\n"
+    "#if defined(VULKAN) && defined(GL_EXT_control_flow_attributes)\n"
+    "#extension GL_EXT_control_flow_attributes : require\n"
+    "#define HNBRDF_LOOP [[dont_unroll]]\n"
+    "#else\n"
+    "#define HNBRDF_LOOP\n"
+    "#endif\n"
+    "#endif\n";
 
 void hnbrdf_put_weights_block(hnbrdf_printer *out, const hnbrdf_scene *s)
 {
     hnbrdf_put_bytes(out, BLOCK, sizeof BLOCK - 1);
-    hnbrdf_put(out,
-               "HNBRDF_WEIGHTS_LAYOUT uniform hnbrdf_weights_block { vec4 hnbrdf_weights[%d]; };\n\n",
-               hnbrdf_layer_start(s->desc, s->desc->layers + 1));
+    hnbrdf_put(
+        out, "HNBRDF_WEIGHTS_LAYOUT uniform hnbrdf_weights_block { vec4 hnbrdf_weights[%d]; };\n\n",
+        hnbrdf_layer_start(s->desc, s->desc->layers + 1));
 }
 
 /* One column of weights, counted from behind the bias at `at`, times what follows. */
@@ -65,7 +67,8 @@ static void put_units(hnbrdf_printer *out, const hnbrdf_scene *s, int layer, int
 {
     const char *type = half ? "HNBRDF_HALF4" : "vec4";
     int single = s->precision == HNBRDF_GLSL_HALF && !half;
-    hnbrdf_put(out, "        HNBRDF_LOOP for (int i = 0; i < %d; i++) {\n", (s->desc->hidden + 3) / 4);
+    hnbrdf_put(out, "        HNBRDF_LOOP for (int i = 0; i < %d; i++) {\n",
+               (s->desc->hidden + 3) / 4);
     hnbrdf_put(out, single ? "            %s u = vec4(u%d[i]);\n" : "            %s u = u%d[i];\n",
                type, layer - 1);
     for (int i = 0; i < 4; i++) {
@@ -96,7 +99,8 @@ static void put_layer(hnbrdf_printer *out, const hnbrdf_scene *s, int layer)
     else
         put_units(out, s, layer, half);
     if (half)
-        hnbrdf_put(out, "        u%d[r] = hnbrdf_half_unit(sum, HNBRDF_H(hnbrdf_weights[%d].%c));\n",
+        hnbrdf_put(out,
+                   "        u%d[r] = hnbrdf_half_unit(sum, HNBRDF_H(hnbrdf_weights[%d].%c));\n",
                    layer, (4 + layer) / 4, "xyzw"[(4 + layer) % 4]);
     else
         hnbrdf_put(out,

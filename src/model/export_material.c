@@ -1,4 +1,5 @@
-/* export_material.c: the material of a scene as a GLSL struct, and the scene's materials as constants.
+/* export_material.c: the material of a scene as a GLSL struct, and the scene's materials as
+ * constants.
  */
 #include "model/export_material.h"
 
@@ -26,7 +27,9 @@ void hnbrdf_put_material_struct(hnbrdf_printer *out, const hnbrdf_scene *s)
     if (hnbrdf_scene_has_sampling(s))
         hnbrdf_put(out, "    hnbrdf_lobes lobes; // for sampling alone\n");
     if (s->energy)
-        hnbrdf_put(out, "    float energy;  // factor on f: 1, or what brings an albedo above 1 down to it\n");
+        hnbrdf_put(
+            out,
+            "    float energy;  // factor on f: 1, or what brings an albedo above 1 down to it\n");
     hnbrdf_put(out, "};\n\n");
 }
 
@@ -105,7 +108,8 @@ void hnbrdf_put_materials(hnbrdf_printer *out, const hnbrdf_scene *s)
         hnbrdf_put(out, "#define HNBRDF_MATERIAL_%s %d // \"%s\"\n", s->names[k], k,
                    s->desc->names[hnbrdf_scene_index(s, k)]);
     hnbrdf_put(out, "#define HNBRDF_MATERIAL_COUNT %d\n\n", s->count);
-    hnbrdf_put(out, "// Any number outside of [0, HNBRDF_MATERIAL_COUNT) stands for the last one.\n");
+    hnbrdf_put(out,
+               "// Any number outside of [0, HNBRDF_MATERIAL_COUNT) stands for the last one.\n");
     hnbrdf_put(out, "hnbrdf_material hnbrdf_scene_material(int index)\n{\n");
     for (int k = 0; k < s->count; k++) {
         if (k + 1 < s->count)

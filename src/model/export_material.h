@@ -1,4 +1,5 @@
-/* export_material.h: the material of a scene as a GLSL struct, and the scene's materials as constants.
+/* export_material.h: the material of a scene as a GLSL struct, and the scene's materials as
+ * constants.
  */
 #ifndef HNBRDF_MODEL_EXPORT_MATERIAL_H
 #define HNBRDF_MODEL_EXPORT_MATERIAL_H
@@ -10,7 +11,8 @@
  * needs. */
 void hnbrdf_put_material_struct(hnbrdf_printer *out, const hnbrdf_scene *s);
 
-/* HNBRDF_MATERIAL_NAME, HNBRDF_MATERIAL_COUNT and hnbrdf_material hnbrdf_scene_material(int index). */
+/* HNBRDF_MATERIAL_NAME, HNBRDF_MATERIAL_COUNT and hnbrdf_material hnbrdf_scene_material(int
+ * index). */
 void hnbrdf_put_materials(hnbrdf_printer *out, const hnbrdf_scene *s);
 
 /* hnbrdf_material(...) of material k as an expression. */

@@ -1,10 +1,12 @@
-/* export_network.c: the network of a scene as GLSL: declarations, inputs, and weights as literals. */
+/* export_network.c: the network of a scene as GLSL: declarations, inputs, and weights as
+ * literals. */
 #include "model/export_network.h"
 
 #include "model/export_weights.h"
 #include "model/half.h"
 
-/* ---- Half precision --------------------------------------------------------------------------- */
+/* ---- Half precision ---------------------------------------------------------------------------
+ * */
 
 static int in_half(const hnbrdf_scene *s, int layer)
 {
@@ -65,9 +67,10 @@ static void put_constructor(hnbrdf_printer *out, int half, int width)
 /* HardGELU that ends at what the next layer can sum; as low as it goes, -0.1875, any layer can. */
 static void put_half_unit(hnbrdf_printer *out, int width)
 {
-    hnbrdf_put(out,
-               "HNBRDF_PRECISE HNBRDF_HALF%s hnbrdf_half_unit(HNBRDF_HALF%s x, HNBRDF_HALF limit)\n{\n",
-               SUFFIX[width], SUFFIX[width]);
+    hnbrdf_put(
+        out,
+        "HNBRDF_PRECISE HNBRDF_HALF%s hnbrdf_half_unit(HNBRDF_HALF%s x, HNBRDF_HALF limit)\n{\n",
+        SUFFIX[width], SUFFIX[width]);
     hnbrdf_put(out,
                "    return min(x * clamp(x * HNBRDF_H(0.333251953) + HNBRDF_H(0.5), HNBRDF_H(0.0), "
                "HNBRDF_H(1.0)), %s(limit));\n}\n\n",
@@ -93,7 +96,8 @@ static void put_half_inputs(hnbrdf_printer *out, const hnbrdf_scene *s)
     put_limit(out, s, 0);
     hnbrdf_put(out, ";\n");
     for (int i = 0; i < 2; i++)
-        hnbrdf_put(out, "    HNBRDF_HALF3 i%d = HNBRDF_H3(hnbrdf_clamp(x%d, -limit, limit));\n", i, i);
+        hnbrdf_put(out, "    HNBRDF_HALF3 i%d = HNBRDF_H3(hnbrdf_clamp(x%d, -limit, limit));\n", i,
+                   i);
     for (int v = 0; v < (s->desc->latent + 3) / 4; v++)
         hnbrdf_put(out,
                    "    HNBRDF_HALF4 z%d = HNBRDF_H4(hnbrdf_clamp(m.latent%d.xyz, -limit, limit), "
@@ -101,7 +105,8 @@ static void put_half_inputs(hnbrdf_printer *out, const hnbrdf_scene *s)
                    v, v, v);
 }
 
-/* ---- What all styles share ---------------------------------------------------------------------- */
+/* ---- What all styles share
+ * ---------------------------------------------------------------------- */
 
 void hnbrdf_put_input(hnbrdf_printer *out, const hnbrdf_scene *s, int i)
 {
@@ -121,7 +126,8 @@ void hnbrdf_put_constant(hnbrdf_printer *out, const hnbrdf_scene *s, int which)
         hnbrdf_put_float(out, numbers[which]);
 }
 
-/* ---- Literals: units one by one, or four at a time ------------------------------------------------
+/* ---- Literals: units one by one, or four at a time
+ * ------------------------------------------------
  */
 
 /* Units of one statement: the last layer has three, c and then g. */
@@ -136,8 +142,8 @@ static int width_at(const hnbrdf_scene *s, int layer, int row)
     return left < most ? left : most;
 }
 
-/* The values of layer k are a0, a1, ... of the first hidden layer, b0, ... of the second; of four at a
- * time a0 is the first group. */
+/* The values of layer k are a0, a1, ... of the first hidden layer, b0, ... of the second; of four
+ * at a time a0 is the first group. */
 static void put_unit(hnbrdf_printer *out, const hnbrdf_scene *s, int layer, int unit)
 {
     if (s->style != HNBRDF_GLSL_COLUMNS) {
@@ -187,7 +193,8 @@ static int begin_term(sum *s, float *weights)
     return 1;
 }
 
-/* The bias of some rows. A folded one holds the latent code too: of the only material as numbers. */
+/* The bias of some rows. A folded one holds the latent code too: of the only material as numbers.
+ * */
 static void put_bias(hnbrdf_printer *out, const hnbrdf_scene *s, int layer, int row, int width)
 {
     float numbers[4] = {0.0f};
@@ -221,7 +228,8 @@ static void put_sum(hnbrdf_printer *out, const hnbrdf_scene *s, int layer, int r
         if (layer == 0)
             hnbrdf_put_input(out, s, i);
         else /* what the last layer sums in single precision was made single before */
-            put_unit(out, s, s->precision == HNBRDF_GLSL_HALF && !half ? desc->layers : layer - 1, i);
+            put_unit(out, s, s->precision == HNBRDF_GLSL_HALF && !half ? desc->layers : layer - 1,
+                     i);
     }
 }
 
@@ -260,7 +268,8 @@ static void put_single(hnbrdf_printer *out, const hnbrdf_scene *s)
 
 static void put_outputs(hnbrdf_printer *out, const hnbrdf_scene *s)
 {
-    int layer = s->desc->layers, step = step_of(s, layer), hybrid = s->desc->kind == HNBRDF_KIND_HYBRID;
+    int layer = s->desc->layers, step = step_of(s, layer),
+        hybrid = s->desc->kind == HNBRDF_KIND_HYBRID;
     for (int row = 0; row < hnbrdf_layer_outputs(s->desc, layer); row += step) {
         hnbrdf_put(out, "    HNBRDF_PRECISE ");
         put_type(out, 0, step);
@@ -282,7 +291,8 @@ static void put_literals(hnbrdf_printer *out, const hnbrdf_scene *s)
     put_outputs(out, s);
 }
 
-/* ---- All of it ----------------------------------------------------------------------------------- */
+/* ---- All of it
+ * ----------------------------------------------------------------------------------- */
 
 /* hnbrdf_hard_gelu() or its half form for the vectors that the style computes in. */
 static void put_activations(hnbrdf_printer *out, const hnbrdf_scene *s)
@@ -304,8 +314,8 @@ void hnbrdf_put_network(hnbrdf_printer *out, const hnbrdf_scene *s)
     if (s->style == HNBRDF_GLSL_UNIFORM)
         hnbrdf_put_weights_block(out, s);
     put_activations(out, s);
-    hnbrdf_put(out,
-               "// The network's outputs from the encoded directions x0, x1 and the latent code.\n");
+    hnbrdf_put(
+        out, "// The network's outputs from the encoded directions x0, x1 and the latent code.\n");
     hnbrdf_put(out, "void hnbrdf_network(hnbrdf_material m, vec3 x0, vec3 x1, out vec3 c%s)\n{\n",
                s->desc->kind == HNBRDF_KIND_HYBRID ? ", out vec3 g" : "");
     if (s->precision == HNBRDF_GLSL_HALF)

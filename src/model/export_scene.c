@@ -1,5 +1,5 @@
-/* export_scene.c: which materials of a model are written, what they need, and what they are called in
- * GLSL. */
+/* export_scene.c: which materials of a model are written, what they need, and what they are
+ * called in GLSL. */
 #include "model/export_scene.h"
 
 #include "core/error.h"
@@ -44,8 +44,8 @@ int hnbrdf_scene_bias_vectors(const hnbrdf_scene *s)
 
 int hnbrdf_scene_has_rotation(const hnbrdf_scene *s)
 {
-    int fields =
-        hnbrdf_scene_has_analytic(s) + hnbrdf_scene_latent_vectors(s) + hnbrdf_scene_bias_vectors(s);
+    int fields = hnbrdf_scene_has_analytic(s) + hnbrdf_scene_latent_vectors(s) +
+                 hnbrdf_scene_bias_vectors(s);
     return s->rotated || fields == 0;
 }
 
@@ -81,7 +81,8 @@ static int claim(const hnbrdf_scene *s, int *table, size_t slots, int k)
     return 1;
 }
 
-/* Names of their own for all materials, and none for the last, which HNBRDF_MATERIAL_COUNT takes. */
+/* Names of their own for all materials, and none for the last, which HNBRDF_MATERIAL_COUNT takes.
+ * */
 static void name_materials(const hnbrdf_scene *s, int *table, size_t slots)
 {
     for (size_t i = 0; i < slots; i++)
@@ -97,7 +98,8 @@ static void name_materials(const hnbrdf_scene *s, int *table, size_t slots)
     }
 }
 
-static hnbrdf_result use_packing(hnbrdf_scene *s, const hnbrdf_packing *packing, hnbrdf_error *error)
+static hnbrdf_result use_packing(hnbrdf_scene *s, const hnbrdf_packing *packing,
+                                 hnbrdf_error *error)
 {
     int latent = hnbrdf_scene_has_network(s) ? s->desc->latent : 0;
     if (!packing)
@@ -169,11 +171,13 @@ hnbrdf_result hnbrdf_scene_make(const hnbrdf_model *model, const hnbrdf_glsl_opt
     s->energy = options ? options->energy : NULL;
     if (s->energy && s->packing)
         return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT,
-                           "export: factors are of the exported materials, not of those from textures: found both");
+                           "export: factors are of the exported materials, not of those from "
+                           "textures: found both");
     for (int k = 0; k < s->count && s->energy; k++)
         if (!(s->energy[k] > 0.0f && s->energy[k] <= 1.0f))
             return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT,
-                               "export: energy[%d] is %s, expected above 0, at most 1", k, HNBRDF_NUMBER(s->energy[k]));
+                               "export: energy[%d] is %s, expected above 0, at most 1", k,
+                               HNBRDF_NUMBER(s->energy[k]));
     s->weights = hnbrdf_model_weight_count(model);
     s->multiplications = hnbrdf_model_multiplications(model);
     if (s->folded) {
@@ -192,7 +196,8 @@ hnbrdf_result hnbrdf_scene_make(const hnbrdf_model *model, const hnbrdf_glsl_opt
     else if (s->names)
         memory->release(memory->user, s->names);
     if (!s->names || !table)
-        result = hnbrdf_fail(error, HNBRDF_ERROR_MEMORY, "export: no memory for %d names", s->count);
+        result =
+            hnbrdf_fail(error, HNBRDF_ERROR_MEMORY, "export: no memory for %d names", s->count);
     if (table)
         memory->release(memory->user, table);
     return result;

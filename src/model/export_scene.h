@@ -11,8 +11,9 @@ typedef struct hnbrdf_scene {
     const hnbrdf_model *model;
     const hnbrdf_model_desc *desc;
     hnbrdf_glsl_only only;
-    int fixed;  /* 1: materials are constants */
-    int folded; /* 1: their latent codes are in the first layer's bias; not for half or loaded weights */
+    int fixed; /* 1: materials are constants */
+    /* 1: their latent codes are in the first layer's bias; not for half or loaded weights */
+    int folded;
     const hnbrdf_packing *packing; /* NULL: no materials from textures */
     const int *indices;            /* NULL: all materials in order */
     const float *energy;           /* NULL, or a factor on the values of each */

@@ -1,5 +1,5 @@
-/* export_unpack.c: the GLSL function that makes a material from texels: src/core/pack.c's decoding, in
- * the same order of operations, with the layout and the ranges as constants. */
+/* export_unpack.c: the GLSL function that makes a material from texels: src/core/pack.c's
+ * decoding, in the same order of operations, with the layout and the ranges as constants. */
 #include "model/export_unpack.h"
 
 #include "core/pack.h"
@@ -18,7 +18,8 @@ void hnbrdf_put_texel_summary(hnbrdf_printer *out, const hnbrdf_packing *packing
                texels * (int)hnbrdf_texel_bytes(packing->format));
 }
 
-/* `count` channels from number `first` on: t0.xyz, or vec3(t0.w, t1.xy) where they lie in two texels.
+/* `count` channels from number `first` on: t0.xyz, or vec3(t0.w, t1.xy) where they lie in two
+ * texels.
  */
 static void put_channels(hnbrdf_printer *out, int first, int count)
 {
@@ -27,7 +28,8 @@ static void put_channels(hnbrdf_printer *out, int first, int count)
         hnbrdf_put(out, "vec%d(", count);
     while (count > 0) {
         int part = 4 - first % 4 < count ? 4 - first % 4 : count;
-        hnbrdf_put(out, "t%d.%.*s%s", first / 4, part, &"xyzw"[first % 4], part < count ? ", " : "");
+        hnbrdf_put(out, "t%d.%.*s%s", first / 4, part, &"xyzw"[first % 4],
+                   part < count ? ", " : "");
         first += part;
         count -= part;
     }
@@ -76,7 +78,8 @@ static void put_analytic_fields(hnbrdf_printer *out, const hnbrdf_texel_layout *
     put_decoded(out, "alpha", &layout->alpha);
     if (layout->alpha.curve == HNBRDF_CURVE_EXP) {
         hnbrdf_put(
-            out, "    alpha = HNBRDF_EXP(hnbrdf_clamp(vec3(alpha%s), -HNBRDF_MAX_EXPONENT, 0.0)).%s;\n",
+            out,
+            "    alpha = HNBRDF_EXP(hnbrdf_clamp(vec3(alpha%s), -HNBRDF_MAX_EXPONENT, 0.0)).%s;\n",
             isotropic ? "" : ", 0.0", isotropic ? "x" : "xy");
     }
     hnbrdf_put(out, vector ? "    m.alpha = vec2(" : "    m.alpha = ");
@@ -152,8 +155,9 @@ void hnbrdf_put_unpack(hnbrdf_printer *out, const hnbrdf_scene *s)
         hnbrdf_put(out, "    m.rotation = vec2(1.0, 0.0);\n");
     put_latent(out, packing, &layout);
     if (hnbrdf_scene_has_sampling(s))
-        hnbrdf_put(out, packing->analytic
-                            ? "    m.lobes = hnbrdf_lobes_guess(m.kd, m.eta);\n"
-                            : "    m.lobes = hnbrdf_lobes(vec2(1.0, 0.0), vec4(0.0), vec4(0.0));\n");
+        hnbrdf_put(out,
+                   packing->analytic
+                       ? "    m.lobes = hnbrdf_lobes_guess(m.kd, m.eta);\n"
+                       : "    m.lobes = hnbrdf_lobes(vec2(1.0, 0.0), vec4(0.0), vec4(0.0));\n");
     hnbrdf_put(out, "    return m;\n}\n\n");
 }

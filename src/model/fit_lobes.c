@@ -1,8 +1,9 @@
 /* fit_lobes.c: the lobes with which a material is sampled with the least variance.
  *
- * f is looked at once, in directions drawn from many lobes of all widths. The variance of any mixture of those
- * lobes is then a sum over these observations, convex in the shares, which a multiplicative update minimises; the
- * two widths are searched for. Plain arithmetic and the library's own exp and log: the same lobes on every machine. */
+ * f is looked at once, in directions drawn from many lobes of all widths. The variance of any
+ * mixture of those lobes is then a sum over these observations, convex in the shares, which a
+ * multiplicative update minimises; the two widths are searched for. Plain arithmetic and the
+ * library's own exp and log: the same lobes on every machine. */
 #include "core/error.h"
 #include "core/math.h"
 #include "core/prepared.h"
@@ -12,7 +13,7 @@
 #include <string.h>
 
 enum {
-    WIDTHS = 20, /* roughnesses to choose from */
+    WIDTHS = 20,          /* roughnesses to choose from */
     SOURCES = WIDTHS + 1, /* and the cosine lobe, the last */
     VIEWS = 20,
     DRAWS = 16, /* of each source and view */
@@ -22,9 +23,10 @@ enum {
 };
 static const double least_share = 1.0 / 64.0;
 
-/* One direction: where its view lies between the knots, and what it adds to the variance over the density. */
+/* One direction: where its view lies between the knots, and what it adds to the variance over the
+ * density. */
 typedef struct observation {
-    int knot;   /* the one below; the next is above */
+    int knot; /* the one below; the next is above */
     double near[2], size;
 } observation;
 
@@ -32,8 +34,8 @@ typedef struct search {
     hnbrdf_prepared source; /* its lobes are changed from source to source */
     float alpha[2];
     observation seen[COUNT];
-    float pairs[COUNT][2][3];    /* wi, wo */
-    float pdf[SOURCES][COUNT];   /* of each source alone */
+    float pairs[COUNT][2][3];  /* wi, wo */
+    float pdf[SOURCES][COUNT]; /* of each source alone */
     float refined[HNBRDF_LOBES][COUNT];
 } search;
 
@@ -43,7 +45,8 @@ typedef struct mixture {
     double variance; /* plus a constant */
 } mixture;
 
-/* ---- Observing --------------------------------------------------------------------------------- */
+/* ---- Observing
+ * --------------------------------------------------------------------------------- */
 
 /* All samples into one lobe of this scale; 0 stands for cosine. */
 static void use_source(search *s, float scale)
@@ -54,8 +57,10 @@ static void use_source(search *s, float scale)
     for (int j = 0; j < KNOTS && scale > 0.0f; j++)
         lobes->share[0][j] = 1.0f;
     for (int a = 0; a < 2; a++)
-        s->source.lobe_alpha[0][a] = hnbrdf_clamp(scale * s->alpha[a], HNBRDF_MIN_ALPHA, HNBRDF_MAX_ALPHA);
-    s->source.lobe_area[0] = hnbrdf_ggx_area(s->source.lobe_alpha[0][0], s->source.lobe_alpha[0][1]);
+        s->source.lobe_alpha[0][a] =
+            hnbrdf_clamp(scale * s->alpha[a], HNBRDF_MIN_ALPHA, HNBRDF_MAX_ALPHA);
+    s->source.lobe_area[0] =
+        hnbrdf_ggx_area(s->source.lobe_alpha[0][0], s->source.lobe_alpha[0][1]);
 }
 
 /* Widths spread evenly in their logarithm, from well below the material's to the widest. */
@@ -84,8 +89,9 @@ static float fraction(double x)
     return (float)(int)((x - floor(x)) * 16777216.0) * 0x1p-24f;
 }
 
-/* Draws of one view, in turn from each source; f wi.z of the three channels in values, its luminance does
- * not matter. What was rejected keeps a size of 0. Returns the sum over channels of the albedo squared. */
+/* Draws of one view, in turn from each source; f wi.z of the three channels in values, its
+ * luminance does not matter. What was rejected keeps a size of 0. Returns the sum over channels
+ * of the albedo squared. */
 static double observe_view(search *s, const float scales[SOURCES], int view, float values[][3])
 {
     enum { EACH = SOURCES * DRAWS };
@@ -93,8 +99,10 @@ static double observe_view(search *s, const float scales[SOURCES], int view, flo
     for (int i = 0; i < EACH; i++) {
         int n = view * EACH + i;
         float *wi = s->pairs[n][0], *wo = s->pairs[n][1];
-        double step = i / SOURCES + 1 + DRAWS * (i % SOURCES) + 7 * view; /* the R2 sequence (Roberts 2018) */
-        const float u[3] = {scales[i % SOURCES] > 0.0f ? 0.0f : 0.5f, fraction(0.5 + step * 0.7548776662466927),
+        /* the R2 sequence (Roberts 2018) */
+        double step = i / SOURCES + 1 + DRAWS * (i % SOURCES) + 7 * view;
+        const float u[3] = {scales[i % SOURCES] > 0.0f ? 0.0f : 0.5f,
+                            fraction(0.5 + step * 0.7548776662466927),
                             fraction(0.5 + step * 0.5698402909980532)};
         hnbrdf_sample_result drawn;
         make_view(view, wo);
@@ -128,8 +136,8 @@ static double observe_view(search *s, const float scales[SOURCES], int view, flo
     return size;
 }
 
-/* Views count by the area that a sphere shows them on, grazing ones a little more. Returns how much light there
- * is at all. */
+/* Views count by the area that a sphere shows them on, grazing ones a little more. Returns how
+ * much light there is at all. */
 static double observe(search *s, const float scales[SOURCES])
 {
     enum { EACH = SOURCES * DRAWS };
@@ -150,7 +158,8 @@ static double observe(search *s, const float scales[SOURCES])
     return total;
 }
 
-/* ---- Shares ------------------------------------------------------------------------------------ */
+/* ---- Shares
+ * ------------------------------------------------------------------------------------ */
 
 /* At least least_share each, together 1. */
 static void normalise(mixture *m, int knot)
@@ -167,9 +176,9 @@ static void normalise(mixture *m, int knot)
                                               (1.0 - PARTS * least_share);
 }
 
-/* Of a mixture without a second lobe, pdf[1] is NULL, the share of that lobe stays with cosine. `stride` takes
- * every so-manieth observation. Each share is multiplied by the root of its own derivative over the mean one,
- * which never increases the variance. */
+/* Of a mixture without a second lobe, pdf[1] is NULL, the share of that lobe stays with cosine.
+ * `stride` takes every so-manieth observation. Each share is multiplied by the root of its own
+ * derivative over the mean one, which never increases the variance. */
 static void fit_shares(const search *s, mixture *m, int steps, int stride)
 {
     for (int k = 0; k < PARTS; k++)
@@ -187,7 +196,8 @@ static void fit_shares(const search *s, mixture *m, int steps, int stride)
                 continue;
             for (int k = 0; k < PARTS; k++) {
                 part[k] = m->pdf[k] ? (double)m->pdf[k][n] : 0.0;
-                p += part[k] * (o->near[0] * m->share[k][o->knot] + o->near[1] * m->share[k][o->knot + 1]);
+                p += part[k] *
+                     (o->near[0] * m->share[k][o->knot] + o->near[1] * m->share[k][o->knot + 1]);
             }
             double over = o->size / p;
             m->variance += over;
@@ -205,7 +215,8 @@ static void fit_shares(const search *s, mixture *m, int steps, int stride)
     }
 }
 
-/* ---- Widths ------------------------------------------------------------------------------------ */
+/* ---- Widths
+ * ------------------------------------------------------------------------------------ */
 
 enum { QUICK = 8, CAREFUL = 60 };
 
@@ -238,7 +249,8 @@ static void measure(search *s, float scale, float *pdf)
         pdf[n] = hnbrdf_prepared_pdf(&s->source, s->pairs[n][0], s->pairs[n][1]);
 }
 
-/* Moves one scale after the other by ever smaller factors while that helps. s->refined holds their densities. */
+/* Moves one scale after the other by ever smaller factors while that helps. s->refined holds
+ * their densities. */
 static void refine(search *s, float scale[HNBRDF_LOBES], float spacing)
 {
     float trial[COUNT];
@@ -249,7 +261,8 @@ static void refine(search *s, float scale[HNBRDF_LOBES], float spacing)
             for (int up = 0; up < 2; up++) {
                 float moved = up ? scale[k] * spacing : scale[k] / spacing;
                 measure(s, moved, trial);
-                double variance = try_pair(s, k == 0 ? trial : s->refined[0], k == 1 ? trial : s->refined[1]);
+                double variance =
+                    try_pair(s, k == 0 ? trial : s->refined[0], k == 1 ? trial : s->refined[1]);
                 if (variance < least) {
                     least = variance;
                     scale[k] = moved;
@@ -285,7 +298,9 @@ hnbrdf_result hnbrdf_lobes_fit(const hnbrdf_model *model, const hnbrdf_material 
     float scales[SOURCES];
     if (!model || !material || !lobes)
         return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT, "%s is NULL",
-                           !model ? "model" : !material ? "material" : "lobes");
+                           !model      ? "model"
+                           : !material ? "material"
+                                       : "lobes");
     hnbrdf_material straight = *material; /* in the tangent frame */
     straight.rotation = 0.0f;
     straight.lobes = found;

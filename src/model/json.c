@@ -28,31 +28,28 @@ void hnbrdf_json_begin(hnbrdf_json *json, const char *text, size_t size)
 /* The next character that is no white space, not consumed; 0 at the end and after a failure. */
 static char peek(hnbrdf_json *json)
 {
-    if (json->expected) {
+    if (json->expected)
         return 0;
-    }
-    while (json->at < json->end && *json->at && strchr(" \t\n\r", *json->at)) {
+    while (json->at < json->end && *json->at && strchr(" \t\n\r", *json->at))
         ++json->at;
-    }
     return json->at < json->end ? *json->at : 0;
 }
 
 static int take(hnbrdf_json *json, char wanted, const char *expected)
 {
-    if (peek(json) != wanted) {
+    if (peek(json) != wanted)
         return hnbrdf_json_fail(json, json->at, expected);
-    }
     ++json->at;
     return 1;
 }
 
-/* ---- Structure --------------------------------------------------------------------------------- */
+/* ---- Structure
+ * --------------------------------------------------------------------------------- */
 
 int hnbrdf_json_open(hnbrdf_json *json, char bracket)
 {
-    if (!take(json, bracket, bracket == '{' ? "'{'" : "'['")) {
+    if (!take(json, bracket, bracket == '{' ? "'{'" : "'['"))
         return 0;
-    }
     json->fresh = 1;
     return 1;
 }
@@ -62,9 +59,8 @@ int hnbrdf_json_more(hnbrdf_json *json, char bracket)
     const int first = json->fresh;
     const char next = peek(json);
     json->fresh = 0;
-    if (json->expected) {
+    if (json->expected)
         return 0;
-    }
     if (next == bracket) {
         ++json->at;
         return 0;
@@ -80,13 +76,13 @@ int hnbrdf_json_key(hnbrdf_json *json, hnbrdf_json_text *key)
 int hnbrdf_json_finish(hnbrdf_json *json)
 {
     peek(json);
-    if (!json->expected && json->at != json->end) {
+    if (!json->expected && json->at != json->end)
         return hnbrdf_json_fail(json, json->at, "the end of the text");
-    }
     return !json->expected;
 }
 
-/* ---- Strings ----------------------------------------------------------------------------------- */
+/* ---- Strings
+ * ----------------------------------------------------------------------------------- */
 
 static int hex_digit(char c)
 {
@@ -100,14 +96,12 @@ static int hex_digit(char c)
 static long hex4(const char *at, const char *end)
 {
     long value = 0;
-    if (end - at < 4) {
+    if (end - at < 4)
         return -1;
-    }
     for (int i = 0; i < 4; ++i) {
         const int digit = hex_digit(at[i]);
-        if (digit < 0) {
+        if (digit < 0)
             return -1;
-        }
         value = value * 16 + digit;
     }
     return value;
@@ -131,14 +125,12 @@ static const char *read_unicode(const char *at, const char *end, char to[4], siz
     const long high = hex4(at, end);
     unsigned long code = (unsigned long)high;
     at += 4;
-    if (high < 0 || (high >= 0xdc00 && high < 0xe000)) {
+    if (high < 0 || (high >= 0xdc00 && high < 0xe000))
         return NULL;
-    }
     if (high >= 0xd800 && high < 0xdc00) {
         const long low = end - at >= 6 && at[0] == '\\' && at[1] == 'u' ? hex4(at + 2, end) : -1;
-        if (low < 0xdc00 || low >= 0xe000) {
+        if (low < 0xdc00 || low >= 0xe000)
             return NULL;
-        }
         code = 0x10000 + ((unsigned long)(high - 0xd800) << 10) + (unsigned long)(low - 0xdc00);
         at += 6;
     }
@@ -161,17 +153,15 @@ static const char *read_character(const char *at, const char *end, char to[4], s
             return read_unicode(at + 2, end, to, length);
         }
         *expected = "a valid escape";
-        if (!escape) {
+        if (!escape)
             return NULL;
-        }
         to[0] = MEANINGS[escape - ESCAPES];
         *length = 1;
         return at + 2;
     }
     *expected = "an escape instead of a control character";
-    if ((unsigned char)*at < 0x20) {
+    if ((unsigned char)*at < 0x20)
         return NULL;
-    }
     *expected = "UTF-8";
     *length = hnbrdf_utf8_length(at, end);
     memcpy(to, at, *length);
@@ -182,9 +172,8 @@ int hnbrdf_json_string(hnbrdf_json *json, hnbrdf_json_text *text)
 {
     char character[4];
     size_t length;
-    if (!take(json, '"', "'\"'")) {
+    if (!take(json, '"', "'\"'"))
         return 0;
-    }
     for (const char *at = json->at; at < json->end;) {
         const char *expected, *next;
         if (*at == '"') {
@@ -194,9 +183,8 @@ int hnbrdf_json_string(hnbrdf_json *json, hnbrdf_json_text *text)
             return 1;
         }
         next = read_character(at, json->end, character, &length, &expected);
-        if (!next) {
+        if (!next)
             return hnbrdf_json_fail(json, at, expected);
-        }
         at = next;
     }
     return hnbrdf_json_fail(json, json->end, "'\"' at the end of a string");
@@ -209,11 +197,9 @@ int hnbrdf_json_equals(hnbrdf_json_text text, const char *plain)
         char character[4];
         size_t length = 0;
         text.begin = read_character(text.begin, text.end, character, &length, &expected);
-        for (size_t i = 0; i < length; ++i) {
-            if (*plain == '\0' || *plain++ != character[i]) {
+        for (size_t i = 0; i < length; ++i)
+            if (*plain == '\0' || *plain++ != character[i])
                 return 0;
-            }
-        }
     }
     return *plain == '\0';
 }
@@ -235,9 +221,8 @@ size_t hnbrdf_json_unescape(hnbrdf_json_text text, char *to)
 int hnbrdf_json_shown(hnbrdf_json_text text)
 {
     const char *end = text.end - text.begin > MAX_SHOWN ? text.begin + MAX_SHOWN : text.end;
-    while (end < text.end && end > text.begin && ((unsigned char)*end & 0xc0) == 0x80) {
+    while (end < text.end && end > text.begin && ((unsigned char)*end & 0xc0) == 0x80)
         --end;
-    }
     return (int)(end - text.begin);
 }
 
@@ -256,14 +241,14 @@ int hnbrdf_json_escape(const char *text, size_t size, hnbrdf_write_fn write, voi
             escaped[0] = text[i];
         }
         const int stopped = write(user, escaped, (size_t)length);
-        if (stopped) {
+        if (stopped)
             return stopped;
-        }
     }
     return 0;
 }
 
-/* ---- Numbers and values that are skipped ------------------------------------------------------- */
+/* ---- Numbers and values that are skipped
+ * ------------------------------------------------------- */
 
 static int is_digit(char c)
 {
@@ -276,20 +261,17 @@ int hnbrdf_json_integer(hnbrdf_json *json, uint64_t *value)
     uint64_t number = 0;
     const char first = peek(json);
     const char *at = json->at;
-    if (!is_digit(first)) {
+    if (!is_digit(first))
         return hnbrdf_json_fail(json, at, EXPECTED);
-    }
     for (; at < json->end && is_digit(*at); ++at) {
         const uint64_t digit = (uint64_t)(*at - '0');
-        if (number > (UINT64_MAX - digit) / 10) {
+        if (number > (UINT64_MAX - digit) / 10)
             return hnbrdf_json_fail(json, json->at, EXPECTED);
-        }
         number = number * 10 + digit;
     }
     const int leading_zero = first == '0' && at - json->at > 1;
-    if (leading_zero || (at < json->end && (*at == '.' || *at == 'e' || *at == 'E'))) {
+    if (leading_zero || (at < json->end && (*at == '.' || *at == 'e' || *at == 'E')))
         return hnbrdf_json_fail(json, json->at, EXPECTED);
-    }
     json->at = at;
     *value = number;
     return 1;
@@ -298,9 +280,8 @@ int hnbrdf_json_integer(hnbrdf_json *json, uint64_t *value)
 static const char *skip_digits(const char *at, const char *end)
 {
     const char *begin = at;
-    while (at < end && is_digit(*at)) {
+    while (at < end && is_digit(*at))
         ++at;
-    }
     return at > begin ? at : NULL;
 }
 
@@ -310,17 +291,15 @@ static int skip_number(hnbrdf_json *json)
     at += *at == '-';
     const int zero = at < end && *at == '0';
     at = zero ? at + 1 : skip_digits(at, end);
-    if (at && at < end && *at == '.') {
+    if (at && at < end && *at == '.')
         at = skip_digits(at + 1, end);
-    }
     if (at && at < end && (*at == 'e' || *at == 'E')) {
         ++at;
         at += at < end && (*at == '+' || *at == '-');
         at = skip_digits(at, end);
     }
-    if (!at || (zero && at < end && is_digit(*at))) {
+    if (!at || (zero && at < end && is_digit(*at)))
         return hnbrdf_json_fail(json, json->at, "a number");
-    }
     json->at = at;
     return 1;
 }
@@ -341,9 +320,8 @@ static int skip_word(hnbrdf_json *json)
 static int skip_scalar(hnbrdf_json *json, char first)
 {
     hnbrdf_json_text text;
-    if (first == '"') {
+    if (first == '"')
         return hnbrdf_json_string(json, &text);
-    }
     return first == '-' || is_digit(first) ? skip_number(json) : skip_word(json);
 }
 
@@ -351,27 +329,23 @@ int hnbrdf_json_skip(hnbrdf_json *json)
 {
     char brackets[MAX_DEPTH]; /* the closing ones that are still due */
     int depth = 0;
-    if (json->expected) {
+    if (json->expected)
         return 0;
-    }
     do {
         const char first = peek(json);
         hnbrdf_json_text key;
         if (first == '{' || first == '[') {
-            if (depth == MAX_DEPTH) {
+            if (depth == MAX_DEPTH)
                 return hnbrdf_json_fail(json, json->at, "at most 64 levels of nesting");
-            }
             brackets[depth++] = first == '{' ? '}' : ']';
             hnbrdf_json_open(json, first);
         } else if (!skip_scalar(json, first)) {
             return 0;
         }
-        while (depth > 0 && !hnbrdf_json_more(json, brackets[depth - 1])) {
+        while (depth > 0 && !hnbrdf_json_more(json, brackets[depth - 1]))
             --depth;
-        }
-        if (depth > 0 && brackets[depth - 1] == '}' && !hnbrdf_json_key(json, &key)) {
+        if (depth > 0 && brackets[depth - 1] == '}' && !hnbrdf_json_key(json, &key))
             return 0;
-        }
     } while (depth > 0);
     return !json->expected;
 }

@@ -1,5 +1,5 @@
-/* json.h: a small strict JSON reader (RFC 8259) that walks the text and allocates nothing, and string
- * escaping for writers. What the headers of model files need, no more. */
+/* json.h: a small strict JSON reader (RFC 8259) that walks the text and allocates nothing, and
+ * string escaping for writers. What the headers of model files need, no more. */
 #ifndef HNBRDF_MODEL_JSON_H
 #define HNBRDF_MODEL_JSON_H
 
@@ -27,7 +27,8 @@ void hnbrdf_json_begin(hnbrdf_json *json, const char *text, size_t size);
  *         while (hnbrdf_json_more(json, '}')) {
  *             hnbrdf_json_key(json, &key);
  *             ... read or skip one value
- * an array the same with '[', ']' and without the key. All return 0 at the end and after a failure. */
+ * an array the same with '[', ']' and without the key. All return 0 at the end and after a
+ * failure. */
 int hnbrdf_json_open(hnbrdf_json *json, char bracket);
 int hnbrdf_json_more(hnbrdf_json *json, char bracket);
 int hnbrdf_json_key(hnbrdf_json *json, hnbrdf_json_text *key);
@@ -52,7 +53,8 @@ size_t hnbrdf_json_unescape(hnbrdf_json_text text, char *to);
 /* How many bytes of it to show in a message: not too many, cut between characters. */
 int hnbrdf_json_shown(hnbrdf_json_text text);
 
-/* Write the text (UTF-8) as a string literal without its quotation marks. Returns what `write` does. */
+/* Write the text (UTF-8) as a string literal without its quotation marks. Returns what `write`
+ * does. */
 int hnbrdf_json_escape(const char *text, size_t size, hnbrdf_write_fn write, void *user);
 
 #endif

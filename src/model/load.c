@@ -10,7 +10,8 @@
 static const size_t DEFAULT_MAX_BYTES = (size_t)256 << 20;
 enum { FIRST_CHUNK = 1 << 16 };
 
-/* ---- Bytes ------------------------------------------------------------------------------------- */
+/* ---- Bytes
+ * ------------------------------------------------------------------------------------- */
 
 typedef struct source {
     const char *path;
@@ -39,9 +40,8 @@ static hnbrdf_result grow(const source *s, unsigned char **bytes, size_t *room)
 {
     const size_t wanted = *room == 0 ? FIRST_CHUNK : *room * 2;
     unsigned char *larger = *room <= SIZE_MAX / 2 ? hnbrdf_allocate(&s->memory, wanted) : NULL;
-    if (!larger) {
+    if (!larger)
         return hnbrdf_fail_memory(s->error, wanted, s->path);
-    }
     if (*bytes) {
         memcpy(larger, *bytes, *room);
         hnbrdf_release(&s->memory, *bytes);
@@ -59,25 +59,23 @@ static hnbrdf_result read_all(const source *s, unsigned char **bytes, size_t *si
     *size = 0;
     for (;;) {
         hnbrdf_result result;
-        if (*size == room && (result = grow(s, bytes, &room))) {
+        if (*size == room && (result = grow(s, bytes, &room)))
             return result;
-        }
         const size_t count = s->read(s->read_user, *bytes + *size, room - *size);
-        if (count == 0) {
+        if (count == 0)
             return HNBRDF_OK;
-        }
         if (count > room - *size) {
-            return hnbrdf_fail(s->error, HNBRDF_ERROR_IO, "%s: cannot be read beyond byte %zu", s->path,
-                               *size);
+            return hnbrdf_fail(s->error, HNBRDF_ERROR_IO, "%s: cannot be read beyond byte %zu",
+                               s->path, *size);
         }
         *size += count;
-        if (*size > s->max_bytes) {
+        if (*size > s->max_bytes)
             return fail_size(s);
-        }
     }
 }
 
-/* ---- Loading ----------------------------------------------------------------------------------- */
+/* ---- Loading
+ * ----------------------------------------------------------------------------------- */
 
 static hnbrdf_result load_bytes(const source *s, const unsigned char *bytes, size_t size,
                                 hnbrdf_model **model)
@@ -85,11 +83,13 @@ static hnbrdf_result load_bytes(const source *s, const unsigned char *bytes, siz
     hnbrdf_safetensors file;
     const hnbrdf_result result =
         hnbrdf_safetensors_read(s->path, bytes, size, &s->memory, &file, s->error);
-    return result ? result : hnbrdf_safetensors_decode(s->path, &file, &s->memory, s->variant, model, s->error);
+    return result
+               ? result
+               : hnbrdf_safetensors_decode(s->path, &file, &s->memory, s->variant, model, s->error);
 }
 
-static hnbrdf_result begin(const char *path, const hnbrdf_load_options *options, hnbrdf_model **model,
-                           hnbrdf_error *error, source *s)
+static hnbrdf_result begin(const char *path, const hnbrdf_load_options *options,
+                           hnbrdf_model **model, hnbrdf_error *error, source *s)
 {
     const hnbrdf_load_options defaults = {{NULL, NULL, NULL}, 0, NULL, NULL, HNBRDF_VARIANT_AUTO};
     const hnbrdf_load_options *chosen = options ? options : &defaults;
@@ -101,12 +101,11 @@ static hnbrdf_result begin(const char *path, const hnbrdf_load_options *options,
     s->read_user = chosen->read_user;
     s->error = error;
     if (!model) {
-        return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT, "%s: model is NULL, expected a place for it",
-                           path);
+        return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT,
+                           "%s: model is NULL, expected a place for it", path);
     }
-    if ((result = hnbrdf_choose_kernel(chosen->variant, &kernel, error))) {
+    if ((result = hnbrdf_choose_kernel(chosen->variant, &kernel, error)))
         return result; /* before anything is read */
-    }
     s->variant = kernel->variant;
     return hnbrdf_choose_allocator(&chosen->allocator, &s->memory, error);
 }
@@ -117,12 +116,10 @@ hnbrdf_result hnbrdf_model_load_memory(const void *data, size_t size,
 {
     source s;
     const hnbrdf_result result = begin("model in memory", options, model, error, &s);
-    if (result) {
+    if (result)
         return result;
-    }
-    if (!data) {
+    if (!data)
         return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT, "%s: data is NULL", s.path);
-    }
     return size > s.max_bytes ? fail_size(&s) : load_bytes(&s, data, size, model);
 }
 
@@ -134,26 +131,23 @@ hnbrdf_result hnbrdf_model_load(const char *path, const hnbrdf_load_options *opt
     size_t size;
     source s;
     hnbrdf_result result = begin(path ? path : "model", options, model, error, &s);
-    if (result) {
+    if (result)
         return result;
-    }
     if (!s.read) {
         if (!path) {
-            return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT, "path is NULL, expected a file's path");
+            return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT,
+                               "path is NULL, expected a file's path");
         }
-        if (!(file = fopen(path, "rb"))) {
+        if (!(file = fopen(path, "rb")))
             return hnbrdf_fail(error, HNBRDF_ERROR_IO, "%s: cannot be opened for reading", path);
-        }
         s.read = read_stream;
         s.read_user = file;
     }
     result = read_all(&s, &bytes, &size);
-    if (file) {
+    if (file)
         fclose(file);
-    }
-    if (!result) {
+    if (!result)
         result = load_bytes(&s, bytes, size, model);
-    }
     hnbrdf_release(&s.memory, bytes);
     return result;
 }

@@ -20,7 +20,8 @@ static inline void hnbrdf_free(void *user, void *pointer)
 
 /* Fills *allocator from what the caller gave, which may be NULL or zero. */
 static inline hnbrdf_result hnbrdf_choose_allocator(const hnbrdf_allocator *given,
-                                                    hnbrdf_allocator *allocator, hnbrdf_error *error)
+                                                    hnbrdf_allocator *allocator,
+                                                    hnbrdf_error *error)
 {
     const hnbrdf_allocator standard = {hnbrdf_malloc, hnbrdf_free, NULL};
     if (!given || (!given->allocate && !given->release)) {
@@ -29,8 +30,9 @@ static inline hnbrdf_result hnbrdf_choose_allocator(const hnbrdf_allocator *give
     }
     *allocator = *given;
     if (!given->allocate || !given->release) {
-        return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT,
-                           "allocator has only one of allocate and release, expected both or neither");
+        return hnbrdf_fail(
+            error, HNBRDF_ERROR_ARGUMENT,
+            "allocator has only one of allocate and release, expected both or neither");
     }
     return HNBRDF_OK;
 }
@@ -43,9 +45,8 @@ static inline void *hnbrdf_allocate(const hnbrdf_allocator *allocator, size_t si
 /* NULL is allowed and not passed on. */
 static inline void hnbrdf_release(const hnbrdf_allocator *allocator, void *pointer)
 {
-    if (pointer) {
+    if (pointer)
         allocator->release(allocator->user, pointer);
-    }
 }
 
 static inline hnbrdf_result hnbrdf_fail_memory(hnbrdf_error *error, size_t size, const char *what)

@@ -1,4 +1,5 @@
-/* printer.c: text written piece by piece through the caller's function; the first failure sticks. */
+/* printer.c: text written piece by piece through the caller's function; the first failure sticks.
+ * */
 #include "model/printer.h"
 
 #include "model/text.h"
@@ -36,7 +37,8 @@ void hnbrdf_put(hnbrdf_printer *out, const char *format, ...)
     int length = vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
     if (length > 0)
-        hnbrdf_put_bytes(out, text, (size_t)length < sizeof text ? (size_t)length : sizeof text - 1);
+        hnbrdf_put_bytes(out, text,
+                         (size_t)length < sizeof text ? (size_t)length : sizeof text - 1);
 }
 
 void hnbrdf_put_float(hnbrdf_printer *out, float value)

@@ -11,7 +11,8 @@
 #include <sys/stat.h>
 #endif
 
-/* ---- Bytes on their way ------------------------------------------------------------------------ */
+/* ---- Bytes on their way
+ * ------------------------------------------------------------------------ */
 
 typedef struct sink {
     hnbrdf_write_fn write; /* NULL: only count */
@@ -24,9 +25,8 @@ typedef struct sink {
 
 static void flush(sink *s)
 {
-    if (s->write && s->held > 0 && !s->failed) {
+    if (s->write && s->held > 0 && !s->failed)
         s->failed = s->write(s->user, s->buffer, s->held) != 0;
-    }
     s->held = 0;
 }
 
@@ -43,9 +43,8 @@ static int put(void *user, const void *data, size_t size)
         s->held += part;
         bytes += part;
         size -= part;
-        if (s->held == sizeof s->buffer) {
+        if (s->held == sizeof s->buffer)
             flush(s);
-        }
     }
     return s->failed;
 }
@@ -58,9 +57,8 @@ static void put_text(sink *s, const char *text)
 static void put_u64(sink *s, uint64_t value)
 {
     unsigned char bytes[8];
-    for (int i = 0; i < 8; ++i) {
+    for (int i = 0; i < 8; ++i)
         bytes[i] = (unsigned char)(value >> 8 * i);
-    }
     put(s, bytes, sizeof bytes);
 }
 
@@ -70,14 +68,14 @@ static void put_floats(sink *s, const float *values, uint64_t count)
         uint32_t bits;
         unsigned char bytes[4];
         memcpy(&bits, &values[i], sizeof bits);
-        for (int k = 0; k < 4; ++k) {
+        for (int k = 0; k < 4; ++k)
             bytes[k] = (unsigned char)(bits >> 8 * k);
-        }
         put(s, bytes, sizeof bytes);
     }
 }
 
-/* ---- Header ------------------------------------------------------------------------------------ */
+/* ---- Header
+ * ------------------------------------------------------------------------------------ */
 
 static void put_key(sink *s, int key, const char *value)
 {
@@ -121,9 +119,8 @@ static void put_metadata(sink *s, const hnbrdf_model_desc *desc)
     put_text(s, "\"__metadata__\":{");
     put_key(s, HNBRDF_KEY_FORMAT, HNBRDF_FILE_FORMAT);
     put_key(s, HNBRDF_KEY_KIND, hnbrdf_kind_name(desc->kind));
-    if (desc->kind != HNBRDF_KIND_GGX) {
+    if (desc->kind != HNBRDF_KIND_GGX)
         put_key(s, HNBRDF_KEY_ENCODING, hnbrdf_encoding_name(desc->encoding));
-    }
     put_number_key(s, HNBRDF_KEY_SCALE, desc->scale, 1);
     put_number_key(s, HNBRDF_KEY_SHIFT, desc->shift, 0);
     put_number_key(s, HNBRDF_KEY_FLOOR, desc->floor, 0);
@@ -135,9 +132,8 @@ static void put_metadata(sink *s, const hnbrdf_model_desc *desc)
 static int is_written(const hnbrdf_model_desc *desc, int tensor)
 {
     int fitted = 0;
-    for (int i = 0; i < desc->material_count && tensor == HNBRDF_TENSOR_LOBES; ++i) {
+    for (int i = 0; i < desc->material_count && tensor == HNBRDF_TENSOR_LOBES; ++i)
         fitted |= desc->materials[i].lobes.scale[0] != 0.0f;
-    }
     return tensor != HNBRDF_TENSOR_LOBES || fitted;
 }
 
@@ -166,14 +162,14 @@ static void put_header(sink *s, const hnbrdf_model_desc *desc)
     for (int i = 0; i < HNBRDF_TENSOR_COUNT; ++i) {
         uint64_t shape[2] = {0, 0};
         const int rank = hnbrdf_tensor_shape(desc, i, shape);
-        if (rank > 0 && is_written(desc, i)) {
+        if (rank > 0 && is_written(desc, i))
             offset += put_entry(s, i, rank, shape, offset);
-        }
     }
     put_text(s, "}");
 }
 
-/* ---- Data -------------------------------------------------------------------------------------- */
+/* ---- Data
+ * -------------------------------------------------------------------------------------- */
 
 static void put_data(sink *s, const hnbrdf_model_desc *desc)
 {
@@ -181,9 +177,8 @@ static void put_data(sink *s, const hnbrdf_model_desc *desc)
         uint64_t shape[2] = {0, 0};
         const int rank = hnbrdf_tensor_shape(desc, i, shape);
         const uint64_t width = rank == 2 ? shape[1] : 1;
-        if (!is_written(desc, i)) {
+        if (!is_written(desc, i))
             continue;
-        }
         if (i < HNBRDF_TENSOR_KD) {
             put_floats(s, i % 2 ? desc->biases[i / 2] : desc->weights[i / 2], shape[0] * width);
             continue;
@@ -198,29 +193,28 @@ static void put_data(sink *s, const hnbrdf_model_desc *desc)
 hnbrdf_result hnbrdf_model_write(const hnbrdf_model *model, hnbrdf_write_fn write, void *user,
                                  hnbrdf_error *error)
 {
-    if (!model || !write) {
+    if (!model || !write)
         return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT, "%s is NULL", model ? "write" : "model");
-    }
     sink counting = {.write = NULL};
     put_header(&counting, &model->desc);
     const uint64_t length = (counting.count + 7) / 8 * 8; /* the data begin at a multiple of 8 */
     sink s = {.write = write, .user = user};
     put_u64(&s, length);
     put_header(&s, &model->desc);
-    while (s.count < 8 + length) {
+    while (s.count < 8 + length)
         put_text(&s, " ");
-    }
     put_data(&s, &model->desc);
     flush(&s);
-    return s.failed
-               ? hnbrdf_fail(error, HNBRDF_ERROR_IO,
-                             "the model was not written: the writing callback stopped after at most "
-                             "%llu bytes",
-                             (unsigned long long)s.count)
-               : HNBRDF_OK;
+    return s.failed ? hnbrdf_fail(
+                          error, HNBRDF_ERROR_IO,
+                          "the model was not written: the writing callback stopped after at most "
+                          "%llu bytes",
+                          (unsigned long long)s.count)
+                    : HNBRDF_OK;
 }
 
-/* ---- Files ------------------------------------------------------------------------------------- */
+/* ---- Files
+ * ------------------------------------------------------------------------------------- */
 
 static int write_stream(void *user, const void *data, size_t size)
 {
@@ -244,9 +238,8 @@ static hnbrdf_result save_aside(const hnbrdf_model *model, const char *path, con
                                 hnbrdf_error *error)
 {
     FILE *file = fopen(aside, "wb");
-    if (!file) {
+    if (!file)
         return hnbrdf_fail(error, HNBRDF_ERROR_IO, "%s: cannot be opened for writing", aside);
-    }
     hnbrdf_result result = hnbrdf_model_write(model, write_stream, file, NULL);
     const int closed = fclose(file) == 0;
     if (result || !closed) {
@@ -255,26 +248,22 @@ static hnbrdf_result save_aside(const hnbrdf_model *model, const char *path, con
     } else if (strcmp(aside, path) != 0 && rename(aside, path) != 0) {
         result = hnbrdf_fail(error, HNBRDF_ERROR_IO, "%s: cannot be renamed to %s", aside, path);
     }
-    if (result && strcmp(aside, path) != 0) {
+    if (result && strcmp(aside, path) != 0)
         remove(aside);
-    }
     return result;
 }
 
 hnbrdf_result hnbrdf_model_save(const hnbrdf_model *model, const char *path, hnbrdf_error *error)
 {
     static const char SUFFIX[] = ".tmp";
-    if (!model || !path) {
+    if (!model || !path)
         return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT, "%s is NULL", model ? "path" : "model");
-    }
-    if (is_written_directly(path)) {
+    if (is_written_directly(path))
         return save_aside(model, path, path, error);
-    }
     const size_t length = strlen(path), size = length + sizeof SUFFIX;
     char *aside = hnbrdf_allocate(&model->allocator, size);
-    if (!aside) {
+    if (!aside)
         return hnbrdf_fail_memory(error, size, "a path");
-    }
     memcpy(aside, path, length);
     memcpy(aside + length, SUFFIX, sizeof SUFFIX);
     const hnbrdf_result result = save_aside(model, path, aside, error);

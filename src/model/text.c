@@ -1,5 +1,6 @@
 /* text.c: numbers and UTF-8 as text, the same whatever the locale.
- * Short numbers are parsed with one exact product or division, all others by shifting decimal digits.
+ * Short numbers are parsed with one exact product or division, all others by shifting decimal
+ * digits.
  */
 #include "model/text.h"
 
@@ -13,7 +14,8 @@ static int is_digit(char c)
     return c >= '0' && c <= '9';
 }
 
-/* ---- Printing ---------------------------------------------------------------------------------- */
+/* ---- Printing
+ * ---------------------------------------------------------------------------------- */
 
 static int format_digits(char *buffer, size_t size, double value, int digits)
 {
@@ -37,10 +39,11 @@ int hnbrdf_format_double(char *buffer, size_t size, double value)
     return format_digits(buffer, size, value, 17);
 }
 
-/* ---- Exact decimals ---------------------------------------------------------------------------- */
+/* ---- Exact decimals
+ * ---------------------------------------------------------------------------- */
 
-/* A midpoint between two doubles has at most 767 significant digits, so that of what is cut from longer
- * numbers it only matters whether it is zero. */
+/* A midpoint between two doubles has at most 767 significant digits, so that of what is cut from
+ * longer numbers it only matters whether it is zero. */
 enum { MAX_DIGITS = 800, MAX_SHIFT = 60 };
 
 /* 0.d[0]d[1]... times 10^point; no leading and no trailing zeros; count 0 is zero. */
@@ -61,22 +64,20 @@ static const format FORMAT_DOUBLE = {DBL_MANT_DIG, DBL_MIN_EXP, DBL_MAX_EXP};
 
 static void append(decimal *d, unsigned digit)
 {
-    if (d->count < MAX_DIGITS) {
+    if (d->count < MAX_DIGITS)
         d->digit[d->count++] = (uint8_t)digit;
-    } else if (digit != 0) {
+    else if (digit != 0)
         d->digit[MAX_DIGITS - 1] |= 1;
-    }
 }
 
 static void trim(decimal *d)
 {
-    while (d->count > 0 && d->digit[d->count - 1] == 0) {
+    while (d->count > 0 && d->digit[d->count - 1] == 0)
         --d->count;
-    }
 }
 
-/* d / 2^shift, d not zero, 0 < shift <= MAX_SHIFT: long division in place; what is written lies behind
- * what is read. */
+/* d / 2^shift, d not zero, 0 < shift <= MAX_SHIFT: long division in place; what is written lies
+ * behind what is read. */
 static void shift_right(decimal *d, int shift)
 {
     const uint64_t mask = ((uint64_t)1 << shift) - 1;
@@ -109,14 +110,12 @@ static void shift_left(decimal *d, int shift)
         product[count++] = (uint8_t)(carry % 10);
         carry /= 10;
     }
-    for (; carry != 0; carry /= 10) {
+    for (; carry != 0; carry /= 10)
         product[count++] = (uint8_t)(carry % 10);
-    }
     d->point += count - d->count;
     d->count = 0;
-    while (count > 0) {
+    while (count > 0)
         append(d, product[--count]);
-    }
     trim(d);
 }
 
@@ -125,15 +124,12 @@ static uint64_t round_to_integer(const decimal *d)
 {
     uint64_t integer = 0;
     int64_t i = 0;
-    if (d->point < 0) {
+    if (d->point < 0)
         return 0;
-    }
-    for (; i < d->point; ++i) {
+    for (; i < d->point; ++i)
         integer = integer * 10 + (i < d->count ? d->digit[i] : 0u);
-    }
-    if (i >= d->count || d->digit[i] < 5) {
+    if (i >= d->count || d->digit[i] < 5)
         return integer;
-    }
     const int tie = d->digit[i] == 5 && i + 1 == d->count;
     return integer + (tie ? integer & 1 : 1);
 }
@@ -151,9 +147,8 @@ static int decimal_to_binary(decimal *d, const format *f, double *value)
         *value = 0;
         return 1;
     }
-    if (d->point > 400) {
+    if (d->point > 400)
         return 0;
-    }
     while (d->point > 0) { /* below 10^p, hence below 2^(4p) */
         const int shift = smaller(4 * d->point, MAX_SHIFT);
         shift_right(d, shift);
@@ -172,14 +167,14 @@ static int decimal_to_binary(decimal *d, const format *f, double *value)
     shift_left(d, f->bits);
     const uint64_t significand = round_to_integer(d);
     const int carried = significand >> f->bits != 0;
-    if (exponent + carried > f->max_exponent) {
+    if (exponent + carried > f->max_exponent)
         return 0;
-    }
     *value = ldexp((double)significand, exponent - f->bits);
     return 1;
 }
 
-/* ---- Parsing ----------------------------------------------------------------------------------- */
+/* ---- Parsing
+ * ----------------------------------------------------------------------------------- */
 
 static const double POWER_OF_TEN[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
                                       1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
@@ -198,9 +193,8 @@ static const char *read_digits(const char *at, const char *end, decimal *d)
             const unsigned digit = (unsigned)(*at - '0');
             const int leading_zero = d->count == 0 && digit == 0;
             seen_digit = 1;
-            if (!leading_zero) {
+            if (!leading_zero)
                 append(d, digit);
-            }
             d->point += seen_point ? -leading_zero : !leading_zero;
         } else {
             break;
@@ -217,25 +211,19 @@ static const char *read_exponent(const char *at, const char *end, int64_t *expon
     const char *digit = at;
     int negative;
     *exponent = 0;
-    if (digit == end || (*digit != 'e' && *digit != 'E')) {
+    if (digit == end || (*digit != 'e' && *digit != 'E'))
         return at;
-    }
     ++digit;
     negative = digit < end && *digit == '-';
-    if (digit < end && (*digit == '-' || *digit == '+')) {
+    if (digit < end && (*digit == '-' || *digit == '+'))
         ++digit;
-    }
-    if (digit == end || !is_digit(*digit)) {
+    if (digit == end || !is_digit(*digit))
         return at;
-    }
-    for (; digit < end && is_digit(*digit); ++digit) {
-        if (*exponent < bound) {
+    for (; digit < end && is_digit(*digit); ++digit)
+        if (*exponent < bound)
             *exponent = *exponent * 10 + (*digit - '0');
-        }
-    }
-    if (negative) {
+    if (negative)
         *exponent = -*exponent;
-    }
     return digit;
 }
 
@@ -244,12 +232,10 @@ static int short_decimal(const decimal *d, double *value)
 {
     const int64_t exponent = d->point - d->count;
     uint64_t integer = 0;
-    if (FLT_EVAL_METHOD != 0 || d->count > 15 || exponent < -22 || exponent > 22) {
+    if (FLT_EVAL_METHOD != 0 || d->count > 15 || exponent < -22 || exponent > 22)
         return 0;
-    }
-    for (int i = 0; i < d->count; ++i) {
+    for (int i = 0; i < d->count; ++i)
         integer = integer * 10 + d->digit[i];
-    }
     *value = exponent < 0 ? (double)integer / POWER_OF_TEN[-exponent]
                           : (double)integer * POWER_OF_TEN[exponent];
     return 1;
@@ -272,15 +258,13 @@ static const char *parse(const char *begin, const char *end, const format *f, do
     const int negative = begin < end && *begin == '-';
     const int sign = begin < end && (*begin == '-' || *begin == '+');
     const char *at = read_digits(begin + sign, end, &d);
-    if (!at) {
+    if (!at)
         return NULL;
-    }
     at = read_exponent(at, end, &exponent);
     d.point += exponent;
     if (!(short_decimal(&d, &magnitude) && (f == &FORMAT_DOUBLE || decides_float(magnitude))) &&
-        !decimal_to_binary(&d, f, &magnitude)) {
+        !decimal_to_binary(&d, f, &magnitude))
         return NULL;
-    }
     *value = negative ? -magnitude : magnitude;
     return at;
 }
@@ -294,31 +278,28 @@ const char *hnbrdf_parse_float(const char *begin, const char *end, float *value)
 {
     double rounded;
     const char *at = parse(begin, end, &FORMAT_FLOAT, &rounded);
-    if (at) {
+    if (at)
         *value = (float)rounded;
-    }
     return at;
 }
 
-/* ---- UTF-8 ------------------------------------------------------------------------------------- */
+/* ---- UTF-8
+ * ------------------------------------------------------------------------------------- */
 
 size_t hnbrdf_utf8_length(const char *begin, const char *end)
 {
     unsigned char b[4] = {0, 0, 0, 0};
     const size_t available = (size_t)(end - begin);
     memcpy(b, begin, available < 4 ? available : 4);
-    if (available > 0 && b[0] < 0x80) {
+    if (available > 0 && b[0] < 0x80)
         return 1;
-    }
     const size_t length = b[0] >= 0xc2 && b[0] < 0xe0   ? 2
                           : b[0] >= 0xe0 && b[0] < 0xf0 ? 3
                           : b[0] >= 0xf0 && b[0] < 0xf5 ? 4
                                                         : 0;
-    for (size_t i = 1; i < length; ++i) {
-        if ((b[i] & 0xc0) != 0x80) {
+    for (size_t i = 1; i < length; ++i)
+        if ((b[i] & 0xc0) != 0x80)
             return 0;
-        }
-    }
     const int overlong = (b[0] == 0xe0 && b[1] < 0xa0) || (b[0] == 0xf0 && b[1] < 0x90);
     const int surrogate = b[0] == 0xed && b[1] >= 0xa0;
     const int too_large = b[0] == 0xf4 && b[1] >= 0x90;

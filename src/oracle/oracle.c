@@ -1,4 +1,5 @@
-/* oracle.c: DESIGN section 2 line by line, in real numbers of many digits. Slow, and meant to be read.
+/* oracle.c: DESIGN section 2 line by line, in real numbers of many digits. Slow, and meant to be
+ * read.
  */
 #include "oracle/oracle.h"
 
@@ -126,7 +127,8 @@ static real hard_gelu(real x)
     return x * limited(x / 3 + (real)1 / 2, 0, 1);
 }
 
-static void network(const hnbrdf_model_desc *desc, const float *latent, const real x[6], real out[6])
+static void network(const hnbrdf_model_desc *desc, const float *latent, const real x[6],
+                    real out[6])
 {
     real from[HNBRDF_MAX_HIDDEN + 6 + HNBRDF_MAX_LATENT], to[HNBRDF_MAX_HIDDEN];
     int columns = 6 + desc->latent;
@@ -170,8 +172,8 @@ static real share_at(const hnbrdf_lobes *lobes, int k, real z)
     return (1 - (x - j)) * lobes->share[k][j] + (x - j) * lobes->share[k][j + 1];
 }
 
-/* Density of reflections about normals drawn from D h.n, or about visible ones: D / (2 (k z + |(ax x, ay y, z)|))
- * with the bound k of Eto and Tokuyoshi 2023. */
+/* Density of reflections about normals drawn from D h.n, or about visible ones: D / (2 (k z +
+ * |(ax x, ay y, z)|)) with the bound k of Eto and Tokuyoshi 2023. */
 static real lobe_density(vec i, vec o, real scale, real ax, real ay)
 {
     vec h = angles_of(i, o).h;
@@ -195,19 +197,23 @@ double oracle_pdf(hnbrdf_kind kind, const hnbrdf_material *material, const float
     real sum = 0, rest = 1;
     for (int k = 0; k < HNBRDF_LOBES; k++) {
         real scale = fitted ? (real)lobes->scale[k] : k == 0 ? 1 : 0;
-        real share = fitted ? share_at(lobes, k, o.z) : k == 0 && !neural ? specular_share(material) : 0;
+        real share = fitted              ? share_at(lobes, k, o.z)
+                     : k == 0 && !neural ? specular_share(material)
+                                         : 0;
         real least = (real)HNBRDF_MIN_ALPHA, size = real_abs(scale);
         if (scale == 0 || share == 0)
             continue;
-        sum += share * lobe_density(i, o, scale, limited(size * (neural ? 1 : (real)material->alpha[0]), least, 1),
-                                    limited(size * (neural ? 1 : (real)material->alpha[1]), least, 1));
+        sum +=
+            share * lobe_density(i, o, scale,
+                                 limited(size * (neural ? 1 : (real)material->alpha[0]), least, 1),
+                                 limited(size * (neural ? 1 : (real)material->alpha[1]), least, 1));
         rest -= share;
     }
     return (double)limited(sum + limited(rest, 0, 1) * i.z / pi(), 0, HNBRDF_MAX_VALUE);
 }
 
-void oracle_evaluate(const hnbrdf_model_desc *desc, const hnbrdf_material *material, const float wi[3],
-                     const float wo[3], oracle_point *point)
+void oracle_evaluate(const hnbrdf_model_desc *desc, const hnbrdf_material *material,
+                     const float wi[3], const float wo[3], oracle_point *point)
 {
     memset(point, 0, sizeof *point);
     if (!(wi[2] > 0.0f && wo[2] > 0.0f))

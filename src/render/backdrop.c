@@ -30,7 +30,8 @@ void render_over_backdrop(render_image *image, double level)
     drop_alpha(image);
 }
 
-void render_over_environment(render_image *image, const render_environment *environment, double gain)
+void render_over_environment(render_image *image, const render_environment *environment,
+                             double gain)
 {
     enum { GRID = 3 }; /* texels are larger than pixels: a few looks soften their borders */
     double half = tan(3.14159265358979323846 / 6.0);
@@ -41,7 +42,8 @@ void render_over_environment(render_image *image, const render_environment *envi
                 double x = half * (2.0 * (column + (i % GRID + 0.5) / GRID) / image->width - 1.0);
                 double y = half * (1.0 - 2.0 * (row + (i / GRID + 0.5) / GRID) / image->height);
                 double length = sqrt(x * x + y * y + 1.0);
-                float direction[3] = {(float)(x / length), (float)(y / length), (float)(-1.0 / length)};
+                float direction[3] = {(float)(x / length), (float)(y / length),
+                                      (float)(-1.0 / length)};
                 float radiance[3];
                 render_environment_lookup(environment, direction, radiance);
                 for (int k = 0; k < 3; k++)

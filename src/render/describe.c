@@ -8,7 +8,8 @@
 enum { MAX_MATERIALS = RENDER_MAX_SURFACES };
 static const size_t max_text = (size_t)4 << 20;
 
-/* ---- Statements ---------------------------------------------------------------------------------- */
+/* ---- Statements
+ * ---------------------------------------------------------------------------------- */
 
 static hnbrdf_result read_camera(words *in)
 {
@@ -18,7 +19,7 @@ static hnbrdf_result read_camera(words *in)
     if (in->has_camera++)
         return BAD(in, "%s:%ld: a second camera", in->name, in->line);
     int seen = 0;
-    while (in->at < in->count && result == HNBRDF_OK) {
+    while (in->at < in->count && result == HNBRDF_OK)
         if (words_take(in, "from"))
             result = words_vector(in, "from", -WORDS_FAR, WORDS_FAR, camera->from), seen |= 1;
         else if (words_take(in, "to"))
@@ -26,16 +27,18 @@ static hnbrdf_result read_camera(words *in)
         else if (words_take(in, "up"))
             result = words_vector(in, "up", -1.0, 1.0, camera->up);
         else if (words_take(in, "fov"))
-            result = words_number(in, "fov", 0.1, 170.0, &value), camera->fov = (float)value, seen |= 4;
+            result = words_number(in, "fov", 0.1, 170.0, &value), camera->fov = (float)value,
+            seen |= 4;
         else if (words_take(in, "lens"))
             result = words_number(in, "lens", 0.0, WORDS_FAR, &value), camera->lens = (float)value;
         else if (words_take(in, "focus"))
-            result = words_number(in, "focus", 1e-6, WORDS_FAR, &value), camera->focus = (float)value;
+            result = words_number(in, "focus", 1e-6, WORDS_FAR, &value),
+            camera->focus = (float)value;
         else
             result = words_unknown(in, "from, to, fov, up, lens or focus");
-    }
     if (result == HNBRDF_OK && seen != 7)
-        return BAD(in, "%s:%ld: a camera needs from X Y Z, to X Y Z and fov DEG", in->name, in->line);
+        return BAD(in, "%s:%ld: a camera needs from X Y Z, to X Y Z and fov DEG", in->name,
+                   in->line);
     return result;
 }
 
@@ -47,7 +50,7 @@ static hnbrdf_result read_environment(words *in)
                    out->environment_line);
     hnbrdf_result result = words_text(in, "environment", sizeof out->environment, out->environment);
     out->environment_line = in->line;
-    while (in->at < in->count && result == HNBRDF_OK) {
+    while (in->at < in->count && result == HNBRDF_OK)
         if (words_take(in, "rotate"))
             result = words_number(in, "rotate", -360.0, 360.0, &out->rotate);
         else if (words_take(in, "gain"))
@@ -56,7 +59,6 @@ static hnbrdf_result read_environment(words *in)
             out->hidden = 1;
         else
             result = words_unknown(in, "rotate, gain or hidden");
-    }
     return result;
 }
 
@@ -172,20 +174,23 @@ static hnbrdf_result read_material(words *in)
     material->source = RENDER_FROM_GGX;
     hnbrdf_result result = words_text(in, "material", sizeof material->name, material->name);
     if (result == HNBRDF_OK && describe_find_material(out, material->name) >= 0)
-        return BAD(in, "%s:%ld: a second material '%s'; the first is on line %ld", in->name, in->line,
-                   material->name, out->materials[describe_find_material(out, material->name)].line);
+        return BAD(in, "%s:%ld: a second material '%s'; the first is on line %ld", in->name,
+                   in->line, material->name,
+                   out->materials[describe_find_material(out, material->name)].line);
     if (result == HNBRDF_OK)
         result = read_source(in, material);
     out->material_count += result == HNBRDF_OK;
     return result;
 }
 
-/* ---- Lines --------------------------------------------------------------------------------------- */
+/* ---- Lines
+ * --------------------------------------------------------------------------------------- */
 
 static hnbrdf_result read_size(words *in)
 {
     hnbrdf_result result = words_whole(in, "width", 1, 16384, &in->out->camera.width);
-    return result == HNBRDF_OK ? words_whole(in, "height", 1, 16384, &in->out->camera.height) : result;
+    return result == HNBRDF_OK ? words_whole(in, "height", 1, 16384, &in->out->camera.height)
+                               : result;
 }
 
 static hnbrdf_result read_statement(words *in)
@@ -208,14 +213,14 @@ static hnbrdf_result read_statement(words *in)
     else if (words_take(in, "shape"))
         result = describe_shape(in);
     else
-        return words_unknown(in,
-                             "camera, size, exposure, bounces, environment, portal, material or shape");
+        return words_unknown(
+            in, "camera, size, exposure, bounces, environment, portal, material or shape");
     return result == HNBRDF_OK && in->at < in->count ? words_unknown(in, "the end of the line")
                                                      : result;
 }
 
-/* Copies the line that begins at data into the reader; returns its bytes with the line end, 0 after a
- * message. */
+/* Copies the line that begins at data into the reader; returns its bytes with the line end, 0
+ * after a message. */
 static size_t copy_line(words *in, const char *data, size_t size)
 {
     const char *end = memchr(data, '\n', size);

@@ -1,19 +1,21 @@
 /* describe.h: a scene as text, line by line, and the scene that it describes.
  *
- * One statement a line, words apart by blanks, "in quotes" where a word has blanks itself; # begins a
- * comment. Lengths are in one unit throughout, y is up, angles in degrees, colours linear. [] may be
- * left out.
+ * One statement a line, words apart by blanks, "in quotes" where a word has blanks itself; #
+ * begins a comment. Lengths are in one unit throughout, y is up, angles in degrees, colours
+ * linear. [] may be left out.
  *
  *   camera from X Y Z to X Y Z fov DEG [up X Y Z] [lens RADIUS] [focus DISTANCE]
  *   size WIDTH HEIGHT              of the picture
  *   exposure EV                    of the PNG
  *   bounces N                      most reflections of a path
- *   environment SOURCE [rotate DEG] [gain G] [hidden]     sky, furnace, or a map; hidden: not behind
+ *   environment SOURCE [rotate DEG] [gain G] [hidden]     sky, furnace, or a map; hidden: not
+ *                                                         behind
  * the shapes portal corner X Y Z edge X Y Z edge X Y Z             a window through which the
- * environment is seen material NAME model FILE [MATERIAL]                   of a model file material
- * NAME measured FILE                           .bsdf, .binary, .bin material NAME builtin NAME material
- * NAME ggx kd R G B eta R G B alpha A [ALPHA_Y] material NAME diffuse R G B Lambert shape KIND [its
- * parameters] [material NAME] [emit R G B] [placing]
+ * environment is seen material NAME model FILE [MATERIAL]                   of a model file
+ *                                                                           material
+ * NAME measured FILE                           .bsdf, .binary, .bin material NAME builtin NAME
+ * material NAME ggx kd R G B eta R G B alpha A [ALPHA_Y] material NAME diffuse R G B Lambert
+ * shape KIND [its parameters] [material NAME] [emit R G B] [placing]
  *
  * Kinds of shapes and their parameters, detail N being the quads around:
  *   sphere; quad; box; torus [tube R]; knot [turns P Q] [tube R]; superellipsoid [powers E1 E2];

@@ -167,8 +167,8 @@ hnbrdf_result describe_shape(words *in)
     while (kind < RENDER_SHAPE_KINDS && !words_take(in, kinds[kind]))
         kind++;
     if (kind == RENDER_SHAPE_KINDS)
-        return words_unknown(in,
-                             "sphere, quad, box, torus, knot, superellipsoid, teapot, lathe or obj");
+        return words_unknown(
+            in, "sphere, quad, box, torus, knot, superellipsoid, teapot, lathe or obj");
     shape->kind = (render_shape_kind)kind;
     hnbrdf_result result =
         kind == RENDER_OBJ ? words_text(in, "obj", sizeof shape->file, shape->file) : HNBRDF_OK;

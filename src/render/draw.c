@@ -16,8 +16,8 @@ void render_fill(render_image *image, int x, int y, int width, int height, const
     for (int row = y; row < y + height; row++)
         for (int column = x; column < x + width; column++)
             if (inside(image, column, row))
-                memcpy(image->rgb + 3 * ((size_t)row * (size_t)image->width + (size_t)column), colour,
-                       3 * sizeof *colour);
+                memcpy(image->rgb + 3 * ((size_t)row * (size_t)image->width + (size_t)column),
+                       colour, 3 * sizeof *colour);
 }
 
 void render_paste(render_image *image, int x, int y, const render_image *part)

@@ -8,11 +8,13 @@
 void render_fill(render_image *image, int x, int y, int width, int height, const float colour[3]);
 /* Lays a premultiplied picture over what is there. */
 void render_paste(render_image *image, int x, int y, const render_image *part);
-/* Text beside x; share: 0 it starts there, 1/2 it is centred, 1 it ends. Baseline at pixel row y. */
+/* Text beside x; share: 0 it starts there, 1/2 it is centred, 1 it ends. Baseline at pixel row y.
+ * */
 void render_text_at(render_image *image, double x, int y, double share, const char *text,
                     double x_height, const float colour[3]);
 
-/* A square picture at size x size pixels, times gain: each pixel is the mean of the area it covers. */
+/* A square picture at size x size pixels, times gain: each pixel is the mean of the area it
+ * covers. */
 hnbrdf_result render_resize(const render_image *image, int size, double gain, render_image *out,
                             hnbrdf_error *error);
 

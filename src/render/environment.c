@@ -22,15 +22,15 @@ static hnbrdf_result check_values(render_image *image, const char *name, hnbrdf_
     for (size_t i = 0; i < count; i++) {
         if (!isfinite(image->rgb[i]))
             return hnbrdf_fail(error, HNBRDF_ERROR_FORMAT,
-                               "%s: pixel (%zu, %zu) is not a finite number: expected radiance", name,
-                               i / 3 % (size_t)image->width, i / 3 / (size_t)image->width);
+                               "%s: pixel (%zu, %zu) is not a finite number: expected radiance",
+                               name, i / 3 % (size_t)image->width, i / 3 / (size_t)image->width);
         image->rgb[i] = fminf(fmaxf(image->rgb[i], 0.0f), HNBRDF_MAX_VALUE);
     }
     return HNBRDF_OK;
 }
 
-/* Cuts the places into `count` equal cells and keeps for each the first of the ascending ends that lies
- * behind its first place (Chen and Asau 1974). */
+/* Cuts the places into `count` equal cells and keeps for each the first of the ascending ends
+ * that lies behind its first place (Chen and Asau 1974). */
 static void cut(const uint32_t *ends, int count, uint16_t *starts)
 {
     const uint64_t cells = (uint64_t)count;
@@ -102,8 +102,8 @@ hnbrdf_result render_environment_create(render_image *image, double rotation, co
     if (!result.rows || !result.sums || !result.columns || !result.caps || !result.row_start ||
         !result.column_start) {
         render_environment_free(&result);
-        return hnbrdf_fail(error, HNBRDF_ERROR_MEMORY, "%s: no memory to sample %d x %d pixels", name,
-                           image->width, image->height);
+        return hnbrdf_fail(error, HNBRDF_ERROR_MEMORY, "%s: no memory to sample %d x %d pixels",
+                           name, image->width, image->height);
     }
     result.rgb = image->rgb;
     sum_luminance(&result);
@@ -132,9 +132,10 @@ hnbrdf_result render_environment_open(const char *source, double rotation,
                                       render_environment *environment, hnbrdf_error *error)
 {
     render_image image = {0};
-    hnbrdf_result result = strcmp(source, "sky") == 0       ? render_sky(&image, error)
-                           : strcmp(source, "furnace") == 0 ? make_furnace(&image, error)
-                                                            : render_image_read(source, NULL, &image, error);
+    hnbrdf_result result = strcmp(source, "sky") == 0 ? render_sky(&image, error)
+                           : strcmp(source, "furnace") == 0
+                               ? make_furnace(&image, error)
+                               : render_image_read(source, NULL, &image, error);
     if (result == HNBRDF_OK)
         result = render_environment_create(&image, rotation, source, environment, error);
     render_image_free(&image);
@@ -157,7 +158,8 @@ void render_environment_scale(render_environment *environment, double gain)
 {
     size_t values = 3 * (size_t)environment->width * (size_t)environment->height;
     for (size_t i = 0; i < values; i++)
-        environment->rgb[i] = (float)fmin((double)environment->rgb[i] * gain, (double)HNBRDF_MAX_VALUE);
+        environment->rgb[i] =
+            (float)fmin((double)environment->rgb[i] * gain, (double)HNBRDF_MAX_VALUE);
     sum_luminance(environment);
 }
 
@@ -166,7 +168,8 @@ static int texel(float place, int count)
     return place > 0.0f ? (place < (float)count ? (int)place : count - 1) : 0; /* NaN: 0 */
 }
 
-/* Number of the texel that a direction shows. shaders/sphere.comp holds the same, to the last bit. */
+/* Number of the texel that a direction shows. shaders/sphere.comp holds the same, to the last
+ * bit. */
 static size_t texel_of(const render_environment *environment, const float direction[3])
 {
     float x = direction[0], y = direction[1], z = direction[2];
@@ -192,7 +195,8 @@ static double look(const render_environment *environment, size_t number, float r
 }
 
 void render_environment_lookup_many(const render_environment *environment, int count,
-                                    const float direction[][3], float radiance[][3], double density[])
+                                    const float direction[][3], float radiance[][3],
+                                    double density[])
 {
     size_t texels[RENDER_ENVIRONMENT_BLOCK];
     for (int i = 0; i < count; i++) {
@@ -209,7 +213,8 @@ double render_environment_lookup(const render_environment *environment, const fl
     return look(environment, texel_of(environment, direction), radiance);
 }
 
-/* ---- Drawing. shaders/sphere.comp holds the same, to the last bit. ------------------------------- */
+/* ---- Drawing. shaders/sphere.comp holds the same, to the last bit.
+ * ------------------------------- */
 
 /* The number of a place; u in [0, 1). */
 static uint32_t place_of(double u)
@@ -223,8 +228,8 @@ static size_t cell(uint32_t place, int count)
     return (size_t)((uint64_t)place * (uint64_t)count / RENDER_ENVIRONMENT_PLACES);
 }
 
-/* The first of the ascending ends that lies behind a place, never one without places of its own; from where
- * the place's cell begins it is one step on average. */
+/* The first of the ascending ends that lies behind a place, never one without places of its own;
+ * from where the place's cell begins it is one step on average. */
 static int find(const uint32_t *ends, int start, uint32_t place)
 {
     while (ends[start] <= place)
@@ -239,8 +244,8 @@ static float share(const uint32_t *ends, int index, uint32_t place)
     return (float)(place - before) / (float)(ends[index] - before);
 }
 
-/* The direction that a point of the map shows: texel, and how far down and along inside it. Uniform in solid
- * angle: 1 - |y|, the height of the cap above it, is linear in `down`. */
+/* The direction that a point of the map shows: texel, and how far down and along inside it.
+ * Uniform in solid angle: 1 - |y|, the height of the cap above it, is linear in `down`. */
 static void direction_of(const render_environment *environment, int row, int column, float down,
                          float along, float direction[3])
 {
@@ -261,8 +266,8 @@ static void direction_of(const render_environment *environment, int row, int col
     direction[2] = -(radius * cosine);
 }
 
-/* A sample on its way: what is still to be fetched for it lies at `cell` of the table of starts, then
- * around `column` of the row's ends. */
+/* A sample on its way: what is still to be fetched for it lies at `cell` of the table of starts,
+ * then around `column` of the row's ends. */
 typedef struct draw {
     uint32_t down, along;
     size_t base, cell; /* base: number of the row's first texel */

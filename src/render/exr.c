@@ -1,5 +1,5 @@
-/* exr.c: OpenEXR in memory through the OpenEXR Core C library. Without HNBRDF_WITH_OPENEXR every call
- * fails with a message that says so. */
+/* exr.c: OpenEXR in memory through the OpenEXR Core C library. Without HNBRDF_WITH_OPENEXR every
+ * call fails with a message that says so. */
 #include "render/image.h"
 
 #include "core/error.h"
@@ -23,11 +23,13 @@ hnbrdf_result render_exr_encode(const render_image *image, const render_write_op
 }
 
 hnbrdf_result render_exr_decode(const void *data, size_t size, const char *name,
-                                const render_limits *limits, render_image *image, hnbrdf_error *error)
+                                const render_limits *limits, render_image *image,
+                                hnbrdf_error *error)
 {
     (void)data, (void)size, (void)limits, (void)image;
     return hnbrdf_fail(error, HNBRDF_ERROR_UNSUPPORTED,
-                       "%s: this program was built without OpenEXR: use a Radiance .hdr file", name);
+                       "%s: this program was built without OpenEXR: use a Radiance .hdr file",
+                       name);
 }
 
 #else
@@ -52,8 +54,8 @@ typedef struct exr_memory {
     char message[160];
 } exr_memory;
 
-/* Of the call under way. The library may hold its lock while it reports, and would wait for itself if
- * it were asked for its user data then. */
+/* Of the call under way. The library may hold its lock while it reports, and would wait for
+ * itself if it were asked for its user data then. */
 static _Thread_local exr_memory *reporting;
 
 static void keep_message(exr_const_context_t context, exr_result_t code, const char *text)
@@ -65,7 +67,8 @@ static void keep_message(exr_const_context_t context, exr_result_t code, const c
         snprintf(reporting->message, sizeof reporting->message, "%s", text ? text : "");
 }
 
-/* Like pread: fewer bytes near the end, 0 beyond it; the library asks for headers block by block. */
+/* Like pread: fewer bytes near the end, 0 beyond it; the library asks for headers block by block.
+ * */
 static int64_t read_memory(exr_const_context_t context, void *user, void *buffer, uint64_t size,
                            uint64_t offset, exr_stream_error_func_ptr_t fail)
 {
@@ -85,8 +88,8 @@ static int64_t memory_size(exr_const_context_t context, void *user)
     return (int64_t)((const exr_memory *)user)->size;
 }
 
-static int64_t write_memory(exr_const_context_t context, void *user, const void *buffer, uint64_t size,
-                            uint64_t offset, exr_stream_error_func_ptr_t fail)
+static int64_t write_memory(exr_const_context_t context, void *user, const void *buffer,
+                            uint64_t size, uint64_t offset, exr_stream_error_func_ptr_t fail)
 {
     exr_memory *memory = user;
     if (render_bytes_put(memory->bytes, offset, buffer, size)) {
@@ -109,7 +112,8 @@ static exr_context_initializer_t initializer(exr_memory *memory)
     return init;
 }
 
-/* ---- Writing ------------------------------------------------------------------------------------- */
+/* ---- Writing
+ * ------------------------------------------------------------------------------------- */
 
 /* Where a channel's floats lie in an image. */
 typedef struct exr_plane {
@@ -152,7 +156,8 @@ static exr_result_t write_header(exr_context_t context, const render_image *imag
     if (result == EXR_ERR_SUCCESS && options->comments)
         result = exr_attr_set_string(context, part, "comments", options->comments);
     for (int i = 0; i < count && result == EXR_ERR_SUCCESS; i++)
-        result = exr_add_channel(context, part, planes[i].name, type, EXR_PERCEPTUALLY_LINEAR, 1, 1);
+        result =
+            exr_add_channel(context, part, planes[i].name, type, EXR_PERCEPTUALLY_LINEAR, 1, 1);
     return result == EXR_ERR_SUCCESS ? exr_write_header(context) : result;
 }
 
@@ -180,8 +185,9 @@ static const exr_plane *find_plane(const exr_plane *planes, int count, const cha
 }
 
 /* One chunk of lines: lines is scratch for all its channels. */
-static exr_result_t write_chunk(exr_context_t context, exr_encode_pipeline_t *pipe, int y, int width,
-                                int half, const exr_plane *planes, int count, float *lines)
+static exr_result_t write_chunk(exr_context_t context, exr_encode_pipeline_t *pipe, int y,
+                                int width, int half, const exr_plane *planes, int count,
+                                float *lines)
 {
     exr_chunk_info_t chunk;
     int first = pipe->context == NULL;
@@ -249,13 +255,15 @@ hnbrdf_result render_exr_encode(const render_image *image, const render_write_op
         free(output.data);
         const int exhausted = memory.out_of_memory || result == EXR_ERR_OUT_OF_MEMORY;
         return hnbrdf_fail(error, exhausted ? HNBRDF_ERROR_MEMORY : HNBRDF_ERROR_IO, "OpenEXR: %s",
-                           memory.message[0] ? memory.message : exr_get_default_error_message(result));
+                           memory.message[0] ? memory.message
+                                             : exr_get_default_error_message(result));
     }
     *bytes = output;
     return HNBRDF_OK;
 }
 
-/* ---- Reading ------------------------------------------------------------------------------------- */
+/* ---- Reading
+ * ------------------------------------------------------------------------------------- */
 
 typedef struct exr_input {
     exr_context_t context;
@@ -300,8 +308,8 @@ static hnbrdf_result check_channels(exr_input *in)
     if (result != EXR_ERR_SUCCESS)
         return library_error(in, result);
     if (list->num_channels < 1 || list->num_channels > MAX_CHANNELS)
-        return hnbrdf_fail(in->error, HNBRDF_ERROR_LIMIT, "%s: %d channels: expected 1 to %d", in->name,
-                           list->num_channels, MAX_CHANNELS);
+        return hnbrdf_fail(in->error, HNBRDF_ERROR_LIMIT, "%s: %d channels: expected 1 to %d",
+                           in->name, list->num_channels, MAX_CHANNELS);
     int colours = 0, grey = 0;
     for (int i = 0; i < list->num_channels; i++) {
         const exr_attr_chlist_entry_t *entry = &list->entries[i];
@@ -339,7 +347,8 @@ static hnbrdf_result check_size(exr_input *in, int *width, int *height)
                            "%s: deep data: expected a flat picture", in->name);
     int64_t w = (int64_t)in->window.max.x - in->window.min.x + 1;
     int64_t h = (int64_t)in->window.max.y - in->window.min.y + 1;
-    if (w < 1 || h < 1 || w > RENDER_MAX_SIDE || h > RENDER_MAX_SIDE || w * h > (int64_t)in->max_pixels)
+    if (w < 1 || h < 1 || w > RENDER_MAX_SIDE || h > RENDER_MAX_SIDE ||
+        w * h > (int64_t)in->max_pixels)
         return hnbrdf_fail(
             in->error, HNBRDF_ERROR_LIMIT,
             "%s: data window of %lld x %lld: expected sides of 1 to %d and at most %zu pixels",
@@ -379,10 +388,11 @@ static void point_channel(const exr_input *in, exr_coding_channel_info_t *channe
 
 /* Decodes one chunk to the pixels whose top left corner is (x, y) in the image. */
 static exr_result_t read_chunk(const exr_input *in, exr_decode_pipeline_t *pipe,
-                               const exr_chunk_info_t *chunk, const render_image *image, int x, int y)
+                               const exr_chunk_info_t *chunk, const render_image *image, int x,
+                               int y)
 {
-    if (x < 0 || y < 0 || chunk->width < 1 || chunk->height < 1 || chunk->width > image->width - x ||
-        chunk->height > image->height - y)
+    if (x < 0 || y < 0 || chunk->width < 1 || chunk->height < 1 ||
+        chunk->width > image->width - x || chunk->height > image->height - y)
         return EXR_ERR_CORRUPT_CHUNK;
     int first = pipe->context == NULL;
     exr_result_t result = first ? exr_decoding_initialize(in->context, 0, chunk, pipe)
@@ -471,7 +481,8 @@ static hnbrdf_result read_image(exr_input *in, render_image *image)
 }
 
 hnbrdf_result render_exr_decode(const void *data, size_t size, const char *name,
-                                const render_limits *limits, render_image *image, hnbrdf_error *error)
+                                const render_limits *limits, render_image *image,
+                                hnbrdf_error *error)
 {
     exr_memory memory = {.data = data, .size = size};
     exr_context_initializer_t init = initializer(&memory);

@@ -35,7 +35,8 @@ void render_film_free(render_film *film)
     memset(film, 0, sizeof *film);
 }
 
-/* ---- Pictures ------------------------------------------------------------------------------------ */
+/* ---- Pictures
+ * ------------------------------------------------------------------------------------ */
 
 static int32_t samples_at(const render_film *film, size_t pixel)
 {
@@ -59,8 +60,8 @@ static hnbrdf_result add_layer(const render_film *film, const char *name, int fi
     size_t pixels = (size_t)film->width * (size_t)film->height;
     float *rgb = malloc(3 * sizeof *rgb * pixels);
     if (!rgb)
-        return hnbrdf_fail(error, HNBRDF_ERROR_MEMORY, "no memory for a layer of %d x %d", film->width,
-                           film->height);
+        return hnbrdf_fail(error, HNBRDF_ERROR_MEMORY, "no memory for a layer of %d x %d",
+                           film->width, film->height);
     if (first >= 0)
         average(film, first, rgb);
     else
@@ -97,7 +98,8 @@ hnbrdf_result render_film_develop(const render_film *film, int layers, render_im
     return result;
 }
 
-/* ---- Files --------------------------------------------------------------------------------------- */
+/* ---- Files
+ * --------------------------------------------------------------------------------------- */
 
 typedef struct header {
     char magic[16];
@@ -128,7 +130,8 @@ hnbrdf_result render_film_save(const render_film *film, uint64_t fingerprint, co
     size_t size = sizeof h + samples_size(film) + sums_size(film);
     unsigned char *bytes = malloc(size);
     if (!bytes)
-        return hnbrdf_fail(error, HNBRDF_ERROR_MEMORY, "%s: no memory for its %zu bytes", path, size);
+        return hnbrdf_fail(error, HNBRDF_ERROR_MEMORY, "%s: no memory for its %zu bytes", path,
+                           size);
     memcpy(bytes, &h, sizeof h);
     memcpy(bytes + sizeof h, film->samples, samples_size(film));
     memcpy(bytes + sizeof h + samples_size(film), film->sums, sums_size(film));
@@ -138,7 +141,8 @@ hnbrdf_result render_film_save(const render_film *film, uint64_t fingerprint, co
 }
 
 /* Samples are counts, sums are finite. */
-static int is_sound(const render_film *film, const unsigned char *samples, const unsigned char *sums)
+static int is_sound(const render_film *film, const unsigned char *samples,
+                    const unsigned char *sums)
 {
     for (int i = 0; i < film->tiles; i++) {
         int32_t count;
@@ -155,8 +159,8 @@ static int is_sound(const render_film *film, const unsigned char *samples, const
     return 1;
 }
 
-hnbrdf_result render_film_decode(const void *data, size_t size, const char *name, uint64_t fingerprint,
-                                 render_film *film, hnbrdf_error *error)
+hnbrdf_result render_film_decode(const void *data, size_t size, const char *name,
+                                 uint64_t fingerprint, render_film *film, hnbrdf_error *error)
 {
     const unsigned char *bytes = data;
     header h = make_header(film, fingerprint), found;
@@ -166,8 +170,9 @@ hnbrdf_result render_film_decode(const void *data, size_t size, const char *name
                            "%s: not the state of a rendering by this version", name);
     memcpy(&found, bytes, sizeof found);
     if (found.width != h.width || found.height != h.height)
-        return hnbrdf_fail(error, HNBRDF_ERROR_FORMAT, "%s: of a picture of %d x %d, expected %d x %d",
-                           name, (int)found.width, (int)found.height, film->width, film->height);
+        return hnbrdf_fail(error, HNBRDF_ERROR_FORMAT,
+                           "%s: of a picture of %d x %d, expected %d x %d", name, (int)found.width,
+                           (int)found.height, film->width, film->height);
     if (found.fingerprint != h.fingerprint)
         return hnbrdf_fail(error, HNBRDF_ERROR_FORMAT,
                            "%s: of another scene, or rendered with other options", name);
@@ -176,7 +181,8 @@ hnbrdf_result render_film_decode(const void *data, size_t size, const char *name
                            expected);
     const unsigned char *samples = bytes + sizeof h, *sums = samples + samples_size(film);
     if (!is_sound(film, samples, sums))
-        return hnbrdf_fail(error, HNBRDF_ERROR_FORMAT, "%s: damaged: a sum that is not finite", name);
+        return hnbrdf_fail(error, HNBRDF_ERROR_FORMAT, "%s: damaged: a sum that is not finite",
+                           name);
     memcpy(film->samples, samples, samples_size(film));
     memcpy(film->sums, sums, sums_size(film));
     return HNBRDF_OK;

@@ -16,7 +16,8 @@ enum {
     RENDER_SUMS = 10
 };
 
-/* Tiles of RENDER_TILE pixels a side; each has a number of samples of its own. All-zero is no film. */
+/* Tiles of RENDER_TILE pixels a side; each has a number of samples of its own. All-zero is no
+ * film. */
 typedef struct render_film {
     int width, height, tiles_across, tiles;
     double (*sums)[RENDER_SUMS]; /* [height][width] */
@@ -25,8 +26,8 @@ typedef struct render_film {
 
 hnbrdf_result render_film_create(int width, int height, render_film *film, hnbrdf_error *error);
 void render_film_free(render_film *film);
-/* Averages: radiance with coverage as alpha (transparent: what is seen beside all shapes is left out
- * by the integrator), and with `layers` albedo, normal and samples. */
+/* Averages: radiance with coverage as alpha (transparent: what is seen beside all shapes is left
+ * out by the integrator), and with `layers` albedo, normal and samples. */
 hnbrdf_result render_film_develop(const render_film *film, int layers, render_image *image,
                                   hnbrdf_error *error);
 
@@ -35,27 +36,32 @@ hnbrdf_result render_film_develop(const render_film *film, int layers, render_im
 hnbrdf_result render_film_save(const render_film *film, uint64_t fingerprint, const char *path,
                                hnbrdf_error *error);
 /* The film must have been created; it is untouched on failure. */
-hnbrdf_result render_film_decode(const void *data, size_t size, const char *name, uint64_t fingerprint,
-                                 render_film *film, hnbrdf_error *error);
+hnbrdf_result render_film_decode(const void *data, size_t size, const char *name,
+                                 uint64_t fingerprint, render_film *film, hnbrdf_error *error);
 hnbrdf_result render_film_load(const char *path, uint64_t fingerprint, render_film *film,
                                hnbrdf_error *error);
 
-/* ---- Filling it ---------------------------------------------------------------------------------- */
+/* ---- Filling it
+ * ---------------------------------------------------------------------------------- */
 
 /* Zero-initialise for defaults. */
 typedef struct render_path_options {
     uint64_t seed;
-    int bounces;     /* most reflections of a path; 0 stands for 16; 1: light that is reflected once */
-    int transparent; /* 1: the environment is not seen by the camera itself, but by its reflections */
-    double clamp; /* no path brings more than this after its first reflection, in its brightest channel;
-                     0: no limit. Takes away bright speckles, and light */
+    /* most reflections of a path; 0 stands for 16; 1: light that is reflected once */
+    int bounces;
+    /* 1: the environment is not seen by the camera itself, but by its reflections */
+    int transparent;
+    /* no path brings more than this after its first reflection, in its brightest channel; 0: no
+     * limit. Takes away bright speckles, and light */
+    double clamp;
     render_strategy strategy;
 } render_path_options;
 
-/* Adds samples [first, first + count) to the pixels of one tile. Each sample has random numbers of its
- * own, so that pictures depend neither on threads nor on where a rendering was interrupted. */
-void render_path_tile(const render_scene *scene, const render_path_options *options, render_film *film,
-                      int tile, int first, int count);
+/* Adds samples [first, first + count) to the pixels of one tile. Each sample has random numbers
+ * of its own, so that pictures depend neither on threads nor on where a rendering was
+ * interrupted. */
+void render_path_tile(const render_scene *scene, const render_path_options *options,
+                      render_film *film, int tile, int first, int count);
 
 /* Zero-initialise for defaults. */
 typedef struct render_scene_options {
@@ -70,8 +76,8 @@ typedef struct render_scene_options {
     void *progress_user;
 } render_scene_options;
 
-/* Renders until every tile has spp samples, or is stopped: *complete says which. What there is lies in
- * the film, which must have been created. */
+/* Renders until every tile has spp samples, or is stopped: *complete says which. What there is
+ * lies in the film, which must have been created. */
 hnbrdf_result render_scene_run(const render_scene *scene, const render_scene_options *options,
                                render_film *film, int *complete, hnbrdf_error *error);
 

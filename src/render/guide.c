@@ -9,14 +9,15 @@
  * -------------------------------------------------------------------------- */
 
 /* Turned by half a turn about the normal, the mirror direction becomes the view direction. */
-static float lobe_pdf(const hnbrdf_prepared *prepared, int retro, const float wi[3], const float wo[3])
+static float lobe_pdf(const hnbrdf_prepared *prepared, int retro, const float wi[3],
+                      const float wo[3])
 {
     float w[3] = {retro ? -wi[0] : wi[0], retro ? -wi[1] : wi[1], wi[2]};
     return hnbrdf_prepared_pdf(prepared, w, wo);
 }
 
-static int lobe_sample(const hnbrdf_prepared *prepared, int retro, const float wo[3], const float u[3],
-                       float wi[3])
+static int lobe_sample(const hnbrdf_prepared *prepared, int retro, const float wo[3],
+                       const float u[3], float wi[3])
 {
     float pdf = hnbrdf_prepared_draw(prepared, wo, u, wi);
     wi[0] = retro ? -wi[0] : wi[0];
@@ -29,8 +30,8 @@ static float guide_pdf(const render_surface *surface, const float wi[3], const f
     const render_guide *guide = &surface->guide;
     float pdf = 0.0f;
     for (int k = 0; k < guide->count; k++)
-        pdf +=
-            guide->lobes[k].share * lobe_pdf(&guide->lobes[k].prepared, guide->lobes[k].retro, wi, wo);
+        pdf += guide->lobes[k].share *
+               lobe_pdf(&guide->lobes[k].prepared, guide->lobes[k].retro, wi, wo);
     return pdf;
 }
 
@@ -39,7 +40,8 @@ static float guide_sample(const render_surface *surface, const float wo[3], cons
                           float wi[3])
 {
     const render_guide *guide = &surface->guide;
-    float left = u[1]; /* u[1] and u[2] are stratified together, and stay so in each lobe: see hnbrdf_sample() */
+    /* u[1] and u[2] are stratified together, and stay so in each lobe: see hnbrdf_sample() */
+    float left = u[1];
     int k = 0;
     while (k < guide->count - 1 && left >= guide->lobes[k].share)
         left -= guide->lobes[k++].share;
@@ -78,7 +80,8 @@ enum {
     STEPS = 30
 };
 
-/* The first one is as good as a cosine lobe; the others are metals, which put 9 of 10 samples in GGX.
+/* The first one is as good as a cosine lobe; the others are metals, which put 9 of 10 samples in
+ * GGX.
  */
 static hnbrdf_material candidate_material(int k)
 {
@@ -110,15 +113,16 @@ typedef struct observation {
     double weight;
 } observation;
 
-/* Observes one view with directions from the even mixture of all candidates, which misses no lobe that
- * any of them has. The weights of a view sum to 1, or are 0 if it reflects nothing. */
+/* Observes one view with directions from the even mixture of all candidates, which misses no lobe
+ * that any of them has. The weights of a view sum to 1, or are 0 if it reflects nothing. */
 static int observe(const render_surface *surface, const hnbrdf_prepared prepared[CANDIDATES],
                    const float wo[3], hnbrdf_rng *rng, observation *observations)
 {
     int count = 0;
     double total = 0.0;
     for (int draw = 0; draw < DRAWS; draw++) {
-        float u[3] = {hnbrdf_rng_float(rng), hnbrdf_rng_float(rng), hnbrdf_rng_float(rng)}, wi[3], f[3];
+        float u[3] = {hnbrdf_rng_float(rng), hnbrdf_rng_float(rng), hnbrdf_rng_float(rng)}, wi[3],
+              f[3];
         observation *o = &observations[count];
         double mixture = 0.0;
         int from = draw % CANDIDATES;

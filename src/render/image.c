@@ -105,7 +105,8 @@ int render_has_extension(const char *path, const char *extension)
     return 1;
 }
 
-/* ---- Files --------------------------------------------------------------------------------------- */
+/* ---- Files
+ * --------------------------------------------------------------------------------------- */
 
 static hnbrdf_result read_stream(FILE *file, const char *path, size_t limit, render_bytes *bytes,
                                  hnbrdf_error *error)
@@ -123,11 +124,13 @@ static hnbrdf_result read_stream(FILE *file, const char *path, size_t limit, ren
     return HNBRDF_OK;
 }
 
-hnbrdf_result render_file_read(const char *path, size_t limit, render_bytes *bytes, hnbrdf_error *error)
+hnbrdf_result render_file_read(const char *path, size_t limit, render_bytes *bytes,
+                               hnbrdf_error *error)
 {
     FILE *file = fopen(path, "rb");
     if (!file)
-        return hnbrdf_fail(error, HNBRDF_ERROR_IO, "%s: cannot be opened: %s", path, strerror(errno));
+        return hnbrdf_fail(error, HNBRDF_ERROR_IO, "%s: cannot be opened: %s", path,
+                           strerror(errno));
     hnbrdf_result result = read_stream(file, path, limit, bytes, error);
     fclose(file);
     return result;
@@ -146,15 +149,17 @@ hnbrdf_result render_image_read(const char *path, const render_limits *limits, r
         else if (bytes.size >= 2 && memcmp(bytes.data, "#?", 2) == 0)
             result = render_radiance_decode(bytes.data, bytes.size, path, limits, image, error);
         else
-            result = hnbrdf_fail(error, HNBRDF_ERROR_FORMAT,
-                                 "%s: neither OpenEXR nor Radiance .hdr (%zu bytes)", path, bytes.size);
+            result =
+                hnbrdf_fail(error, HNBRDF_ERROR_FORMAT,
+                            "%s: neither OpenEXR nor Radiance .hdr (%zu bytes)", path, bytes.size);
     }
     free(bytes.data);
     return result;
 }
 
 /* An old file stays whole until the new one is complete. */
-hnbrdf_result render_file_write(const char *path, const void *data, size_t size, hnbrdf_error *error)
+hnbrdf_result render_file_write(const char *path, const void *data, size_t size,
+                                hnbrdf_error *error)
 {
     size_t length = strlen(path) + 32;
     char *aside = malloc(length);
@@ -187,8 +192,8 @@ hnbrdf_result render_image_write(const render_image *image, const char *path,
     else if (render_has_extension(path, ".png"))
         result = render_png_encode(image, options->exposure, &bytes, error);
     else
-        result = hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT, "%s: expected a name ending in .exr or .png",
-                             path);
+        result = hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT,
+                             "%s: expected a name ending in .exr or .png", path);
     if (result == HNBRDF_OK)
         result = render_file_write(path, bytes.data, bytes.size, error);
     free(bytes.data);

@@ -10,10 +10,10 @@
 #define RENDER_MAX_FILE ((size_t)1 << 30)
 #define RENDER_MAX_LAYERS 16
 
-/* What a picture file may ask for: files that claim more are refused before anything is allocated for
- * them. Zero-initialise for the defaults, and pass NULL for those; more than a default is taken as the
- * default. Memory while reading is at most the file, 32 bytes a pixel, and 16 bytes times max_pixels
- * for one block of compressed lines. */
+/* What a picture file may ask for: files that claim more are refused before anything is allocated
+ * for them. Zero-initialise for the defaults, and pass NULL for those; more than a default is
+ * taken as the default. Memory while reading is at most the file, 32 bytes a pixel, and 16 bytes
+ * times max_pixels for one block of compressed lines. */
 typedef struct render_limits {
     size_t max_bytes;  /* of the file; 0 stands for RENDER_MAX_FILE */
     size_t max_pixels; /* of the picture; 0 stands for RENDER_MAX_PIXELS */
@@ -50,7 +50,8 @@ typedef struct render_write_options {
     const char *comments; /* EXR: the standard attribute `comments`; NULL for none */
 } render_write_options;
 
-/* By the path's extension, .exr or .png (any case). Written aside and renamed. options may be NULL. */
+/* By the path's extension, .exr or .png (any case). Written aside and renamed. options may be
+ * NULL. */
 hnbrdf_result render_image_write(const render_image *image, const char *path,
                                  const render_write_options *options, hnbrdf_error *error);
 /* EXR or Radiance .hdr, recognised by content. Layers are not read; alpha is if there is one. */
@@ -61,10 +62,12 @@ render_limits render_limits_settle(const render_limits *limits);
 
 /* 1 if path ends in extension (with its dot), whatever the case. */
 int render_has_extension(const char *path, const char *extension);
-/* 0 when the program was built without OpenEXR: every EXR call then fails with a message saying so. */
+/* 0 when the program was built without OpenEXR: every EXR call then fails with a message saying
+ * so. */
 int render_has_exr(void);
 
-/* ---- One function a format, on bytes in memory; `name` is used in messages ---------------------- */
+/* ---- One function a format, on bytes in memory; `name` is used in messages
+ * ---------------------- */
 
 typedef struct render_bytes {
     unsigned char *data; /* from malloc */
@@ -78,15 +81,18 @@ int render_bytes_put(render_bytes *bytes, size_t offset, const void *data, size_
 hnbrdf_result render_file_read(const char *path, size_t limit, render_bytes *bytes,
                                hnbrdf_error *error);
 /* Written aside and renamed. */
-hnbrdf_result render_file_write(const char *path, const void *data, size_t size, hnbrdf_error *error);
+hnbrdf_result render_file_write(const char *path, const void *data, size_t size,
+                                hnbrdf_error *error);
 
 /* ZIP-compressed scanlines, channels B, G, R (A) and those of the layers. */
 hnbrdf_result render_exr_encode(const render_image *image, const render_write_options *options,
                                 render_bytes *bytes, hnbrdf_error *error);
-/* The first part of the file: scanlines or the largest level of tiles, half or float, channels R, G, B
- * or Y alone. DWAA and DWAB are beyond the OpenEXR 3.1 C library and are refused with advice. */
+/* The first part of the file: scanlines or the largest level of tiles, half or float, channels R,
+ * G, B or Y alone. DWAA and DWAB are beyond the OpenEXR 3.1 C library and are refused with
+ * advice. */
 hnbrdf_result render_exr_decode(const void *data, size_t size, const char *name,
-                                const render_limits *limits, render_image *image, hnbrdf_error *error);
+                                const render_limits *limits, render_image *image,
+                                hnbrdf_error *error);
 /* RGBE, flat or run-length coded, top or bottom row first. */
 hnbrdf_result render_radiance_decode(const void *data, size_t size, const char *name,
                                      const render_limits *limits, render_image *image,

@@ -91,7 +91,8 @@ static int flatten(const char *path, segment *segments)
         double ex = number(&path), ey = number(&path), fromx = x, fromy = y;
         int steps = command == 'Q' ? CURVE_STEPS : command == 'L' ? 1 : 0;
         for (int i = 1; i <= steps; i++) {
-            double t = (double)i / steps, a = (1.0 - t) * (1.0 - t), b = 2.0 * t * (1.0 - t), c = t * t;
+            double t = (double)i / steps, a = (1.0 - t) * (1.0 - t), b = 2.0 * t * (1.0 - t),
+                   c = t * t;
             double nx = steps == 1 ? ex : a * fromx + b * cx + c * ex;
             double ny = steps == 1 ? ey : a * fromy + b * cy + c * ey;
             segments[count++] = (segment){x, y, nx, ny};
@@ -127,8 +128,8 @@ static void blend(render_image *image, int x, int y, double coverage, const floa
         image->alpha[pixel] += c * (1.0f - image->alpha[pixel]);
 }
 
-static void draw_glyph(render_image *image, const render_glyph *glyph, double x, int y, double scale,
-                       const float colour[3])
+static void draw_glyph(render_image *image, const render_glyph *glyph, double x, int y,
+                       double scale, const float colour[3])
 {
     segment segments[MAX_SEGMENTS];
     int count = flatten(glyph->path, segments);

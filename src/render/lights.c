@@ -1,11 +1,13 @@
-/* lights.c: where light comes from: environment, portals and shapes that give it off, as one mixture.
+/* lights.c: where light comes from: environment, portals and shapes that give it off, as one
+ * mixture.
  */
 #include "render/scene.h"
 
 #include <math.h>
 #include <string.h>
 
-/* ---- Environment --------------------------------------------------------------------------------- */
+/* ---- Environment
+ * --------------------------------------------------------------------------------- */
 
 double render_portal_density(const render_portal *portal, const float position[3],
                              const float direction[3])
@@ -21,16 +23,17 @@ double render_portal_density(const render_portal *portal, const float position[3
         place[k] = distance * direction[k] - to[k];
     float aa = render_dot(portal->edge[0], portal->edge[0]),
           ab = render_dot(portal->edge[0], portal->edge[1]),
-          bb = render_dot(portal->edge[1], portal->edge[1]), pa = render_dot(place, portal->edge[0]),
-          pb = render_dot(place, portal->edge[1]), area2 = aa * bb - ab * ab;
+          bb = render_dot(portal->edge[1], portal->edge[1]),
+          pa = render_dot(place, portal->edge[0]), pb = render_dot(place, portal->edge[1]),
+          area2 = aa * bb - ab * ab;
     float s = (bb * pa - ab * pb) / area2, t = (aa * pb - ab * pa) / area2;
     if (!(s >= 0.0f && s <= 1.0f && t >= 0.0f && t <= 1.0f))
         return 0.0;
     return (double)distance * (double)distance / ((double)portal->area * fabs((double)cosine));
 }
 
-double render_light_behind(const render_scene *scene, const float position[3], const float direction[3],
-                           float radiance[3])
+double render_light_behind(const render_scene *scene, const float position[3],
+                           const float direction[3], float radiance[3])
 {
     memset(radiance, 0, 3 * sizeof *radiance);
     if (!scene->environment)
@@ -73,7 +76,8 @@ static int draw_portal(const render_scene *scene, const float position[3], const
     return length > 0.0f;
 }
 
-/* ---- Shapes -------------------------------------------------------------------------------------- */
+/* ---- Shapes
+ * -------------------------------------------------------------------------------------- */
 
 double render_light_density(const render_scene *scene, uint32_t shape, uint32_t primitive,
                             float distance, float cosine)

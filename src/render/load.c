@@ -1,4 +1,5 @@
-/* load.c: from a described scene to one that can be rendered: reads the files, fits guides, builds. */
+/* load.c: from a described scene to one that can be rendered: reads the files, fits guides,
+ * builds. */
 #include "render/describe.h"
 
 #include "core/error.h"
@@ -36,7 +37,8 @@ static void beside(const loader *l, const char *file, char path[2 * RENDER_MAX_P
     snprintf(path, (size_t)2 * RENDER_MAX_PATH, "%.*s%s", folder, l->d->name, file);
 }
 
-/* ---- Materials ----------------------------------------------------------------------------------- */
+/* ---- Materials
+ * ----------------------------------------------------------------------------------- */
 
 static hnbrdf_result find_model(loader *l, const char *file, hnbrdf_model **model)
 {
@@ -79,9 +81,10 @@ static hnbrdf_result open_counterpart(loader *l, const char *name, hnbrdf_measur
         if (access(path, F_OK) == 0)
             return hnbrdf_measured_open(path, l->options, measured, l->error);
     }
-    return hnbrdf_fail(l->error, HNBRDF_ERROR_IO,
-                       "%s: no measurement of '%s' there: expected %s_rgb.bsdf, .bsdf, .binary or .bin",
-                       l->folder, name, name);
+    return hnbrdf_fail(
+        l->error, HNBRDF_ERROR_IO,
+        "%s: no measurement of '%s' there: expected %s_rgb.bsdf, .bsdf, .binary or .bin", l->folder,
+        name, name);
 }
 
 static hnbrdf_result from_model(loader *l, const render_text_material *m, render_surface *surface)
@@ -96,8 +99,8 @@ static hnbrdf_result from_model(loader *l, const render_text_material *m, render
                                                             : count == 1 ? 0
                                                                          : -1;
     if (index < 0 && !m->which[0])
-        return hnbrdf_fail(l->error, HNBRDF_ERROR_ARGUMENT, "%s holds %d materials: name one", m->file,
-                           count);
+        return hnbrdf_fail(l->error, HNBRDF_ERROR_ARGUMENT, "%s holds %d materials: name one",
+                           m->file, count);
     if (index < 0)
         return hnbrdf_fail(l->error, HNBRDF_ERROR_ARGUMENT, "%s has no material '%s'", m->file,
                            m->which);
@@ -132,7 +135,8 @@ static hnbrdf_result open_builtin(const loader *l, const char *name, hnbrdf_meas
                        "no built-in material '%s': `hnbrdf info builtin` lists them", name);
 }
 
-static hnbrdf_result load_material(loader *l, const render_text_material *m, render_surface *surface)
+static hnbrdf_result load_material(loader *l, const render_text_material *m,
+                                   render_surface *surface)
 {
     hnbrdf_measured *measured = NULL;
     hnbrdf_result result = HNBRDF_OK;
@@ -166,7 +170,8 @@ static hnbrdf_result load_materials(loader *l)
     l->out->scene.surfaces = calloc(room, sizeof *l->out->scene.surfaces);
     l->model_files = calloc(room, sizeof *l->model_files);
     if (!l->out->models || !l->out->measured || !l->out->scene.surfaces || !l->model_files)
-        return hnbrdf_fail(l->error, HNBRDF_ERROR_MEMORY, "%s: no memory for its materials", d->name);
+        return hnbrdf_fail(l->error, HNBRDF_ERROR_MEMORY, "%s: no memory for its materials",
+                           d->name);
     hnbrdf_result result = render_guide_model(&l->out->models[0], l->error);
     l->out->model_count = result == HNBRDF_OK;
     for (int i = 0; i < d->material_count && result == HNBRDF_OK; i++) {
@@ -177,7 +182,8 @@ static hnbrdf_result load_materials(loader *l)
     return result;
 }
 
-/* ---- Shapes -------------------------------------------------------------------------------------- */
+/* ---- Shapes
+ * -------------------------------------------------------------------------------------- */
 
 static hnbrdf_result place_sphere(const loader *l, const render_text_shape *t, render_shape *shape)
 {
@@ -224,12 +230,13 @@ static hnbrdf_result bind_parts(const loader *l, const render_text_shape *t, ren
         shape->surfaces[p] = t->material;
     for (int u = 0; u < t->use_count; u++) {
         size_t p = 0;
-        while (p < shape->mesh.part_count && strcmp(shape->mesh.parts[p].name, t->uses[u].part) != 0)
+        while (p < shape->mesh.part_count &&
+               strcmp(shape->mesh.parts[p].name, t->uses[u].part) != 0)
             p++;
         if (p == shape->mesh.part_count)
             return hnbrdf_fail(l->error, HNBRDF_ERROR_ARGUMENT,
-                               "%s has no part '%s': parts are named by usemtl, or g and o", t->file,
-                               t->uses[u].part);
+                               "%s has no part '%s': parts are named by usemtl, or g and o",
+                               t->file, t->uses[u].part);
         shape->surfaces[p] = t->uses[u].material;
     }
     return HNBRDF_OK;
@@ -259,15 +266,18 @@ static hnbrdf_result load_shapes(const loader *l)
     render_scene *scene = &l->out->scene;
     scene->shapes = calloc((size_t)l->d->shape_count, sizeof *scene->shapes);
     if (!scene->shapes)
-        return hnbrdf_fail(l->error, HNBRDF_ERROR_MEMORY, "%s: no memory for its shapes", l->d->name);
+        return hnbrdf_fail(l->error, HNBRDF_ERROR_MEMORY, "%s: no memory for its shapes",
+                           l->d->name);
     scene->shape_count = l->d->shape_count;
     hnbrdf_result result = HNBRDF_OK;
     for (int i = 0; i < l->d->shape_count && result == HNBRDF_OK; i++)
-        result = at_line(l, l->d->shapes[i].line, load_shape(l, &l->d->shapes[i], &scene->shapes[i]));
+        result =
+            at_line(l, l->d->shapes[i].line, load_shape(l, &l->d->shapes[i], &scene->shapes[i]));
     return result;
 }
 
-/* ---- The scene ----------------------------------------------------------------------------------- */
+/* ---- The scene
+ * ----------------------------------------------------------------------------------- */
 
 static hnbrdf_result load_environment(const loader *l)
 {
@@ -280,8 +290,8 @@ static hnbrdf_result load_environment(const loader *l)
         beside(l, d->environment, path);
         source = path;
     }
-    hnbrdf_result result = render_environment_open(source, d->rotate * 3.14159265358979323846 / 180.0,
-                                                   &l->out->environment, l->error);
+    hnbrdf_result result = render_environment_open(
+        source, d->rotate * 3.14159265358979323846 / 180.0, &l->out->environment, l->error);
     if (result != HNBRDF_OK)
         return at_line(l, d->environment_line, result);
     render_environment_scale(&l->out->environment, d->gain);

@@ -89,7 +89,8 @@ uint32_t render_mesh_part(render_mesh *mesh, const char *name, size_t length)
     return (uint32_t)mesh->part_count++;
 }
 
-/* ---- Normals ------------------------------------------------------------------------------------- */
+/* ---- Normals
+ * ------------------------------------------------------------------------------------- */
 
 static double dot(const double a[3], const double b[3])
 {
@@ -152,7 +153,8 @@ int render_mesh_smooth(render_mesh *mesh)
     return 0;
 }
 
-/* ---- Transforms ---------------------------------------------------------------------------------- */
+/* ---- Transforms
+ * ---------------------------------------------------------------------------------- */
 
 render_transform render_transform_then(const render_transform *a, const render_transform *b)
 {
@@ -182,14 +184,16 @@ double render_transform_determinant(const render_transform *transform)
 {
     double c[3][3];
     cofactors(transform, c);
-    return transform->m[0][0] * c[0][0] + transform->m[0][1] * c[0][1] + transform->m[0][2] * c[0][2];
+    return transform->m[0][0] * c[0][0] + transform->m[0][1] * c[0][1] +
+           transform->m[0][2] * c[0][2];
 }
 
 static void transform_normal(double c[3][3], double sign, float n[3])
 {
     double turned[3], length = 0.0;
     for (int i = 0; i < 3; i++) {
-        turned[i] = sign * (c[i][0] * (double)n[0] + c[i][1] * (double)n[1] + c[i][2] * (double)n[2]);
+        turned[i] =
+            sign * (c[i][0] * (double)n[0] + c[i][1] * (double)n[1] + c[i][2] * (double)n[2]);
         length += turned[i] * turned[i];
     }
     for (int i = 0; i < 3 && length > 0.0; i++)
@@ -214,8 +218,8 @@ void render_mesh_transform(render_mesh *mesh, const render_transform *transform)
         float *p = mesh->positions[i];
         double x = (double)p[0], y = (double)p[1], z = (double)p[2];
         for (int k = 0; k < 3; k++)
-            p[k] = (float)(transform->m[k][0] * x + transform->m[k][1] * y + transform->m[k][2] * z +
-                           transform->m[k][3]);
+            p[k] = (float)(transform->m[k][0] * x + transform->m[k][1] * y +
+                           transform->m[k][2] * z + transform->m[k][3]);
     }
     for (size_t i = 0; i < mesh->normal_count; i++)
         transform_normal(c, sign, mesh->normals[i]);

@@ -8,13 +8,14 @@
 
 #define RENDER_NONE UINT32_MAX
 
-/* Counter-clockwise as seen from the side that its normal points to. Indices below the counts of the
- * mesh; RENDER_NONE for all three corners where there are no normals or texture coordinates. */
+/* Counter-clockwise as seen from the side that its normal points to. Indices below the counts of
+ * the mesh; RENDER_NONE for all three corners where there are no normals or texture coordinates. */
 typedef struct render_triangle {
     uint32_t position[3], normal[3], uv[3], part;
 } render_triangle;
 
-/* What a material is bound to: named by the last usemtl, before any by the last g or o; "" for none. */
+/* What a material is bound to: named by the last usemtl, before any by the last g or o; "" for
+ * none. */
 typedef struct render_part {
     char name[HNBRDF_MAX_NAME + 1];
 } render_part;
@@ -36,11 +37,12 @@ uint32_t render_mesh_position(render_mesh *mesh, const double p[3]);
 uint32_t render_mesh_normal(render_mesh *mesh, const double n[3]);
 uint32_t render_mesh_uv(render_mesh *mesh, const double uv[2]);
 uint32_t render_mesh_triangle(render_mesh *mesh, const render_triangle *triangle);
-/* The part of that name, cut to HNBRDF_MAX_NAME bytes: an old one, or a new one added at the end. */
+/* The part of that name, cut to HNBRDF_MAX_NAME bytes: an old one, or a new one added at the end.
+ * */
 uint32_t render_mesh_part(render_mesh *mesh, const char *name, size_t length);
 
-/* Normals at the positions, the average of the triangles around each weighted by their angles there;
- * in place of those that were. 0, or -1 when memory is out. */
+/* Normals at the positions, the average of the triangles around each weighted by their angles
+ * there; in place of those that were. 0, or -1 when memory is out. */
 int render_mesh_smooth(render_mesh *mesh);
 
 /* x' = m[..][0..2] x + m[..][3]. Normals go with the inverse transpose; a mirror image keeps its
@@ -63,7 +65,8 @@ enum { RENDER_MAX_CONCAVE = 256 };
 /* 0, or -1 for a concave polygon of more than RENDER_MAX_CONCAVE corners. */
 int render_polygon_split(const float (*p)[3], uint32_t count, uint32_t (*triangles)[3]);
 
-/* ---- Files --------------------------------------------------------------------------------------- */
+/* ---- Files
+ * --------------------------------------------------------------------------------------- */
 
 /* Zero-initialise for defaults, which are also the most. */
 typedef struct render_obj_limits {
@@ -71,10 +74,10 @@ typedef struct render_obj_limits {
     size_t max_triangles; /* 0 stands for 2^25 */
 } render_obj_limits;
 
-/* v, vt, vn, f with any number of corners and negative indices, usemtl, g, o; lines may be continued
- * with a backslash. Other statements (s, mtllib, l, p, ...) are passed over. A w of v and a third vt
- * are ignored, as are numbers after xyz (colours). Without a single triangle it is refused. Memory is
- * at most some 40 times the file. */
+/* v, vt, vn, f with any number of corners and negative indices, usemtl, g, o; lines may be
+ * continued with a backslash. Other statements (s, mtllib, l, p, ...) are passed over. A w of v
+ * and a third vt are ignored, as are numbers after xyz (colours). Without a single triangle it is
+ * refused. Memory is at most some 40 times the file. */
 hnbrdf_result render_obj_decode(const void *data, size_t size, const char *name,
                                 const render_obj_limits *limits, render_mesh *mesh,
                                 hnbrdf_error *error);

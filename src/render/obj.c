@@ -41,15 +41,16 @@ static hnbrdf_result no_memory(const reader *in)
     return bad(in, HNBRDF_ERROR_MEMORY, "no memory for what was read so far");
 }
 
-/* ---- Words --------------------------------------------------------------------------------------- */
+/* ---- Words
+ * --------------------------------------------------------------------------------------- */
 
 static int is_blank(char c)
 {
     return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f' || c == '\\' || c == '\n';
 }
 
-/* Steps to the next line; a backslash before its end joins the one after it, both blanks then. 0 at the
- * end of the file. */
+/* Steps to the next line; a backslash before its end joins the one after it, both blanks then. 0
+ * at the end of the file. */
 static int next_line(reader *in)
 {
     if (in->next == in->last)
@@ -67,7 +68,8 @@ static int next_line(reader *in)
         if (before == in->at || before[-1] != '\\' || in->next == in->last)
             break;
     }
-    for (const char *c = in->at; c < in->end; c++) /* "Material#1" is a name that some programs give */
+    /* "Material#1" is a name that some programs give */
+    for (const char *c = in->at; c < in->end; c++)
         if (*c == '#' && (c == in->at || is_blank(c[-1])))
             in->end = c;
     return 1;
@@ -111,7 +113,8 @@ static hnbrdf_result numbers(reader *in, const char *what, int count, double *va
     return HNBRDF_OK;
 }
 
-/* ---- Statements ---------------------------------------------------------------------------------- */
+/* ---- Statements
+ * ---------------------------------------------------------------------------------- */
 
 /* An index from 1, or from -1 backwards, to *value from 0. */
 static hnbrdf_result read_index(reader *in, size_t count, const char *what, uint32_t *value)
@@ -122,10 +125,10 @@ static hnbrdf_result read_index(reader *in, size_t count, const char *what, uint
     while (digit < in->end && *digit >= '0' && *digit <= '9' && number <= UINT32_MAX)
         number = 10 * number + (size_t)(*digit++ - '0');
     if (number < 1 || number > count)
-        return hnbrdf_fail(in->error, HNBRDF_ERROR_FORMAT,
-                           "%s:%ld: %s '%.*s' of a face: expected 1 to %zu, or -1 to -%zu", in->name,
-                           in->line, what, (int)(in->end - in->at < 24 ? in->end - in->at : 24), in->at,
-                           count, count);
+        return hnbrdf_fail(
+            in->error, HNBRDF_ERROR_FORMAT,
+            "%s:%ld: %s '%.*s' of a face: expected 1 to %zu, or -1 to -%zu", in->name, in->line,
+            what, (int)(in->end - in->at < 24 ? in->end - in->at : 24), in->at, count, count);
     *value = (uint32_t)(negative ? count - number : number - 1);
     in->at = digit;
     return HNBRDF_OK;
@@ -207,9 +210,10 @@ static hnbrdf_result read_face(reader *in)
                            "%s:%ld: a face of %u corners: expected 3 or more", in->name, in->line,
                            count);
     if (render_polygon_split((const float(*)[3])in->positions, count, in->triangles))
-        return hnbrdf_fail(in->error, HNBRDF_ERROR_LIMIT,
-                           "%s:%ld: a concave face of %u corners: expected at most %d; triangulate it",
-                           in->name, in->line, count, RENDER_MAX_CONCAVE);
+        return hnbrdf_fail(
+            in->error, HNBRDF_ERROR_LIMIT,
+            "%s:%ld: a concave face of %u corners: expected at most %d; triangulate it", in->name,
+            in->line, count, RENDER_MAX_CONCAVE);
     hnbrdf_result result = HNBRDF_OK;
     for (uint32_t i = 0; i + 2 < count && result == HNBRDF_OK; i++)
         result = add_triangle(in, in->triangles[i]);
@@ -272,7 +276,8 @@ static hnbrdf_result read_statement(reader *in)
 }
 
 hnbrdf_result render_obj_decode(const void *data, size_t size, const char *name,
-                                const render_obj_limits *limits, render_mesh *mesh, hnbrdf_error *error)
+                                const render_obj_limits *limits, render_mesh *mesh,
+                                hnbrdf_error *error)
 {
     static const size_t most = (size_t)1 << 25;
     size_t wanted = limits ? limits->max_triangles : 0;

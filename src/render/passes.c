@@ -69,7 +69,8 @@ static hnbrdf_result save(job *j, hnbrdf_error *error)
                              : HNBRDF_OK;
 }
 
-/* The first pass takes one sample; later ones about as many as there were, up to some seconds' worth.
+/* The first pass takes one sample; later ones about as many as there were, up to some seconds'
+ * worth.
  */
 static int next_target(const job *j, double seconds_a_sample)
 {
@@ -106,7 +107,8 @@ static hnbrdf_result run(job *j, hnbrdf_error *error)
 
 static uint64_t fingerprint(const job *j)
 {
-    const double numbers[] = {j->path.bounces, j->path.transparent, j->path.clamp, j->path.strategy};
+    const double numbers[] = {j->path.bounces, j->path.transparent, j->path.clamp,
+                              j->path.strategy};
     uint64_t hash = render_hash(render_scene_fingerprint(j->scene), numbers, sizeof numbers);
     return render_hash(hash, &j->path.seed, sizeof j->path.seed);
 }

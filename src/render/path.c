@@ -1,6 +1,6 @@
-/* path.c: path tracing, some hundred paths side by side: those that hit the same surface are evaluated
- * in one batch. Light and BRDF sampling are joined by the balance heuristic (Veach and Guibas 1995),
- * paths end by Russian roulette (Arvo and Kirk 1990). */
+/* path.c: path tracing, some hundred paths side by side: those that hit the same surface are
+ * evaluated in one batch. Light and BRDF sampling are joined by the balance heuristic (Veach and
+ * Guibas 1995), paths end by Russian roulette (Arvo and Kirk 1990). */
 #include "render/film.h"
 
 #include <math.h>
@@ -58,7 +58,8 @@ static float unit_float(double u)
     return (float)((uint32_t)(u * 0x1p24)) * 0x1p-24f;
 }
 
-/* ---- Camera -------------------------------------------------------------------------------------- */
+/* ---- Camera
+ * -------------------------------------------------------------------------------------- */
 
 static void start_path(const wave *w, int width, int column, int row, path *p)
 {
@@ -91,7 +92,8 @@ static void start_path(const wave *w, int width, int column, int row, path *p)
     p->pixel = row * width + column;
 }
 
-/* ---- What a path brings -------------------------------------------------------------------------- */
+/* ---- What a path brings
+ * -------------------------------------------------------------------------- */
 
 static double largest(const double v[3])
 {
@@ -107,7 +109,8 @@ static void add_light(const wave *w, path *p, const double light[3], int direct)
         p->radiance[k] += scale * light[k];
 }
 
-/* Light that the path's own ray came upon; light_density: with which light sampling had drawn it. */
+/* Light that the path's own ray came upon; light_density: with which light sampling had drawn it.
+ * */
 static void add_found(const wave *w, path *p, const float radiance[3], double light_density)
 {
     double weight = 1.0, light[3];
@@ -160,7 +163,8 @@ static int trace_path(const wave *w, path *p)
     return p->point.surface >= 0 && w->bounce < w->options->bounces;
 }
 
-/* ---- Reflection ---------------------------------------------------------------------------------- */
+/* ---- Reflection
+ * ---------------------------------------------------------------------------------- */
 
 static void to_local(const render_point *frame, const float world[3], float local[3])
 {
@@ -263,8 +267,8 @@ static void shine(const wave *w, path *p, candidate *light, const float f[3])
         add_light(w, p, light->factor, w->bounce == 0);
 }
 
-/* One surface's share of the wave: `count` paths by number; those that go on are left in `numbers`, in
- * their order. Returns how many. */
+/* One surface's share of the wave: `count` paths by number; those that go on are left in
+ * `numbers`, in their order. Returns how many. */
 static int reflect(wave *w, const render_surface *surface, int *numbers, int count)
 {
     batch b;
@@ -333,7 +337,8 @@ static void bounce(wave *w)
     w->bounce++;
 }
 
-/* ---- Tiles --------------------------------------------------------------------------------------- */
+/* ---- Tiles
+ * --------------------------------------------------------------------------------------- */
 
 static void add_to_film(const path *p, render_film *film)
 {
@@ -346,8 +351,8 @@ static void add_to_film(const path *p, render_film *film)
     }
 }
 
-void render_path_tile(const render_scene *scene, const render_path_options *options, render_film *film,
-                      int tile, int first, int count)
+void render_path_tile(const render_scene *scene, const render_path_options *options,
+                      render_film *film, int tile, int first, int count)
 {
     wave w;
     w.scene = scene;

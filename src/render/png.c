@@ -1,4 +1,5 @@
-/* png.c: 8-bit PNG of a linear image: exposure, clamp, sRGB curve. Compression by stb_image_write. */
+/* png.c: 8-bit PNG of a linear image: exposure, clamp, sRGB curve. Compression by
+ * stb_image_write. */
 #include "render/image.h"
 
 #include "core/error.h"
@@ -53,8 +54,8 @@ hnbrdf_result render_png_encode(const render_image *image, double exposure, rend
     size_t pixels = (size_t)image->width * (size_t)image->height;
     unsigned char *packed = malloc(pixels * (size_t)channels);
     if (!packed)
-        return hnbrdf_fail(error, HNBRDF_ERROR_MEMORY, "no memory for a PNG of %d x %d", image->width,
-                           image->height);
+        return hnbrdf_fail(error, HNBRDF_ERROR_MEMORY, "no memory for a PNG of %d x %d",
+                           image->width, image->height);
     double gain = exp2(exposure);
     for (size_t i = 0; i < pixels; i++) {
         double alpha = image->alpha ? clamp_unit(image->alpha[i]) : 1.0;
@@ -69,8 +70,8 @@ hnbrdf_result render_png_encode(const render_image *image, double exposure, rend
     const int done = compress(image, packed, channels, &result);
     free(packed);
     if (!done)
-        return hnbrdf_fail(error, HNBRDF_ERROR_MEMORY, "no memory for a PNG of %d x %d", image->width,
-                           image->height);
+        return hnbrdf_fail(error, HNBRDF_ERROR_MEMORY, "no memory for a PNG of %d x %d",
+                           image->width, image->height);
     *bytes = result;
     return HNBRDF_OK;
 }

@@ -1,6 +1,6 @@
-/* png_memory.h: memory for stb_image_write, which writes through what malloc returned without looking:
- * when there is no more, everything it holds is freed and control leaves it by longjmp. For png.c
- * alone. */
+/* png_memory.h: memory for stb_image_write, which writes through what malloc returned without
+ * looking: when there is no more, everything it holds is freed and control leaves it by longjmp.
+ * For png.c alone. */
 #ifndef HNBRDF_RENDER_PNG_MEMORY_H
 #define HNBRDF_RENDER_PNG_MEMORY_H
 
@@ -48,7 +48,8 @@ static void *png_realloc(void *pointer, size_t size)
     png_block *old = pointer ? (png_block *)pointer - 1 : NULL;
     if (old)
         png_unlink(old);
-    png_block *block = size <= (size_t)-1 - sizeof *block ? realloc(old, sizeof *block + size) : NULL;
+    png_block *block =
+        size <= (size_t)-1 - sizeof *block ? realloc(old, sizeof *block + size) : NULL;
     if (!block) {
         free(old);
         while (png_current->blocks)

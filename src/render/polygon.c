@@ -10,8 +10,8 @@ typedef struct outline {
     int x, y;
 } outline;
 
-/* Twice the area of each projection (Newell's method); the largest one is used, seen from the side from
- * which the polygon turns left. */
+/* Twice the area of each projection (Newell's method); the largest one is used, seen from the
+ * side from which the polygon turns left. */
 static outline make_outline(const float (*p)[3], uint32_t count)
 {
     double area[3] = {0.0, 0.0, 0.0};

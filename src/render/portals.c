@@ -65,7 +65,8 @@ static void look_around(const render_scene *scene, float seen[DOWN][ACROSS])
         }
 }
 
-/* The largest of the nine cells around, so that no direction is missed between those that were tried.
+/* The largest of the nine cells around, so that no direction is missed between those that were
+ * tried.
  */
 static float around(const float seen[DOWN][ACROSS], int x, int y)
 {
@@ -91,9 +92,8 @@ hnbrdf_result render_portal_guide(const render_scene *scene, render_environment 
             size_t at = 3 * ((size_t)y * (size_t)e->width + (size_t)x);
             float share = fmaxf(kept, around((const float(*)[ACROSS])seen, x * ACROSS / e->width,
                                              y * DOWN / e->height));
-            for (size_t k = 0; k < 3; k++) {
+            for (size_t k = 0; k < 3; k++)
                 image.rgb[at + k] = e->rgb[at + k] * share;
-            }
         }
     result = render_environment_create(&image, e->rotation, "portals", guide, error);
     render_image_free(&image);

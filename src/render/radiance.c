@@ -16,11 +16,12 @@ typedef struct reader {
 
 static hnbrdf_result bad(const reader *in, const char *what)
 {
-    return hnbrdf_fail(in->error, HNBRDF_ERROR_FORMAT, "%s: at byte %zu: %s", in->name, in->at, what);
+    return hnbrdf_fail(in->error, HNBRDF_ERROR_FORMAT, "%s: at byte %zu: %s", in->name, in->at,
+                       what);
 }
 
-/* Copies one header line without its end into text, truncated to size, control characters made '?'; 0
- * at the end of the file. */
+/* Copies one header line without its end into text, truncated to size, control characters made
+ * '?'; 0 at the end of the file. */
 static int header_line(reader *in, char *text, size_t size)
 {
     size_t length = 0;
@@ -59,9 +60,10 @@ static hnbrdf_result resolution(reader *in, int *width, int *height, int *bottom
     if ((strncmp(line, "-Y ", 3) != 0 && strncmp(line, "+Y ", 3) != 0) ||
         !(*height = positive(&text)) || strncmp(text, " +X ", 4) != 0 ||
         (text += 4, !(*width = positive(&text))))
-        return hnbrdf_fail(in->error, HNBRDF_ERROR_FORMAT,
-                           "%s: resolution '%s': expected '-Y HEIGHT +X WIDTH' with sides of 1 to %d",
-                           in->name, line, RENDER_MAX_SIDE);
+        return hnbrdf_fail(
+            in->error, HNBRDF_ERROR_FORMAT,
+            "%s: resolution '%s': expected '-Y HEIGHT +X WIDTH' with sides of 1 to %d", in->name,
+            line, RENDER_MAX_SIDE);
     *bottom_up = line[0] == '+';
     return HNBRDF_OK;
 }
@@ -106,7 +108,8 @@ static hnbrdf_result scanline(reader *in, unsigned char *row, int width)
 {
     const unsigned char *start = in->data + in->at;
     size_t left = in->size - in->at, flat = 4 * (size_t)width;
-    if (left >= 4 && start[0] == 2 && start[1] == 2 && start[2] < 128 && width >= 8 && width < 32768) {
+    if (left >= 4 && start[0] == 2 && start[1] == 2 && start[2] < 128 && width >= 8 &&
+        width < 32768) {
         if (start[2] * 256 + start[3] != width)
             return bad(in, "a scanline of another width than the picture's");
         in->at += 4;
@@ -140,7 +143,8 @@ static hnbrdf_result pixels(reader *in, render_image *image, int bottom_up)
 {
     unsigned char *row = malloc(4 * (size_t)image->width);
     if (!row)
-        return hnbrdf_fail(in->error, HNBRDF_ERROR_MEMORY, "%s: no memory for a scanline", in->name);
+        return hnbrdf_fail(in->error, HNBRDF_ERROR_MEMORY, "%s: no memory for a scanline",
+                           in->name);
     hnbrdf_result result = HNBRDF_OK;
     for (int y = 0; y < image->height && result == HNBRDF_OK; y++) {
         result = scanline(in, row, image->width);
@@ -167,8 +171,8 @@ hnbrdf_result render_radiance_decode(const void *data, size_t size, const char *
     size_t least =
         (size_t)height * (width < 8 ? 4 * (size_t)width : 4 + 8 * (((size_t)width + 126) / 127));
     if ((size_t)width * (size_t)height > max_pixels)
-        return hnbrdf_fail(error, HNBRDF_ERROR_LIMIT, "%s: %d x %d pixels: expected at most %zu", name,
-                           width, height, max_pixels);
+        return hnbrdf_fail(error, HNBRDF_ERROR_LIMIT, "%s: %d x %d pixels: expected at most %zu",
+                           name, width, height, max_pixels);
     if (size - in.at < least)
         return hnbrdf_fail(error, HNBRDF_ERROR_FORMAT,
                            "%s: %zu bytes of pixels, expected at least %zu for %d x %d", name,

@@ -7,7 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- Lights -------------------------------------------------------------------------------------- */
+/* ---- Lights
+ * -------------------------------------------------------------------------------------- */
 
 static double luminance(const float rgb[3])
 {
@@ -76,11 +77,13 @@ static hnbrdf_result prepare_portals(render_scene *scene, hnbrdf_error *error)
     if (!scene->environment && !scene->light_count)
         return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT,
                            "a scene without light: expected an environment or a shape that emits");
-    return scene->environment && scene->portal_count ? render_portal_guide(scene, &scene->guide, error)
-                                                     : HNBRDF_OK;
+    return scene->environment && scene->portal_count
+               ? render_portal_guide(scene, &scene->guide, error)
+               : HNBRDF_OK;
 }
 
-/* ---- Camera -------------------------------------------------------------------------------------- */
+/* ---- Camera
+ * -------------------------------------------------------------------------------------- */
 
 static hnbrdf_result aim(render_camera *camera, hnbrdf_error *error)
 {
@@ -90,10 +93,12 @@ static hnbrdf_result aim(render_camera *camera, hnbrdf_error *error)
     float distance = sqrtf(render_dot(back, back));
     render_cross(camera->up, back, right);
     float length = sqrtf(render_dot(right, right));
-    if (!(distance > 0.0f) || !(length > 1e-6f * distance * sqrtf(render_dot(camera->up, camera->up))))
-        return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT,
-                           "the camera looks nowhere, or along its up direction: expected from and to "
-                           "apart, and up beside");
+    if (!(distance > 0.0f) ||
+        !(length > 1e-6f * distance * sqrtf(render_dot(camera->up, camera->up))))
+        return hnbrdf_fail(
+            error, HNBRDF_ERROR_ARGUMENT,
+            "the camera looks nowhere, or along its up direction: expected from and to "
+            "apart, and up beside");
     for (int k = 0; k < 3; k++) {
         camera->axes[2][k] = back[k] / distance;
         camera->axes[0][k] = right[k] / length;
@@ -104,7 +109,8 @@ static hnbrdf_result aim(render_camera *camera, hnbrdf_error *error)
     return HNBRDF_OK;
 }
 
-/* ---- Albedos ------------------------------------------------------------------------------------- */
+/* ---- Albedos
+ * ------------------------------------------------------------------------------------- */
 
 static void measure_albedo(render_scene_surface *s)
 {
@@ -112,7 +118,8 @@ static void measure_albedo(render_scene_surface *s)
     hnbrdf_rng rng;
     hnbrdf_rng_seed(&rng, 3, 0);
     for (int step = 0; step < RENDER_ALBEDO_STEPS; step++) {
-        float z = ((float)step + 0.5f) / RENDER_ALBEDO_STEPS, wo[3] = {sqrtf(1.0f - z * z), 0.0f, z};
+        float z = ((float)step + 0.5f) / RENDER_ALBEDO_STEPS,
+              wo[3] = {sqrtf(1.0f - z * z), 0.0f, z};
         double sum[3] = {0.0, 0.0, 0.0};
         for (int i = 0; i < DRAWS; i++) {
             float u[3] = {((float)i + hnbrdf_rng_float(&rng)) / DRAWS, hnbrdf_rng_float(&rng),
@@ -130,7 +137,8 @@ static void measure_albedo(render_scene_surface *s)
     }
 }
 
-/* ---- All of it ----------------------------------------------------------------------------------- */
+/* ---- All of it
+ * ----------------------------------------------------------------------------------- */
 
 hnbrdf_result render_scene_build(render_scene *scene, hnbrdf_error *error)
 {
@@ -161,7 +169,8 @@ void render_scene_free(render_scene *scene)
     memset(scene, 0, sizeof *scene);
 }
 
-/* ---- Fingerprint --------------------------------------------------------------------------------- */
+/* ---- Fingerprint
+ * --------------------------------------------------------------------------------- */
 
 /* FNV-1a. */
 uint64_t render_hash(uint64_t hash, const void *data, size_t size)

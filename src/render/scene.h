@@ -5,10 +5,11 @@
 #include "render/mesh.h"
 #include "render/render.h"
 
-/* ---- What is there ------------------------------------------------------------------------------- */
+/* ---- What is there
+ * ------------------------------------------------------------------------------- */
 
-/* One shape in the world: a mesh, or a sphere where the mesh is empty. Both sides of a surface reflect;
- * light is given off by the outside alone. */
+/* One shape in the world: a mesh, or a sphere where the mesh is empty. Both sides of a surface
+ * reflect; light is given off by the outside alone. */
 typedef struct render_shape {
     render_mesh mesh;
     int *surfaces; /* of each part of the mesh, or of the sphere: a number, -1 reflects nothing */
@@ -17,8 +18,8 @@ typedef struct render_shape {
     uint32_t first_light;                /* of the scene; set by render_scene_build() */
 } render_shape;
 
-/* What an environment is seen through: a parallelogram corner + s edge[0] + t edge[1]. Light sampling
- * looks through it too; what is lit changes only in noise. */
+/* What an environment is seen through: a parallelogram corner + s edge[0] + t edge[1]. Light
+ * sampling looks through it too; what is lit changes only in noise. */
 typedef struct render_portal {
     float corner[3], edge[2][3];
     float normal[3], area; /* set by render_scene_build() */
@@ -26,8 +27,9 @@ typedef struct render_portal {
 
 typedef struct render_camera {
     float from[3], to[3], up[3];
-    float fov;         /* degrees, vertical */
-    float lens, focus; /* radius of a thin lens, 0: pinhole; distance that is sharp, 0: that of `to` */
+    float fov; /* degrees, vertical */
+    /* radius of a thin lens, 0: pinhole; distance that is sharp, 0: that of `to` */
+    float lens, focus;
     int width, height;
     float axes[3][3],
         plane; /* right, up, back; height of the picture at distance 1; set by the build */
@@ -40,7 +42,8 @@ enum {
     RENDER_MAX_PORTALS = 64
 };
 
-/* A surface of the scene, with its directional albedo at cosines (k + 0.5) / RENDER_ALBEDO_STEPS. */
+/* A surface of the scene, with its directional albedo at cosines (k + 0.5) / RENDER_ALBEDO_STEPS.
+ * */
 typedef struct render_scene_surface {
     render_surface surface;
     float albedo[RENDER_ALBEDO_STEPS][3]; /* set by the build */
@@ -73,7 +76,8 @@ typedef struct render_scene {
     struct render_trace *trace;
 } render_scene;
 
-/* 0 when the program was built without Embree: building a scene then fails with a message saying so. */
+/* 0 when the program was built without Embree: building a scene then fails with a message saying
+ * so. */
 int render_has_embree(void);
 /* Index structures, lights, camera, albedos. The scene must not move or change afterwards. */
 hnbrdf_result render_scene_build(render_scene *scene, hnbrdf_error *error);
@@ -84,7 +88,8 @@ uint64_t render_scene_fingerprint(const render_scene *scene);
 uint64_t render_hash(uint64_t hash, const void *data, size_t size);
 #define RENDER_HASH_START UINT64_C(14695981039346656037)
 
-/* ---- Rays ---------------------------------------------------------------------------------------- */
+/* ---- Rays
+ * ---------------------------------------------------------------------------------------- */
 
 /* Where a ray ends. */
 typedef struct render_hit {
@@ -109,16 +114,17 @@ typedef struct render_surface_point {
     int surface, outside; /* number of the surface or -1; whether it is the outside that is seen */
 } render_surface_point;
 /*
- * Interpolated normals that would have the viewer, or the mirror direction, below the surface are bent
- * just so far that both are above it: no black edges. A direction below the plane of the triangle gets
- * no light whatever the shading normal says: nothing leaks through a surface.
+ * Interpolated normals that would have the viewer, or the mirror direction, below the surface are
+ * bent just so far that both are above it: no black edges. A direction below the plane of the
+ * triangle gets no light whatever the shading normal says: nothing leaks through a surface.
  */
 void render_surface_at(const render_scene *scene, const float origin[3], const float direction[3],
                        const render_hit *hit, render_surface_point *point);
 /* The start of a ray that leaves the point, off the surface by a few roundings on the seen side. */
 void render_ray_start(const render_surface_point *point, float origin[3]);
 
-/* ---- Lights -------------------------------------------------------------------------------------- */
+/* ---- Lights
+ * -------------------------------------------------------------------------------------- */
 
 typedef struct render_light_sample {
     float direction[3], distance; /* INFINITY for the environment */
@@ -133,10 +139,10 @@ void render_light_draw(const render_scene *scene, int way, const float position[
                        const double u[2], render_light_sample *sample);
 /* Radiance of the environment, 0 without; returns the density with which the above would
  * draw it. */
-double render_light_behind(const render_scene *scene, const float position[3], const float direction[3],
-                           float radiance[3]);
-/* The density with which it would draw a point on a light's outside: the light of a shape's primitive,
- * at a distance, its normal at cosine to the ray. */
+double render_light_behind(const render_scene *scene, const float position[3],
+                           const float direction[3], float radiance[3]);
+/* The density with which it would draw a point on a light's outside: the light of a shape's
+ * primitive, at a distance, its normal at cosine to the ray. */
 double render_light_density(const render_scene *scene, uint32_t shape, uint32_t primitive,
                             float distance, float cosine);
 
@@ -152,7 +158,8 @@ double render_portal_density(const render_portal *portal, const float position[3
 hnbrdf_result render_portal_guide(const render_scene *scene, render_environment *guide,
                                   hnbrdf_error *error);
 
-/* ---- Small vectors ------------------------------------------------------------------------------- */
+/* ---- Small vectors
+ * ------------------------------------------------------------------------------- */
 
 static inline float render_dot(const float a[3], const float b[3])
 {

@@ -36,8 +36,8 @@ static uint32_t shuffled(uint32_t index, uint32_t seed)
     return reversed(x);
 }
 
-/* Second dimension of Sobol's sequence: the bits of the index times Pascal's triangle modulo 2, which
- * is the Kronecker product of five matrices {1 1; 0 1}, then reversed. */
+/* Second dimension of Sobol's sequence: the bits of the index times Pascal's triangle modulo 2,
+ * which is the Kronecker product of five matrices {1 1; 0 1}, then reversed. */
 static uint32_t sobol(uint32_t index)
 {
     index ^= index >> 16;
@@ -55,7 +55,8 @@ void render_stream_pair(const render_stream *stream, int pair, uint32_t index, u
     u[1] = sobol(place) ^ stream->shift[pair][1];
 }
 
-/* The output function of SplitMix64 (Steele et al. 2014): every bit of x moves half of the result. */
+/* The output function of SplitMix64 (Steele et al. 2014): every bit of x moves half of the
+ * result. */
 static uint64_t mixed(uint64_t x)
 {
     x ^= x >> 30;
@@ -72,7 +73,8 @@ uint64_t render_pixel_key(uint64_t seed, uint64_t pixel)
 
 void render_endless_pair(uint64_t key, uint32_t dimension, uint32_t index, uint32_t u[2])
 {
-    uint64_t order = mixed(key + UINT64_C(0x9e3779b97f4a7c15) * (dimension + 1)), shift = mixed(~order);
+    uint64_t order = mixed(key + UINT64_C(0x9e3779b97f4a7c15) * (dimension + 1)),
+             shift = mixed(~order);
     uint32_t place = shuffled(index, (uint32_t)order);
     u[0] = reversed(place) ^ (uint32_t)shift;
     u[1] = sobol(place) ^ (uint32_t)(shift >> 32);

@@ -27,15 +27,15 @@ static void to_local(const render_point *point, const float world[3], float loca
 static void to_world(const render_point *point, const float local[3], float world[3])
 {
     for (int k = 0; k < 3; k++)
-        world[k] =
-            local[0] * point->tangent[k] + local[1] * point->bitangent[k] + local[2] * point->normal[k];
+        world[k] = local[0] * point->tangent[k] + local[1] * point->bitangent[k] +
+                   local[2] * point->normal[k];
 }
 
 /* ---- The estimator
  * ----------------------------------------------------------------------------------- */
 
-/* Samples of a block wait here for one batch of evaluations: factor is radiance wi.z weight / density. Floats
- * up to the sum, as in shaders/sphere.comp.
+/* Samples of a block wait here for one batch of evaluations: factor is radiance wi.z weight /
+ * density. Floats up to the sum, as in shaders/sphere.comp.
  */
 typedef struct sample_batch {
     float wi[2 * RENDER_BLOCK][3], wo[2 * RENDER_BLOCK][3], f[2 * RENDER_BLOCK][3];
@@ -43,7 +43,8 @@ typedef struct sample_batch {
     size_t count;
 } sample_batch;
 
-/* With the balance heuristic weight / density is 1 over the sum of both densities, whichever drew it.
+/* With the balance heuristic weight / density is 1 over the sum of both densities, whichever drew
+ * it.
  */
 static void add_sample(sample_batch *batch, const float wi[3], const float wo[3],
                        const float radiance[3], float density)
@@ -85,7 +86,8 @@ static void sample_brdf(const render_surface *surface, const render_environment 
                         const render_point *points, int count, sample_batch *batch)
 {
     double density[RENDER_BLOCK];
-    float world[RENDER_BLOCK][3], radiance[RENDER_BLOCK][3], wi[RENDER_BLOCK][3], drawn[RENDER_BLOCK];
+    float world[RENDER_BLOCK][3], radiance[RENDER_BLOCK][3], wi[RENDER_BLOCK][3],
+        drawn[RENDER_BLOCK];
     for (int i = 0; i < count; i++) {
         uint32_t u[2], lobe[2], index = first + (uint32_t)i;
         render_stream_pair(stream, RENDER_PAIR_DIRECTION, index, u);

@@ -7,7 +7,8 @@
 
 static const double pi = 3.14159265358979323846;
 
-/* ---- Patches ------------------------------------------------------------------------------------- */
+/* ---- Patches
+ * ------------------------------------------------------------------------------------- */
 
 static double clamp(double x, double low, double high)
 {
@@ -74,7 +75,8 @@ static int add_triangle(render_mesh *mesh, uint32_t base, uint32_t shift, uint32
     return render_mesh_triangle(mesh, &triangle) == RENDER_NONE ? -1 : 0;
 }
 
-int render_patch_mesh(render_patch_fn patch, const void *user, int across, int along, render_mesh *mesh)
+int render_patch_mesh(render_patch_fn patch, const void *user, int across, int along,
+                      render_mesh *mesh)
 {
     uint32_t base = (uint32_t)mesh->position_count, shift = (uint32_t)mesh->normal_count;
     uint32_t part = render_mesh_part(mesh, "", 0);
@@ -95,7 +97,8 @@ int render_patch_mesh(render_patch_fn patch, const void *user, int across, int a
     return 0;
 }
 
-/* ---- Formulas ------------------------------------------------------------------------------------ */
+/* ---- Formulas
+ * ------------------------------------------------------------------------------------ */
 
 static int quad(const void *user, double u, double v, double p[3], double n[3])
 {
@@ -200,7 +203,8 @@ static int superellipsoid(const void *user, double u, double v, double p[3], dou
     return 1;
 }
 
-/* ---- Lathe --------------------------------------------------------------------------------------- */
+/* ---- Lathe
+ * --------------------------------------------------------------------------------------- */
 
 /* Points of a profile between two corners. */
 typedef struct run {
@@ -226,7 +230,8 @@ static double spline(const run *r, double t, int k)
     x -= i;
     double a = run_point(r, i - 1, k), b = run_point(r, i, k), c = run_point(r, i + 1, k),
            d = run_point(r, i + 2, k);
-    return b + 0.5 * x * (c - a + x * (2.0 * a - 5.0 * b + 4.0 * c - d + x * (3.0 * (b - c) + d - a)));
+    return b +
+           0.5 * x * (c - a + x * (2.0 * a - 5.0 * b + 4.0 * c - d + x * (3.0 * (b - c) + d - a)));
 }
 
 static int turned(const void *user, double u, double v, double p[3], double n[3])
@@ -256,7 +261,8 @@ static int lathe(const render_shape_options *options, render_mesh *mesh)
     return 0;
 }
 
-/* ---- All of them --------------------------------------------------------------------------------- */
+/* ---- All of them
+ * --------------------------------------------------------------------------------- */
 
 static render_shape_options settled(const render_shape_options *options)
 {
@@ -270,7 +276,8 @@ static render_shape_options settled(const render_shape_options *options)
     return o;
 }
 
-int render_shape_mesh(render_shape_kind kind, const render_shape_options *options, render_mesh *mesh)
+int render_shape_mesh(render_shape_kind kind, const render_shape_options *options,
+                      render_mesh *mesh)
 {
     render_shape_options o = settled(options);
     int result = 0;

@@ -7,7 +7,8 @@
 #include <math.h>
 #include <stdio.h>
 
-static const float page_colour[3] = {0.016f, 0.017f, 0.019f}, card_colour[3] = {0.040f, 0.042f, 0.046f};
+static const float page_colour[3] = {0.016f, 0.017f, 0.019f},
+                   card_colour[3] = {0.040f, 0.042f, 0.046f};
 static const float bright[3] = {0.80f, 0.80f, 0.80f}, plain[3] = {0.50f, 0.50f, 0.52f},
                    dim[3] = {0.26f, 0.27f, 0.29f};
 
@@ -72,8 +73,8 @@ static layout lay_out(const render_sheet *sheet)
 }
 
 /* Centred on a cell that begins at x, and never wider than cells are apart. */
-static void draw_label(render_image *image, const render_sheet *sheet, const layout *l, int x, int y,
-                       const char *label, const float colour[3])
+static void draw_label(render_image *image, const render_sheet *sheet, const layout *l, int x,
+                       int y, const char *label, const float colour[3])
 {
     char text[64];
     render_text_shorten(label, l->text, sheet->cell + l->pad - 2.0, text, sizeof text);
@@ -95,14 +96,15 @@ static void draw_header(const render_sheet *sheet, const layout *l, render_image
     int baseline = l->margin + l->header + rounded(2.8 * l->text);
     for (int block = 0; block < l->blocks; block++)
         for (int c = 0; c < sheet->columns; c++) {
-            int x = l->margin + block * (l->card_width + l->gap) + l->pad + c * (sheet->cell + l->pad);
+            int x =
+                l->margin + block * (l->card_width + l->gap) + l->pad + c * (sheet->cell + l->pad);
             if (sheet->titles[c])
                 draw_label(image, sheet, l, x, baseline, sheet->titles[c], plain);
         }
 }
 
-static void draw_card(const render_sheet *sheet, const layout *l, const render_sheet_row *row, int x,
-                      int y, render_image *image)
+static void draw_card(const render_sheet *sheet, const layout *l, const render_sheet_row *row,
+                      int x, int y, render_image *image)
 {
     char name[256];
     render_fill(image, x, y, l->card_width, l->card_height, card_colour);
@@ -121,7 +123,8 @@ static void draw_card(const render_sheet *sheet, const layout *l, const render_s
     }
 }
 
-hnbrdf_result render_sheet_compose(const render_sheet *sheet, render_image *image, hnbrdf_error *error)
+hnbrdf_result render_sheet_compose(const render_sheet *sheet, render_image *image,
+                                   hnbrdf_error *error)
 {
     layout l = lay_out(sheet);
     hnbrdf_result result = render_image_create(l.width, l.height, 0, image, error);

@@ -1,5 +1,5 @@
-/* sky.c: the built-in environment, a sky with studio lights in which gloss, colour and grazing angles
- * can be judged at once. */
+/* sky.c: the built-in environment, a sky with studio lights in which gloss, colour and grazing
+ * angles can be judged at once. */
 #include "render/environment.h"
 
 #include <math.h>
@@ -49,9 +49,10 @@ static void gradient(const double d[3], double rgb[3])
     add(rgb, (1.0 - sky) * depth, 0.085, 0.075, 0.065);
 }
 
-/* A rectangle with soft edges, seen along the tangent plane of its middle: turned by azimuth about y,
- * raised by elevation; half width and height as tangents. */
-static double panel(const double d[3], double azimuth, double elevation, double width, double height)
+/* A rectangle with soft edges, seen along the tangent plane of its middle: turned by azimuth
+ * about y, raised by elevation; half width and height as tangents. */
+static double panel(const double d[3], double azimuth, double elevation, double width,
+                    double height)
 {
     double ca = cos(azimuth), sa = sin(azimuth), ce = cos(elevation), se = sin(elevation);
     double front[3] = {ce * sa, se, ce * ca}, right[3] = {ca, 0.0, -sa},

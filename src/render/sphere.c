@@ -9,9 +9,9 @@
 enum { TILE = 16 };
 
 /* Where the ray (X, Y, -1) from (0, 0, d) meets the unit sphere, written so that nothing cancels:
- *   D = sqrt(1 - (d^2 - 1) R^2), R^2 = X^2 + Y^2 = the outline's where D = 0;  t = (d - D) / (1 + R^2)
- *   n = (t X, t Y, d - t) = (t X, t Y, (d R^2 + D) / (1 + R^2))
- *   -ray in the frame of n and longitude, times |ray|: (-d X / rho, -(1 + t D) Y / rho, D), rho = |(n.x, n.z)|
+ *   D = sqrt(1 - (d^2 - 1) R^2), R^2 = X^2 + Y^2 = the outline's where D = 0;  t = (d - D) / (1 +
+ *   R^2) n = (t X, t Y, d - t) = (t X, t Y, (d R^2 + D) / (1 + R^2)) -ray in the frame of n and
+ *   longitude, times |ray|: (-d X / rho, -(1 + t D) Y / rho, D), rho = |(n.x, n.z)|
  * Longitude about y gives the tangent; rho is never 0, the poles are behind the outline. */
 int render_sphere_hit(float x, float y, render_point *point)
 {
@@ -52,7 +52,8 @@ static float across(uint32_t u)
 void render_sphere_place(const render_options *options, size_t pixel, const render_stream *stream,
                          uint32_t index, float at[2])
 {
-    int size = options->size, column = (int)(pixel % (size_t)size), row = (int)(pixel / (size_t)size);
+    int size = options->size, column = (int)(pixel % (size_t)size),
+        row = (int)(pixel / (size_t)size);
     uint32_t u[2];
     render_stream_pair(stream, RENDER_PAIR_LENS, index, u);
     at[0] = ((float)(2 * column - size) + across(u[0])) / (float)size;
@@ -69,7 +70,8 @@ static void render_pixel(const render_job *job, int column, int row)
     double sum[3] = {0.0, 0.0, 0.0};
     int covered = 0;
     for (int first = 0; first < options->spp; first += RENDER_BLOCK) {
-        int count = options->spp - first < RENDER_BLOCK ? options->spp - first : RENDER_BLOCK, hits = 0;
+        int count = options->spp - first < RENDER_BLOCK ? options->spp - first : RENDER_BLOCK,
+            hits = 0;
         for (int i = 0; i < count; i++) {
             float at[2];
             render_sphere_place(options, pixel, &stream, (uint32_t)(first + i), at);
@@ -105,8 +107,8 @@ hnbrdf_result render_options_settle(const render_options *options, render_option
     if (result.spp == 0)
         result.spp = 64;
     if (result.spp < 1 || result.spp > 1 << 24)
-        return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT, "%d samples a pixel: expected 1 to %d", result.spp,
-                           1 << 24);
+        return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT, "%d samples a pixel: expected 1 to %d",
+                           result.spp, 1 << 24);
     *settled = result;
     return HNBRDF_OK;
 }

@@ -3,21 +3,21 @@
 
 #include <string.h>
 
-static void eval_model(const render_surface *surface, size_t count, const float *wi, const float *wo,
-                       float *f)
+static void eval_model(const render_surface *surface, size_t count, const float *wi,
+                       const float *wo, float *f)
 {
     hnbrdf_eval_batch(surface->model, &surface->material, count, wi, 0, wo, 0, f, 0);
 }
 
-static void eval_analytic(const render_surface *surface, size_t count, const float *wi, const float *wo,
-                          float *f)
+static void eval_analytic(const render_surface *surface, size_t count, const float *wi,
+                          const float *wo, float *f)
 {
     for (size_t i = 0; i < count; i++)
         hnbrdf_eval_analytic(surface->model, &surface->material, wi + 3 * i, wo + 3 * i, f + 3 * i);
 }
 
-static void eval_measured(const render_surface *surface, size_t count, const float *wi, const float *wo,
-                          float *f)
+static void eval_measured(const render_surface *surface, size_t count, const float *wi,
+                          const float *wo, float *f)
 {
     for (size_t i = 0; i < count; i++)
         if (!hnbrdf_measured_eval(surface->measured, wi + 3 * i, wo + 3 * i, f + 3 * i))

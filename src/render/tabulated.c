@@ -21,10 +21,11 @@ size_t render_table_bytes(void)
     return sizeof(render_table);
 }
 
-/* ---- The chart --------------------------------------------------------------------------------- */
+/* ---- The chart
+ * --------------------------------------------------------------------------------- */
 
-/* wi at a point of the chart for a view at azimuth 0, and the solid angle per d(theta_h) d(phi_h). 0 below the
- * horizon. */
+/* wi at a point of the chart for a view at azimuth 0, and the solid angle per d(theta_h)
+ * d(phi_h). 0 below the horizon. */
 static double direction_of(const double wo[3], double theta, double phi, double wi[3])
 {
     double h[3] = {sin(theta) * cos(phi), sin(theta) * sin(phi), cos(theta)};
@@ -43,10 +44,12 @@ static int view_below(double z, double *weight)
     return view;
 }
 
-/* ---- Making ------------------------------------------------------------------------------------ */
+/* ---- Making
+ * ------------------------------------------------------------------------------------ */
 
 typedef struct scratch {
-    float wi[RINGS * TURNS * SUB * SUB][3], wo[RINGS * TURNS * SUB * SUB][3], f[RINGS * TURNS * SUB * SUB][3];
+    float wi[RINGS * TURNS * SUB * SUB][3], wo[RINGS * TURNS * SUB * SUB][3],
+        f[RINGS * TURNS * SUB * SUB][3];
     double area[RINGS * TURNS * SUB * SUB];
     int cell[RINGS * TURNS * SUB * SUB];
     double mass[RINGS * TURNS];
@@ -58,7 +61,8 @@ static void fill_view(const render_surface *surface, int view, scratch *s)
     double theta_o = (view + 0.5) / VIEWS * 0.5 * pi, wo[3] = {sin(theta_o), 0.0, cos(theta_o)};
     size_t count = 0;
     for (int n = 0; n < RINGS * SUB * TURNS * SUB; n++) {
-        double u = (n / (TURNS * SUB) + 0.5) / (RINGS * SUB), v = (n % (TURNS * SUB) + 0.5) / (TURNS * SUB), wi[3];
+        double u = (n / (TURNS * SUB) + 0.5) / (RINGS * SUB),
+               v = (n % (TURNS * SUB) + 0.5) / (TURNS * SUB), wi[3];
         double area = direction_of(wo, u * u * 0.5 * pi, 2.0 * pi * v, wi);
         if (!(area > 0.0))
             continue;
@@ -72,7 +76,8 @@ static void fill_view(const render_surface *surface, int view, scratch *s)
     surface->eval(surface, count, s->wi[0], s->wo[0], s->f[0]);
     memset(s->mass, 0, sizeof s->mass);
     for (size_t k = 0; k < count; k++)
-        s->mass[s->cell[k]] += s->area[k] * ((double)s->f[k][0] + (double)s->f[k][1] + (double)s->f[k][2]);
+        s->mass[s->cell[k]] +=
+            s->area[k] * ((double)s->f[k][0] + (double)s->f[k][1] + (double)s->f[k][2]);
 }
 
 static void sum_view(render_table *table, int view, scratch *s)
@@ -85,7 +90,8 @@ static void sum_view(render_table *table, int view, scratch *s)
     }
     for (int n = 0; n < RINGS * TURNS; n++) {
         double u = (n / TURNS + 0.5) / RINGS, share = total > 0.0 ? spread : 1.0;
-        s->mass[n] = (total > 0.0 ? (1.0 - share) * s->mass[n] / total : 0.0) + share * u * sin(u * u * 0.5 * pi) / even;
+        s->mass[n] = (total > 0.0 ? (1.0 - share) * s->mass[n] / total : 0.0) +
+                     share * u * sin(u * u * 0.5 * pi) / even;
         all += s->mass[n];
     }
     for (int r = 0; r < RINGS; r++) {
@@ -100,7 +106,8 @@ static void sum_view(render_table *table, int view, scratch *s)
     table->rings[view][RINGS - 1] = 1.0f;
 }
 
-hnbrdf_result render_table_create(const render_surface *surface, render_table **table, hnbrdf_error *error)
+hnbrdf_result render_table_create(const render_surface *surface, render_table **table,
+                                  hnbrdf_error *error)
 {
     render_table *made = malloc(sizeof *made);
     scratch *s = malloc(sizeof *s);
@@ -124,7 +131,8 @@ void render_table_free(render_table *table)
     free(table);
 }
 
-/* ---- Sampling ---------------------------------------------------------------------------------- */
+/* ---- Sampling
+ * ---------------------------------------------------------------------------------- */
 
 static double step(const float *sums, int index)
 {
@@ -158,18 +166,23 @@ static float table_pdf(const render_surface *surface, const float wi[3], const f
     }
     length = sqrt(length);
     double theta = acos(fmin(h[2] / length, 1.0));
-    double turn = (atan2(h[1], h[0]) - atan2((double)wo[1], (double)wo[0])) / (2.0 * pi), u = sqrt(theta / (0.5 * pi));
-    int ring = (int)fmin(u * RINGS, RINGS - 1.0), cell = (int)fmin((turn - floor(turn)) * TURNS, TURNS - 1.0);
+    double turn = (atan2(h[1], h[0]) - atan2((double)wo[1], (double)wo[0])) / (2.0 * pi),
+           u = sqrt(theta / (0.5 * pi));
+    int ring = (int)fmin(u * RINGS, RINGS - 1.0),
+        cell = (int)fmin((turn - floor(turn)) * TURNS, TURNS - 1.0);
     int view = view_below((double)wo[2], &weight);
     double mass = 0.0;
     for (int k = 0; k < 2; k++)
-        mass += (k ? weight : 1.0 - weight) * step(table->rings[view + k], ring) * step(table->cells[view + k][ring], cell);
-    /* A cell is pi u / RINGS by 2 pi / TURNS; d(wi) = 4 wo.h sin(theta_h) d(theta_h) d(phi_h), wo.h = |h|/2. */
+        mass += (k ? weight : 1.0 - weight) * step(table->rings[view + k], ring) *
+                step(table->cells[view + k][ring], cell);
+    /* A cell is pi u / RINGS by 2 pi / TURNS; d(wi) = 4 wo.h sin(theta_h) d(theta_h) d(phi_h),
+     * wo.h = |h|/2. */
     double area = pi * u / RINGS * (2.0 * pi / TURNS) * sin(theta) * 2.0 * length;
     return area > 0.0 ? (float)fmin(mass / area, 3e38) : 0.0f;
 }
 
-static float table_sample(const render_surface *surface, const float wo[3], const float u[3], float wi[3])
+static float table_sample(const render_surface *surface, const float wo[3], const float u[3],
+                          float wi[3])
 {
     const render_table *table = surface->table;
     double weight, within[2], z = (double)wo[2], local[3];

@@ -7,8 +7,8 @@ typedef struct render_tiles {
     int threads; /* 0: all cores */
     void (*work)(void *user, int tile);
     void *user;
-    /* Called from the caller's thread with the share done, 0 to 1, after each of its tiles; non-zero
-     * stops: no further tile is begun. May be NULL. */
+    /* Called from the caller's thread with the share done, 0 to 1, after each of its tiles;
+     * non-zero stops: no further tile is begun. May be NULL. */
     int (*progress)(void *user, double share);
     void *progress_user;
 } render_tiles;

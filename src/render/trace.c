@@ -18,9 +18,10 @@ hnbrdf_result render_trace_create(const render_scene *scene, struct render_trace
                                   hnbrdf_error *error)
 {
     (void)scene, (void)trace;
-    return hnbrdf_fail(error, HNBRDF_ERROR_UNSUPPORTED,
-                       "this program was built without Embree, which meshes and scenes need: install "
-                       "libembree-dev and build again");
+    return hnbrdf_fail(
+        error, HNBRDF_ERROR_UNSUPPORTED,
+        "this program was built without Embree, which meshes and scenes need: install "
+        "libembree-dev and build again");
 }
 
 void render_trace_free(struct render_trace *trace)
@@ -79,13 +80,14 @@ static int add_shape(const struct render_trace *trace, const render_shape *shape
                                                                    : RTC_GEOMETRY_TYPE_TRIANGLE);
     int done = geometry != NULL;
     if (done && is_sphere)
-        done = set_buffer(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT4, sphere, sizeof sphere, 1,
-                          0);
+        done = set_buffer(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT4, sphere,
+                          sizeof sphere, 1, 0);
     else if (done)
-        done = set_buffer(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, shape->mesh.positions,
-                          sizeof *shape->mesh.positions, shape->mesh.position_count, 1) &&
-               set_buffer(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, shape->mesh.triangles,
-                          sizeof *shape->mesh.triangles, shape->mesh.triangle_count, 1);
+        done =
+            set_buffer(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3, shape->mesh.positions,
+                       sizeof *shape->mesh.positions, shape->mesh.position_count, 1) &&
+            set_buffer(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT3, shape->mesh.triangles,
+                       sizeof *shape->mesh.triangles, shape->mesh.triangle_count, 1);
     if (done) {
         rtcCommitGeometry(geometry);
         rtcAttachGeometryByID(trace->scene, geometry, id);
@@ -119,8 +121,8 @@ hnbrdf_result render_trace_create(const render_scene *scene, struct render_trace
             return HNBRDF_OK;
         }
         render_trace_free(made);
-        return hnbrdf_fail(error, HNBRDF_ERROR_MEMORY, "Embree cannot index the scene (its error %d)",
-                           (int)code);
+        return hnbrdf_fail(error, HNBRDF_ERROR_MEMORY,
+                           "Embree cannot index the scene (its error %d)", (int)code);
     }
     render_trace_free(made);
     return hnbrdf_fail(error, HNBRDF_ERROR_MEMORY, "no memory to index the scene");

@@ -1,14 +1,14 @@
-/* turn.h: the angle of a vector of + - * / alone: the same bits wherever IEEE floats are, which libm's atan2
- * does not promise. shaders/sphere.comp holds the same function in the same order. The way back is
- * hnbrdf_sincos_turn(). The polynomial is fitted at Chebyshev nodes; tests/test_render_light.c holds it to its
- * error. */
+/* turn.h: the angle of a vector of + - * / alone: the same bits wherever IEEE floats are, which
+ * libm's atan2 does not promise. shaders/sphere.comp holds the same function in the same order.
+ * The way back is hnbrdf_sincos_turn(). The polynomial is fitted at Chebyshev nodes;
+ * tests/test_render_light.c holds it to its error. */
 #ifndef HNBRDF_RENDER_TURN_H
 #define HNBRDF_RENDER_TURN_H
 
 #include <math.h>
 
-/* atan2(y, x) / (2 pi) in [0, 1], counter-clockwise from +x; 0 where both are 0. Absolute error at most 8e-8,
- * relative error of angles below an eighth at most 3e-7. */
+/* atan2(y, x) / (2 pi) in [0, 1], counter-clockwise from +x; 0 where both are 0. Absolute error
+ * at most 8e-8, relative error of angles below an eighth at most 3e-7. */
 static inline float render_turn(float y, float x)
 {
     float ax = fabsf(x), ay = fabsf(y);

@@ -90,8 +90,8 @@ hnbrdf_result words_whole(words *in, const char *what, int low, int high, int *v
 hnbrdf_result words_text(words *in, const char *what, size_t room, char *to)
 {
     if (in->at == in->count || !in->words[in->at][0] || strlen(in->words[in->at]) >= room)
-        return BAD(in, "%s:%ld: %s: found '%.40s', expected 1 to %zu bytes", in->name, in->line, what,
-                   in->at < in->count ? in->words[in->at] : "the end of the line", room - 1);
+        return BAD(in, "%s:%ld: %s: found '%.40s', expected 1 to %zu bytes", in->name, in->line,
+                   what, in->at < in->count ? in->words[in->at] : "the end of the line", room - 1);
     strcpy(to, in->words[in->at++]);
     return HNBRDF_OK;
 }

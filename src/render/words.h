@@ -1,4 +1,5 @@
-/* words.h: lines of a scene as text, cut into words, and what the words mean. Inside describe only. */
+/* words.h: lines of a scene as text, cut into words, and what the words mean. Inside describe
+ * only. */
 #ifndef HNBRDF_RENDER_WORDS_H
 #define HNBRDF_RENDER_WORDS_H
 

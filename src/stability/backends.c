@@ -1,5 +1,5 @@
-/* backends.c: the C library as it is called: singly, in batches, in every state the caller's FPU may be
- * in. */
+/* backends.c: the C library as it is called: singly, in batches, in every state the caller's FPU
+ * may be in. */
 #include "stability/stability.h"
 
 #include <fenv.h>
@@ -80,7 +80,8 @@ typedef enum call_form {
     FORMS
 } call_form;
 
-static void put_sample(const hnbrdf_sample_result *sample, float pdf, float values[STABILITY_NUMBERS])
+static void put_sample(const hnbrdf_sample_result *sample, float pdf,
+                       float values[STABILITY_NUMBERS])
 {
     memcpy(values, sample->wi, sizeof sample->wi);
     memcpy(values + 3, sample->weight, sizeof sample->weight);
@@ -88,7 +89,8 @@ static void put_sample(const hnbrdf_sample_result *sample, float pdf, float valu
     values[7] = pdf;
 }
 
-static void run_single(const hnbrdf_model *model, stability_stage stage, const stability_block *block,
+static void run_single(const hnbrdf_model *model, stability_stage stage,
+                       const stability_block *block,
                        float values[STABILITY_BLOCK][STABILITY_NUMBERS])
 {
     const hnbrdf_material *material = &block->material;
@@ -108,7 +110,8 @@ static void run_single(const hnbrdf_model *model, stability_stage stage, const s
     }
 }
 
-static void run_prepared(const hnbrdf_model *model, stability_stage stage, const stability_block *block,
+static void run_prepared(const hnbrdf_model *model, stability_stage stage,
+                         const stability_block *block,
                          float values[STABILITY_BLOCK][STABILITY_NUMBERS])
 {
     hnbrdf_prepared prepared;
@@ -127,7 +130,8 @@ static void run_prepared(const hnbrdf_model *model, stability_stage stage, const
     }
 }
 
-static void run_batch(const hnbrdf_model *model, stability_stage stage, const stability_block *block,
+static void run_batch(const hnbrdf_model *model, stability_stage stage,
+                      const stability_block *block,
                       float values[STABILITY_BLOCK][STABILITY_NUMBERS])
 {
     const size_t pair = sizeof block->pairs[0], value = sizeof values[0];
@@ -154,8 +158,8 @@ static void run_many(const hnbrdf_model *model, const stability_block *block,
             from[count] = k;
             memcpy(pairs[count++], block->pairs[k], sizeof pairs[0]);
         }
-    hnbrdf_eval_many(model, materials, index, (size_t)count, pairs[0], sizeof pairs[0], pairs[0] + 3,
-                     sizeof pairs[0], f[0], sizeof f[0]);
+    hnbrdf_eval_many(model, materials, index, (size_t)count, pairs[0], sizeof pairs[0],
+                     pairs[0] + 3, sizeof pairs[0], f[0], sizeof f[0]);
     for (int k = 0; k < count; k++)
         if (index[k] == 0)
             memcpy(values[from[k]], f[k], sizeof f[0]);
@@ -167,7 +171,8 @@ static void end(stability_backend *backend)
     backend->model = NULL;
 }
 
-static hnbrdf_result begin(stability_backend *backend, const hnbrdf_model *model, hnbrdf_error *error)
+static hnbrdf_result begin(stability_backend *backend, const hnbrdf_model *model,
+                           hnbrdf_error *error)
 {
     hnbrdf_model_desc desc;
     hnbrdf_model_describe(model, &desc);
@@ -176,8 +181,8 @@ static hnbrdf_result begin(stability_backend *backend, const hnbrdf_model *model
 }
 
 static hnbrdf_result run(stability_backend *backend, stability_stage stage,
-                         const stability_block *block, float values[STABILITY_BLOCK][STABILITY_NUMBERS],
-                         hnbrdf_error *error)
+                         const stability_block *block,
+                         float values[STABILITY_BLOCK][STABILITY_NUMBERS], hnbrdf_error *error)
 {
     (void)error;
     unsigned before = enter(backend->state);
@@ -207,7 +212,8 @@ static const struct {
     int stages;
 } forms[FORMS] = {
     [FORM_SINGLE] = {"", (1 << STABILITY_STAGES) - 1},
-    [FORM_PREPARED] = {", prepared", 1 << STABILITY_VALUE | 1 << STABILITY_PDF | 1 << STABILITY_SAMPLE},
+    [FORM_PREPARED] = {", prepared",
+                       1 << STABILITY_VALUE | 1 << STABILITY_PDF | 1 << STABILITY_SAMPLE},
     [FORM_BATCH] = {", batch", 1 << STABILITY_ANALYTIC | 1 << STABILITY_VALUE},
     [FORM_MANY] = {", many", 1 << STABILITY_VALUE},
 };

@@ -1,4 +1,5 @@
-/* cases.c: the hard cases: what each does to a material, and which pairs of directions it looks at. */
+/* cases.c: the hard cases: what each does to a material, and which pairs of directions it looks
+ * at. */
 #include "stability/cases.h"
 
 #include <float.h>
@@ -80,7 +81,8 @@ static void near_mirror(hnbrdf_rng *rng, int number, hnbrdf_material *m)
         m->alpha[1] = alphas[(number + 1) % 3];
 }
 
-/* Indices from the least above 1 to the greatest, apart from channel to channel; kd all or nothing. */
+/* Indices from the least above 1 to the greatest, apart from channel to channel; kd all or
+ * nothing. */
 static void far_channels(hnbrdf_rng *rng, int number, hnbrdf_material *m)
 {
     static const float etas[] = {1.0f + FLT_EPSILON, HNBRDF_MAX_ETA, 1.0001f, 1.5f, 30.0f};
@@ -100,8 +102,8 @@ static void great_latent(hnbrdf_rng *rng, int number, hnbrdf_material *m)
         m->latent[i] *= factor;
 }
 
-/* Any lobes that are allowed: narrow and wide, all normals or visible ones; at some views all samples
- * or none. */
+/* Any lobes that are allowed: narrow and wide, all normals or visible ones; at some views all
+ * samples or none. */
 static void any_lobes(hnbrdf_rng *rng, int number, hnbrdf_material *m)
 {
     any_material(rng, number, m);
@@ -208,7 +210,8 @@ static void mirror_pair(hnbrdf_rng *rng, int k, const hnbrdf_material *m, float 
         nudge(rng, wi);
 }
 
-static void half_at_normal(hnbrdf_rng *rng, int k, const hnbrdf_material *m, float wi[3], float wo[3])
+static void half_at_normal(hnbrdf_rng *rng, int k, const hnbrdf_material *m, float wi[3],
+                           float wo[3])
 {
     any_pair(rng, k, m, wi, wo);
     mirror(wo, wi);
@@ -217,7 +220,8 @@ static void half_at_normal(hnbrdf_rng *rng, int k, const hnbrdf_material *m, flo
 }
 
 /* Both within 1e-7 of the horizon, on one side. */
-static void half_at_horizon(hnbrdf_rng *rng, int k, const hnbrdf_material *m, float wi[3], float wo[3])
+static void half_at_horizon(hnbrdf_rng *rng, int k, const hnbrdf_material *m, float wi[3],
+                            float wo[3])
 {
     (void)m;
     at_height(rng, power(rng, -9.0f, -7.0f), wi);
@@ -237,14 +241,16 @@ static void grazing(hnbrdf_rng *rng, int k, const hnbrdf_material *m, float wi[3
         at_height(rng, power(rng, -7.0f, -1.0f), wi);
 }
 
-static void smallest_cosine(hnbrdf_rng *rng, int k, const hnbrdf_material *m, float wi[3], float wo[3])
+static void smallest_cosine(hnbrdf_rng *rng, int k, const hnbrdf_material *m, float wi[3],
+                            float wo[3])
 {
     static const float heights[] = {FLT_MIN, 1e-37f, 1e-30f, 1e-20f, 1e-12f, 1e-7f};
     any_pair(rng, k, m, wi, wo);
     at_height(rng, heights[pick(rng, 6)], k % 2 ? wi : wo);
 }
 
-static void both_smallest(hnbrdf_rng *rng, int k, const hnbrdf_material *m, float wi[3], float wo[3])
+static void both_smallest(hnbrdf_rng *rng, int k, const hnbrdf_material *m, float wi[3],
+                          float wo[3])
 {
     static const float heights[] = {FLT_MIN, 1e-37f, 1e-30f, 1e-20f, 1e-12f};
     (void)m;
@@ -278,7 +284,8 @@ static void retro(hnbrdf_rng *rng, int k, const hnbrdf_material *m, float wi[3],
 }
 
 /* wi = -wo but for heights of 1e-7 to 1e-2, and within an ulp of that. */
-static void nearly_opposite(hnbrdf_rng *rng, int k, const hnbrdf_material *m, float wi[3], float wo[3])
+static void nearly_opposite(hnbrdf_rng *rng, int k, const hnbrdf_material *m, float wi[3],
+                            float wo[3])
 {
     (void)m;
     at_height(rng, power(rng, -7.0f, -2.0f), wi);
@@ -303,7 +310,8 @@ static void opposite(hnbrdf_rng *rng, int k, const hnbrdf_material *m, float wi[
 }
 
 /* Where a mirror sends what grazes it: wi within an ulp of there. */
-static void grazing_mirror(hnbrdf_rng *rng, int k, const hnbrdf_material *m, float wi[3], float wo[3])
+static void grazing_mirror(hnbrdf_rng *rng, int k, const hnbrdf_material *m, float wi[3],
+                           float wo[3])
 {
     (void)m;
     at_height(rng, power(rng, -7.0f, -2.0f), wo);
@@ -342,8 +350,9 @@ static void broken_pair(hnbrdf_rng *rng, int k, const hnbrdf_material *m, float 
 /* ---- The table
  * --------------------------------------------------------------------------------------- */
 
-#define OFTEN_CANCELS                                                                                  \
-    "an exponent that is a small difference of great terms: what the network sums up has lost its "    \
+#define OFTEN_CANCELS                                                                           \
+    "an exponent that is a small difference of great terms: what the network sums up has lost " \
+    "its "                                                                                      \
     "digits"
 
 const stability_case stability_cases[] = {
@@ -353,10 +362,11 @@ const stability_case stability_cases[] = {
      STABILITY_ACCURATE, .change = as_it_is, .pair = any_pair},
     {"alpha", "alpha 1e-4 to 1, half vectors over the lobe", NULL, STABILITY_ACCURATE,
      STABILITY_ACCURATE, .change = each_alpha, .pair = lobe_pair},
-    {"anisotropy", "alpha_x : alpha_y to 1e4 : 1, half vectors over the lobe", NULL, STABILITY_ACCURATE,
-     STABILITY_ACCURATE, .change = needle, .pair = lobe_pair},
+    {"anisotropy", "alpha_x : alpha_y to 1e4 : 1, half vectors over the lobe", NULL,
+     STABILITY_ACCURATE, STABILITY_ACCURATE, .change = needle, .pair = lobe_pair},
     {"turned", "the same in a turned tangent frame",
-     "turning rounds x and y of each direction: that moves h across the needle, by 9 2^-24/(alpha s.z) "
+     "turning rounds x and y of each direction: that moves h across the needle, by 9 2^-24/(alpha "
+     "s.z) "
      "of its width",
      STABILITY_TURNED, STABILITY_TURNED, .change = turned_needle, .pair = lobe_pair},
     {"half-at-normal", "half vector within 1e-7 of n", NULL, STABILITY_ACCURATE, STABILITY_ACCURATE,
@@ -368,7 +378,8 @@ const stability_case stability_cases[] = {
     {"smallest-cosine", "one cosine down to the smallest normal float", NULL, STABILITY_ACCURATE,
      STABILITY_ACCURATE, .change = any_material, .pair = smallest_cosine},
     {"both-smallest", "both cosines 1e-12 to the smallest normal float",
-     "below 1e-19 the squares of wi.z + wo.z, and of |wi + wo| of opposite directions, are no floats",
+     "below 1e-19 the squares of wi.z + wo.z, and of |wi + wo| of opposite directions, are no "
+     "floats",
      STABILITY_FINITE, STABILITY_FINITE, .change = any_material, .pair = both_smallest},
     {"at-zero", "a cosine 0, -0, subnormal or negative; wi = -wo",
      "a subnormal cosine may be flushed to 0, which is below the horizon", STABILITY_FINITE,
@@ -379,23 +390,25 @@ const stability_case stability_cases[] = {
      STABILITY_ACCURATE, .change = each_alpha, .pair = mirror_pair},
     {"opposite", "wi = -wo but for cosines of 1e-7 to 0.01, and within an ulp", NULL,
      STABILITY_ACCURATE, STABILITY_ACCURATE, .change = each_alpha, .pair = nearly_opposite},
-    {"opposite-exact", "wi = -wo exactly and within an ulp: one of them is not above the horizon", NULL,
-     STABILITY_ACCURATE, STABILITY_ACCURATE, .change = any_material, .pair = opposite},
-    {"mirror-grazing", "alpha 1e-4 to 1e-3, mirror image at cosines 1e-7 to 0.01, and within an ulp",
-     NULL, STABILITY_ACCURATE, STABILITY_ACCURATE, .change = near_mirror, .pair = grazing_mirror},
+    {"opposite-exact", "wi = -wo exactly and within an ulp: one of them is not above the horizon",
+     NULL, STABILITY_ACCURATE, STABILITY_ACCURATE, .change = any_material, .pair = opposite},
+    {"mirror-grazing",
+     "alpha 1e-4 to 1e-3, mirror image at cosines 1e-7 to 0.01, and within an ulp", NULL,
+     STABILITY_ACCURATE, STABILITY_ACCURATE, .change = near_mirror, .pair = grazing_mirror},
     {"lobes", "lobes for sampling 1e-4 to 1e4 times as wide as alpha, shares 0 to 1", NULL,
      STABILITY_ACCURATE, STABILITY_ACCURATE, .change = any_lobes, .pair = lobe_pair},
     {"eta", "eta 1 + 2^-23 to 1000, channels far apart; kd 0 and 1", NULL, STABILITY_ACCURATE,
      STABILITY_ACCURATE, .change = far_channels, .pair = lobe_pair},
     {"latent", "latent code times 1 to 3e11", OFTEN_CANCELS, STABILITY_ACCURATE, STABILITY_FINITE,
      .change = great_latent, .pair = any_pair},
-    {"weights-12", "the largest weight 12, as in published models", OFTEN_CANCELS, STABILITY_ACCURATE,
-     STABILITY_FINITE, .change = as_it_is, .pair = any_pair, .largest_weight = 12.0f},
+    {"weights-12", "the largest weight 12, as in published models", OFTEN_CANCELS,
+     STABILITY_ACCURATE, STABILITY_FINITE, .change = as_it_is, .pair = any_pair,
+     .largest_weight = 12.0f},
     {"weights-1200", "the largest weight 1200: half precision overflows", OFTEN_CANCELS,
      STABILITY_ACCURATE, STABILITY_FINITE, .change = as_it_is, .pair = any_pair,
      .largest_weight = 1200.0f},
-    {"weights-100", "weights and biases times 100", OFTEN_CANCELS, STABILITY_ACCURATE, STABILITY_FINITE,
-     .change = as_it_is, .pair = any_pair, .weight_factor = 100.0f},
+    {"weights-100", "weights and biases times 100", OFTEN_CANCELS, STABILITY_ACCURATE,
+     STABILITY_FINITE, .change = as_it_is, .pair = any_pair, .weight_factor = 100.0f},
     {"weights-1e12", "weights and biases times 1e12: products overflow", OFTEN_CANCELS,
      STABILITY_ACCURATE, STABILITY_FINITE, .change = as_it_is, .pair = any_pair,
      .weight_factor = 1e12f},
@@ -408,7 +421,8 @@ const stability_case stability_cases[] = {
     {"not-finite", "NaN and infinity in directions", "there is no true value", STABILITY_FINITE,
      STABILITY_FINITE, .change = as_it_is, .pair = broken_pair, .not_a_number = 1},
     {"not-finite-field", "NaN and infinity in each field of a material", "there is no true value",
-     STABILITY_FINITE, STABILITY_FINITE, .change = broken_field, .pair = any_pair, .not_a_number = 1},
+     STABILITY_FINITE, STABILITY_FINITE, .change = broken_field, .pair = any_pair,
+     .not_a_number = 1},
     {"not-finite-u", "NaN, infinity and numbers outside of [0, 1) for sampling",
      "there is no true value", STABILITY_FINITE, STABILITY_FINITE, .change = any_material,
      .pair = any_pair, .not_a_number = 1, .broken_u = 1},

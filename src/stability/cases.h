@@ -1,5 +1,5 @@
-/* cases.h: where evaluating a BRDF in floats is hard: the materials and pairs that `hnbrdf stability`
- * tries. */
+/* cases.h: where evaluating a BRDF in floats is hard: the materials and pairs that `hnbrdf
+ * stability` tries. */
 #ifndef HNBRDF_STABILITY_CASES_H
 #define HNBRDF_STABILITY_CASES_H
 
@@ -20,7 +20,8 @@ enum { STABILITY_FIELDS = sizeof(hnbrdf_material) / sizeof(float) };
 typedef enum stability_demand {
     STABILITY_ACCURATE = 0, /* the bars of judge.h */
     STABILITY_TURNED,       /* the same; kept apart in summaries: see turned_bar() in run.c */
-    STABILITY_FINITE        /* a finite value that is not negative; errors are shown, `why` says why */
+    /* a finite value that is not negative; errors are shown, `why` says why */
+    STABILITY_FINITE
 } stability_demand;
 
 typedef struct stability_case {
@@ -36,14 +37,15 @@ typedef struct stability_case {
     float weight_factor;  /* on the network's weights and biases */
     float largest_weight; /* the factor that makes this the largest of them */
     int not_a_number;     /* 1: some arguments are NaN or infinite; there is no true value */
-    int broken_u;         /* 1: every second of the random numbers for sampling too, or outside of [0, 1) */
+    /* 1: every second of the random numbers for sampling too, or outside of [0, 1) */
+    int broken_u;
 } stability_case;
 
 extern const stability_case stability_cases[];
 extern const int stability_case_count;
 
-/* Block `number` of a case: the material changed as the case asks, its pairs and random numbers; the
- * same for the same arguments. */
+/* Block `number` of a case: the material changed as the case asks, its pairs and random numbers;
+ * the same for the same arguments. */
 void stability_block_make(const stability_case *what, int number, const hnbrdf_material *material,
                           stability_block *block);
 

@@ -53,7 +53,8 @@ static void make_pair(stability_map_kind kind, hnbrdf_rng *rng, int row, int col
 {
     double x = (column + (double)hnbrdf_rng_float(rng)) / SIDE,
            y = (row + (double)hnbrdf_rng_float(rng)) / SIDE;
-    double phi = 2.0 * PI * (double)hnbrdf_rng_float(rng), other = (double)hnbrdf_rng_float(rng), w[3];
+    double phi = 2.0 * PI * (double)hnbrdf_rng_float(rng), other = (double)hnbrdf_rng_float(rng),
+           w[3];
     if (kind == STABILITY_MAP_HALF) {
         direction(one_minus(x, STABILITY_NEAR_HALF), phi, w);
         if (x < 0.5)
@@ -82,8 +83,8 @@ static double relative_error(stability_map_kind kind, const oracle_point *point,
 }
 
 /* PER_BLOCK cells of one row from `column` on. */
-static hnbrdf_result map_block(const hnbrdf_model_desc *desc, stability_map_kind kind, hnbrdf_rng *rng,
-                               int row, int column, stability_block *block,
+static hnbrdf_result map_block(const hnbrdf_model_desc *desc, stability_map_kind kind,
+                               hnbrdf_rng *rng, int row, int column, stability_block *block,
                                stability_backend *const *backends, int count,
                                float (*errors)[SIDE][SIDE], hnbrdf_error *error)
 {
@@ -129,7 +130,8 @@ hnbrdf_result stability_map(const hnbrdf_model *model, const hnbrdf_material *ma
             block.material.rotation = 0.0f;
         }
         for (int column = 0; column < SIDE && !result; column += PER_BLOCK)
-            result = map_block(&desc, kind, &rng, row, column, &block, backends, count, errors, error);
+            result =
+                map_block(&desc, kind, &rng, row, column, &block, backends, count, errors, error);
     }
     return result;
 }

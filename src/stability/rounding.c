@@ -1,5 +1,5 @@
-/* rounding.c: the network in double, forwards for its partial sums and backwards for what each of them
- * means to f. */
+/* rounding.c: the network in double, forwards for its partial sums and backwards for what each of
+ * them means to f. */
 #include "stability/rounding.h"
 
 #include <math.h>
@@ -19,7 +19,8 @@ typedef struct layer_sums {
     double bias[HNBRDF_MAX_HIDDEN];    /* the mean error, in units of UNIT */
 } layer_sums;
 
-/* The mean of what a state does to a rounded number, in units of UNIT: it rounds by up to two of them.
+/* The mean of what a state does to a rounded number, in units of UNIT: it rounds by up to two of
+ * them.
  */
 static double push(stability_state state, double value)
 {
@@ -50,8 +51,8 @@ static double hard_gelu(double x, double *slope)
 }
 
 /* Products one by one onto the bias, latent code first, as the library does. */
-static void forwards(const hnbrdf_model_desc *desc, int k, int rows, int columns, stability_state state,
-                     layer_sums *l, double next[WIDEST])
+static void forwards(const hnbrdf_model_desc *desc, int k, int rows, int columns,
+                     stability_state state, layer_sums *l, double next[WIDEST])
 {
     for (int r = 0; r < rows; r++) {
         double sum = (double)desc->biases[k][r];
@@ -79,15 +80,17 @@ static void slopes_of_outputs(const hnbrdf_model_desc *desc, const oracle_point 
     double exponent = scale * point->outputs[channel] + (double)desc->shift;
     double size = fmax(point->scale[channel], 1e-38);
     memset(slopes, 0, WIDEST * sizeof *slopes);
-    slopes[channel] = fabs(exponent) < (double)HNBRDF_MAX_EXPONENT ? scale * exp(exponent) / size : 0.0;
+    slopes[channel] =
+        fabs(exponent) < (double)HNBRDF_MAX_EXPONENT ? scale * exp(exponent) / size : 0.0;
     if (desc->kind == HNBRDF_KIND_HYBRID) {
         double gate = 1.0 / (1.0 + exp(-point->outputs[3 + channel]));
         slopes[3 + channel] = gate * (1.0 - gate) * point->analytic[channel] / size;
     }
 }
 
-stability_rounding stability_rounding_of(const hnbrdf_model_desc *desc, const hnbrdf_material *material,
-                                         const oracle_point *point, int channel, stability_state state)
+stability_rounding stability_rounding_of(const hnbrdf_model_desc *desc,
+                                         const hnbrdf_material *material, const oracle_point *point,
+                                         int channel, stability_state state)
 {
     layer_sums layers[HNBRDF_MAX_LAYERS + 1];
     double next[WIDEST], behind[WIDEST], before[WIDEST];

@@ -52,7 +52,8 @@ static double sensitivity(const hnbrdf_model_desc *desc, stability_stage stage,
             continue;
         *input = nextafterf(*input, 2.0f * *input + 1.0f);
         oracle_evaluate(desc, &moved.material, moved.pair, moved.pair + 3, &point);
-        total += fabs(truth(&point, stage, place->channel, &ignored) - place->expected) / place->scale;
+        total +=
+            fabs(truth(&point, stage, place->channel, &ignored) - place->expected) / place->scale;
     }
     return total;
 }
@@ -60,10 +61,10 @@ static double sensitivity(const hnbrdf_model_desc *desc, stability_stage stage,
 /* ---- Judging
  * ----------------------------------------------------------------------------------------- */
 
-/* Turning a direction rounds its x and y to 4.5 u, u = 2^-24: two products and a sum of numbers up to
- * 1, and the cosine and sine. Slopes of h = wi + wo are then 9 u/s.z off, in alphas 9 u/(s.z alpha),
- * and D = .../(1 + slope^2)^2 changes by at most twice that. Beyond a tenth it is no bound: none is
- * set. */
+/* Turning a direction rounds its x and y to 4.5 u, u = 2^-24: two products and a sum of numbers
+ * up to 1, and the cosine and sine. Slopes of h = wi + wo are then 9 u/s.z off, in alphas 9
+ * u/(s.z alpha), and D = .../(1 + slope^2)^2 changes by at most twice that. Beyond a tenth it is
+ * no bound: none is set. */
 static double turned_bar(const hnbrdf_material *material, const float pair[6])
 {
     double alpha = (double)fminf(material->alpha[0], material->alpha[1]);
@@ -73,9 +74,9 @@ static double turned_bar(const hnbrdf_material *material, const float pair[6])
 
 /* What rounding the view does to the shares of the lobes: 3 sqrt(wo.z), up to 3, is (2 x + 1) u off
  * between its knots, and shares go with it. A share that is small there and large at the next knot
- * feels that most; the lobe may be all there is of the density. The cosine lobe gets 1 less the others,
- * whose roundings, 6 u, stay, however little is left to it: so much of wi.z / pi, in terms of the
- * density. */
+ * feels that most; the lobe may be all there is of the density. The cosine lobe gets 1 less the
+ * others, whose roundings, 6 u, stay, however little is left to it: so much of wi.z / pi, in
+ * terms of the density. */
 static double shares_bar(const hnbrdf_material *material, const float pair[6], double pdf)
 {
     double x = fmin(3.0 * sqrt((double)pair[5]), 3.0), worst = 0.0, rest = 0.0;
@@ -83,7 +84,8 @@ static double shares_bar(const hnbrdf_material *material, const float pair[6], d
     if (material->lobes.scale[0] == 0.0f || !(pdf > 0.0))
         return 0.0;
     for (int k = 0; k < HNBRDF_LOBES; k++) {
-        double from = (double)material->lobes.share[k][j], to = (double)material->lobes.share[k][j + 1];
+        double from = (double)material->lobes.share[k][j],
+               to = (double)material->lobes.share[k][j + 1];
         double share = from + (x - j) * (to - from), off = (2.0 * x + 1.0) * fabs(to - from);
         rest += off;
         if (share > 0.0)
@@ -114,8 +116,8 @@ static double spacing(double size)
     return (double)(nextafterf(rounded, INFINITY) - rounded);
 }
 
-static void note_place(stability_row *row, const stability_block *block, int k, int channel, double got,
-                       double expected, double scale)
+static void note_place(stability_row *row, const stability_block *block, int k, int channel,
+                       double got, double expected, double scale)
 {
     row->place.material = block->material;
     memcpy(row->place.pair, block->pairs[k], sizeof row->place.pair);
@@ -181,7 +183,8 @@ static void judge_sample(stability_row *row, const hnbrdf_model_desc *desc,
                          const float values[STABILITY_NUMBERS])
 {
     float wi_z = values[2], pdf = values[6];
-    row->inconsistent += pdf > 0.0f && (!(wi_z > 0.0f) || memcmp(&pdf, &values[7], sizeof pdf) != 0);
+    row->inconsistent +=
+        pdf > 0.0f && (!(wi_z > 0.0f) || memcmp(&pdf, &values[7], sizeof pdf) != 0);
     if (!(pdf > 0.0f) || row->what->not_a_number)
         return;
     stability_block drawn = *block;
@@ -201,8 +204,8 @@ static void judge_block(stability_row *row, const hnbrdf_model_desc *desc,
 {
     int numbers = stability_stage_numbers(row->stage);
     for (int k = 0; k < STABILITY_BLOCK; k++) {
-        double bar =
-            bar_of(row->what, backend, row->stage, &block->material, block->pairs[k], points[k].pdf);
+        double bar = bar_of(row->what, backend, row->stage, &block->material, block->pairs[k],
+                            points[k].pdf);
         size_t differs = 0;
         int valid = 1;
         for (int n = 0; n < numbers; n++) {
@@ -342,12 +345,12 @@ static void close_row(const hnbrdf_model_desc *desc, const stability_row *first,
     } else if (row->applies && row->worst_scale > 0.0 && isfinite(row->place.expected)) {
         row->place.sensitivity = sensitivity(desc, row->stage, &row->place);
     }
-    row->within = row->not_finite + row->negative + row->inconsistent == 0 && row->worst_share <= 1.0 &&
-                  !(row->exact && row->differs > 0);
+    row->within = row->not_finite + row->negative + row->inconsistent == 0 &&
+                  row->worst_share <= 1.0 && !(row->exact && row->differs > 0);
 }
 
-static hnbrdf_result run_case(const runner *r, const stability_case *what, const hnbrdf_model *model,
-                              stability_row *rows)
+static hnbrdf_result run_case(const runner *r, const stability_case *what,
+                              const hnbrdf_model *model, stability_row *rows)
 {
     /* Cases that break one field after the other need as many blocks. */
     int least = what->not_a_number ? STABILITY_FIELDS + 1 : 1;

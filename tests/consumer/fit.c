@@ -1,4 +1,5 @@
-/* fit.c: fits a built-in material with the installed libraries and asks how far off the result is. */
+/* fit.c: fits a built-in material with the installed libraries and asks how far off the result
+ * is. */
 #include <hnbrdf/fit.h>
 #include <hnbrdf/metrics.h>
 
@@ -18,8 +19,8 @@ int main(void)
     options.pool = 4096;
     if (hnbrdf_measured_open_builtin(0, &data, &error) ||
         hnbrdf_fit((const hnbrdf_measured *const *)&data, 1, &options, &model, NULL, &error) ||
-        hnbrdf_compare(model, hnbrdf_model_material(model, 0), data, HNBRDF_SAMPLER_UNIFORM, 1000, 1,
-                       &comparison, &error)) {
+        hnbrdf_compare(model, hnbrdf_model_material(model, 0), data, HNBRDF_SAMPLER_UNIFORM, 1000,
+                       1, &comparison, &error)) {
         fprintf(stderr, "%s\n", error.text);
         return 1;
     }

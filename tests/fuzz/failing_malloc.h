@@ -6,7 +6,8 @@
 
 #include <stddef.h>
 
-/* From now on allocation number `fail_at` (from 0) fails, none if it is negative. Counts start anew. */
+/* From now on allocation number `fail_at` (from 0) fails, none if it is negative. Counts start
+ * anew. */
 void failing_malloc_begin(long fail_at);
 /* Ends that. How many allocations were asked for; *alive is how many more were made than freed. */
 long failing_malloc_end(long *alive);

@@ -1,5 +1,6 @@
 /* fuzz.h: what the fuzz targets share. A target is one file that defines LLVMFuzzerTestOneInput():
- * clang's libFuzzer drives it where HNBRDF_BUILD_FUZZERS is set, replay.c (any compiler) in the tests.
+ * clang's libFuzzer drives it where HNBRDF_BUILD_FUZZERS is set, replay.c (any compiler) in the
+ * tests.
  */
 #ifndef HNBRDF_TESTS_FUZZ_H
 #define HNBRDF_TESTS_FUZZ_H
@@ -15,12 +16,12 @@
 /* Whatever the bytes are, it returns; what the reader promised and did not keep aborts. */
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
-#define FUZZ_CHECK(condition)                                                                          \
-    do {                                                                                               \
-        if (!(condition)) {                                                                            \
-            fprintf(stderr, "%s:%d: broken promise: %s\n", __FILE__, __LINE__, #condition);            \
-            abort();                                                                                   \
-        }                                                                                              \
+#define FUZZ_CHECK(condition)                                                               \
+    do {                                                                                    \
+        if (!(condition)) {                                                                 \
+            fprintf(stderr, "%s:%d: broken promise: %s\n", __FILE__, __LINE__, #condition); \
+            abort();                                                                        \
+        }                                                                                   \
     } while (0)
 
 /* A refusal tells why, in one line without control characters. */

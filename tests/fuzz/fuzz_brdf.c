@@ -1,5 +1,5 @@
-/* fuzz_brdf.c: the bytes are a published BRDF-Explorer shader; after a NUL byte may follow a second one
- * of the same data set. */
+/* fuzz_brdf.c: the bytes are a published BRDF-Explorer shader; after a NUL byte may follow a
+ * second one of the same data set. */
 #include "fuzz.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)

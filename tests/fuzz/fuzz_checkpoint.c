@@ -1,5 +1,5 @@
-/* fuzz_checkpoint.c: the bytes are the state of a fit to go on from, after the fingerprint, which would
- * else refuse them all. What is taken is a state that training can stand in. */
+/* fuzz_checkpoint.c: the bytes are the state of a fit to go on from, after the fingerprint, which
+ * would else refuse them all. What is taken is a state that training can stand in. */
 #include "fuzz.h"
 
 #include "fit/trainer.h"
@@ -55,12 +55,15 @@ static void learn_start(void)
 
 static void check_state(const trainer *t)
 {
-    FUZZ_CHECK(t->step >= 0 && t->share >= 0.0 && t->share < 1.0 && t->peak > 0.0 && isfinite(t->peak));
+    FUZZ_CHECK(t->step >= 0 && t->share >= 0.0 && t->share < 1.0 && t->peak > 0.0 &&
+               isfinite(t->peak));
     FUZZ_CHECK(t->order_at >= 0 && t->order_at < MATERIALS);
     for (int i = 0; i < 3 * NUMBERS; i++)
         FUZZ_CHECK(isfinite(t->parameters[i]));
-    FUZZ_CHECK(t->since >= 0 && t->since <= t->step && t->best_step >= 0 && t->best_step <= t->step);
-    FUZZ_CHECK(t->set_backs >= 0 && t->best_dead >= 0 && t->best_loss >= 0.0 && isfinite(t->best_loss));
+    FUZZ_CHECK(t->since >= 0 && t->since <= t->step && t->best_step >= 0 &&
+               t->best_step <= t->step);
+    FUZZ_CHECK(t->set_backs >= 0 && t->best_dead >= 0 && t->best_loss >= 0.0 &&
+               isfinite(t->best_loss));
     for (int i = 0; i < NUMBERS; i++)
         FUZZ_CHECK(isfinite(t->best[i]));
     for (int m = 0; m < MATERIALS; m++)
@@ -71,7 +74,8 @@ static void check_state(const trainer *t)
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     unsigned char bytes[sizeof start + ROOM];
-    float *parameters = calloc(3 * NUMBERS, sizeof *parameters), *best = calloc(NUMBERS, sizeof *best);
+    float *parameters = calloc(3 * NUMBERS, sizeof *parameters),
+          *best = calloc(NUMBERS, sizeof *best);
     int *order = calloc(MATERIALS, sizeof *order), *cursor = calloc(MATERIALS, sizeof *cursor);
     hnbrdf_error error = {""};
     FUZZ_CHECK(parameters && best && order && cursor);

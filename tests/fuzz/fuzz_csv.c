@@ -51,7 +51,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     char eval[] = "eval", builtin[] = "builtin:rough-clay", input[] = "-i", output[] = "-o";
     char nowhere[] = "/dev/null", material[] = "-m", name[] = "a";
     char *arguments[] = {
-        eval, data[0] & 1 ? model_path : builtin, input, in_path, output, nowhere, NULL, NULL, NULL};
+        eval, data[0] & 1 ? model_path : builtin, input, in_path, output, nowhere, NULL, NULL,
+        NULL};
     const int named = data[0] & 1 && data[0] & 2;
     arguments[6] = named ? material : NULL;
     arguments[7] = named ? name : NULL;

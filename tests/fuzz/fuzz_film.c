@@ -1,5 +1,5 @@
-/* fuzz_film.c: the bytes are the state of a rendering to go on from, after magic and fingerprint, which
- * would else refuse them all. What is taken is a film that can be developed. */
+/* fuzz_film.c: the bytes are the state of a rendering to go on from, after magic and fingerprint,
+ * which would else refuse them all. What is taken is a film that can be developed. */
 #include "fuzz.h"
 
 #include "render/film.h"

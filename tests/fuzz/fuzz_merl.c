@@ -1,7 +1,7 @@
-/* fuzz_merl.c: the bytes are a MERL .binary file as they stand, and, where a whole header of the right
- * sizes is there, one of full size: a byte of options, then records of 12 bytes, each a place and a
- * double that replaces the sample there. A full table takes tens of milliseconds, so most of the search
- * is cheap. */
+/* fuzz_merl.c: the bytes are a MERL .binary file as they stand, and, where a whole header of the
+ * right sizes is there, one of full size: a byte of options, then records of 12 bytes, each a
+ * place and a double that replaces the sample there. A full table takes tens of milliseconds, so
+ * most of the search is cheap. */
 #include "fuzz_measured.h"
 
 enum { BINS = 90 * 90 * 180, HEADER = 12, RECORD = 12, MOST_RECORDS = 64 };

@@ -1,5 +1,5 @@
-/* fuzz_obj.c: the bytes are a Wavefront OBJ file. What is read has indices within its arrays, finite
- * coordinates and unit normals. */
+/* fuzz_obj.c: the bytes are a Wavefront OBJ file. What is read has indices within its arrays,
+ * finite coordinates and unit normals. */
 #include "fuzz.h"
 
 #include "render/mesh.h"

@@ -1,5 +1,5 @@
-/* fuzz_picture.h: what the targets for pictures share: a picture that was read becomes an environment,
- * which is asked and sampled. */
+/* fuzz_picture.h: what the targets for pictures share: a picture that was read becomes an
+ * environment, which is asked and sampled. */
 #ifndef HNBRDF_TESTS_FUZZ_PICTURE_H
 #define HNBRDF_TESTS_FUZZ_PICTURE_H
 

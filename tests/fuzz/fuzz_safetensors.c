@@ -1,5 +1,5 @@
-/* fuzz_safetensors.c: the bytes are a model file. What loads is sound: it evaluates, exports, and saved
- * and loaded again it is the same. */
+/* fuzz_safetensors.c: the bytes are a model file. What loads is sound: it evaluates, exports, and
+ * saved and loaded again it is the same. */
 #include "fuzz.h"
 
 /* Largest block asked for while loading. */
@@ -71,7 +71,8 @@ static void check_export(const hnbrdf_model *model)
     const hnbrdf_glsl_options options = {.materials = only_first, .material_count = 1, .fixed = 1};
     size_t count = 0;
     hnbrdf_error error;
-    const hnbrdf_result result = hnbrdf_export_glsl(model, &options, fuzz_count_bytes, &count, &error);
+    const hnbrdf_result result =
+        hnbrdf_export_glsl(model, &options, fuzz_count_bytes, &count, &error);
     if (result)
         fuzz_check_refusal(result, &error);
     else

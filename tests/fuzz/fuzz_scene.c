@@ -1,4 +1,5 @@
-/* fuzz_scene.c: the bytes are a scene as text. What is read keeps to its limits; no file is opened. */
+/* fuzz_scene.c: the bytes are a scene as text. What is read keeps to its limits; no file is
+ * opened. */
 #include "fuzz.h"
 
 #include "render/describe.h"
@@ -6,7 +7,8 @@
 static void check_shape(const render_description *d, const render_text_shape *shape)
 {
     FUZZ_CHECK(shape->material >= -1 && shape->material < d->material_count);
-    FUZZ_CHECK(shape->options.profile_count >= 0 && shape->options.profile_count <= RENDER_MAX_PROFILE);
+    FUZZ_CHECK(shape->options.profile_count >= 0 &&
+               shape->options.profile_count <= RENDER_MAX_PROFILE);
     FUZZ_CHECK(shape->use_count >= 0 && shape->use_count <= RENDER_MAX_USES);
     for (int u = 0; u < shape->use_count; u++)
         FUZZ_CHECK(shape->uses[u].material >= 0 && shape->uses[u].material < d->material_count);

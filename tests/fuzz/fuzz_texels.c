@@ -1,5 +1,5 @@
-/* fuzz_texels.c: a packing and texels from anywhere. Whatever the bits, a packing that passes its check
- * gives materials that pass theirs, and packing what was unpacked stays within the texels. */
+/* fuzz_texels.c: a packing and texels from anywhere. Whatever the bits, a packing that passes its
+ * check gives materials that pass theirs, and packing what was unpacked stays within the texels. */
 #include "fuzz.h"
 
 /* The next float of the bytes, which never run out. */

@@ -1,6 +1,6 @@
-/* fuzz_utia.c: the bytes are a UTIA .bin file as they stand, and patches of one of full size: a byte of
- * options, a float for utia_scale, then records of 12 bytes, each a place and a double for the sample
- * there. */
+/* fuzz_utia.c: the bytes are a UTIA .bin file as they stand, and patches of one of full size: a
+ * byte of options, a float for utia_scale, then records of 12 bytes, each a place and a double
+ * for the sample there. */
 #include "fuzz_measured.h"
 
 enum { SAMPLES = 3 * 288 * 288, START = 5, RECORD = 12, MOST_RECORDS = 64 };

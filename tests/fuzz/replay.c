@@ -1,5 +1,5 @@
-/* replay.c: runs a fuzz target over files and directories given as arguments, in byte order of their
- * names, with any compiler: what the fuzzer once found must never come back. */
+/* replay.c: runs a fuzz target over files and directories given as arguments, in byte order of
+ * their names, with any compiler: what the fuzzer once found must never come back. */
 #include "fuzz.h"
 
 #include <dirent.h>

@@ -1,5 +1,6 @@
-/* seeds.c: writes the seed corpora of the fuzz targets, DIRECTORY/TARGET/NAME: small files of each kind
- * that are read without a complaint, made by the library's own writers where it has one. */
+/* seeds.c: writes the seed corpora of the fuzz targets, DIRECTORY/TARGET/NAME: small files of
+ * each kind that are read without a complaint, made by the library's own writers where it has
+ * one. */
 #include "fuzz.h"
 
 #include "measured_support.h"
@@ -15,7 +16,8 @@ static FILE *create(const char *name)
     char path[4096];
     FUZZ_CHECK((size_t)snprintf(path, sizeof path, "%s/%s", directory, target) < sizeof path);
     mkdir(path, 0777);
-    FUZZ_CHECK((size_t)snprintf(path, sizeof path, "%s/%s/%s", directory, target, name) < sizeof path);
+    FUZZ_CHECK((size_t)snprintf(path, sizeof path, "%s/%s/%s", directory, target, name) <
+               sizeof path);
     FILE *file = fopen(path, "wb");
     FUZZ_CHECK(file != NULL);
     return file;
@@ -33,7 +35,8 @@ static void put_text(const char *name, const char *text)
     put(name, text, strlen(text));
 }
 
-/* ---- Models -------------------------------------------------------------------------------------- */
+/* ---- Models
+ * -------------------------------------------------------------------------------------- */
 
 static int write_stream(void *user, const void *data, size_t size)
 {
@@ -106,7 +109,8 @@ static void write_shaders(void)
     put("both", text, first + 1 + second);
 }
 
-/* ---- Measurements -------------------------------------------------------------------------------- */
+/* ---- Measurements
+ * -------------------------------------------------------------------------------- */
 
 static void put_bytes(const char *name, test_bytes file)
 {
@@ -140,10 +144,11 @@ static void write_measured(void)
     put("srgb", patch, 5 + 24);
 }
 
-/* ---- Pictures ------------------------------------------------------------------------------------ */
+/* ---- Pictures
+ * ------------------------------------------------------------------------------------ */
 
-/* The file, and as one of every other compression: a block that does not get smaller is stored as it
- * is, whatever the compression. */
+/* The file, and as one of every other compression: a block that does not get smaller is stored as
+ * it is, whatever the compression. */
 static void put_compressions(const char *name, render_bytes *file)
 {
     static const char attribute[] =
@@ -179,9 +184,10 @@ static void write_pictures(void)
 {
     static const char flat[] =
         "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n+Y 1 +X 2\n\x80\x80\x80\x81\x40\x20\x10\x82";
-    static const char runs[] = "#?RGBE\n# a comment\nEXPOSURE=1\n\n-Y 2 +X 8\n"
-                               "\x02\x02\x00\x08\x88\x40\x88\x50\x88\x60\x88\x81"
-                               "\x02\x02\x00\x08\x04\x01\x02\x03\x04\x84\x07\x88\x50\x88\x60\x88\x81";
+    static const char runs[] =
+        "#?RGBE\n# a comment\nEXPOSURE=1\n\n-Y 2 +X 8\n"
+        "\x02\x02\x00\x08\x88\x40\x88\x50\x88\x60\x88\x81"
+        "\x02\x02\x00\x08\x04\x01\x02\x03\x04\x84\x07\x88\x50\x88\x60\x88\x81";
     target = "exr";
     put_exr("half", 4, 2, 0, 1);
     put_exr("float_alpha", 3, 18, 1, 0);
@@ -191,17 +197,18 @@ static void write_pictures(void)
     put("runs", runs, sizeof runs - 1);
 }
 
-/* ---- The rest ------------------------------------------------------------------------------------ */
+/* ---- The rest
+ * ------------------------------------------------------------------------------------ */
 
 static void write_pairs(void)
 {
     target = "csv";
     put_text("builtin", " 0,0,1,0.6,0,0.8\r\n0.6,0,0.8,0,0,1\n");
-    put_text("header",
-             " \xef\xbb\xbfwo_z,\"wo_y\",wo_x, wi_z ,wi_y,wi_x,note\n1,0,0,1,0,0,\"a \"\"b\"\"\"\n\n");
     put_text(
-        "material",
-        "\1wi_x,wi_y,wi_z,wo_x,wo_y,wo_z,material\n0,0,1,0,0,1,a\n0,0,1,1e-3,0,1,\"b, \"\"c\"\"\"\n");
+        "header",
+        " \xef\xbb\xbfwo_z,\"wo_y\",wo_x, wi_z ,wi_y,wi_x,note\n1,0,0,1,0,0,\"a \"\"b\"\"\"\n\n");
+    put_text("material", "\1wi_x,wi_y,wi_z,wo_x,wo_y,wo_z,material\n0,0,1,0,0,1,a\n0,0,1,1e-3,0,1,"
+                         "\"b, \"\"c\"\"\"\n");
     put_text("named", "\3"
                       "0,0,1,-.5,+0.5,7.0710678E-1\n");
 }
@@ -220,7 +227,8 @@ static void write_texels(void)
     put("bytes", bytes, sizeof bytes);
 }
 
-/* As fuzz_checkpoint.c has it: 5 numbers, 2 materials, 4 tiles each; after magic and fingerprint. */
+/* As fuzz_checkpoint.c has it: 5 numbers, 2 materials, 4 tiles each; after magic and fingerprint.
+ * */
 static void write_checkpoint(void)
 {
     enum { NUMBERS_AT = 16 + 3 * 8 + 2 * 8 + 4 * 8 + 8, ORDER_AT = NUMBERS_AT + 4 * 5 * 4 };
@@ -238,28 +246,33 @@ static void write_checkpoint(void)
     put("half_way", bytes, sizeof bytes);
 }
 
-/* ---- Scenes -------------------------------------------------------------------------------------- */
+/* ---- Scenes
+ * -------------------------------------------------------------------------------------- */
 
 static void write_scenes(void)
 {
     /* As fuzz_film.c has it: 17 x 2 pixels, two tiles; after magic and fingerprint. */
     unsigned char film[8 + 2 * 4 + 17 * 2 * 10 * 8] = {17, 0, 0, 0, 2, 0, 0, 0, 4, 0, 0, 0, 3};
     target = "obj";
-    put_text("corners", "# all forms\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvt 0 0\nvt 1 0\nvn 0 0 1\n"
-                        "f 1 2 3\nf 1/1 2/2 3/1\nf 1//1 2//1 4//1\nf -1/1/1 -2/1/1 -3/2/1\n");
-    put_text("polygons", "o a\nv 0 0 0\nv 2 0 0\nv 2 2 0\nv 1 .5 0\nv 0 2 0\nusemtl b c\nf 1 2 3 4 5\n"
-                         "g d\nf 5 4 \\\r\n 3 2\n");
+    put_text("corners",
+             "# all forms\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvt 0 0\nvt 1 0\nvn 0 0 1\n"
+             "f 1 2 3\nf 1/1 2/2 3/1\nf 1//1 2//1 4//1\nf -1/1/1 -2/1/1 -3/2/1\n");
+    put_text("polygons",
+             "o a\nv 0 0 0\nv 2 0 0\nv 2 2 0\nv 1 .5 0\nv 0 2 0\nusemtl b c\nf 1 2 3 4 5\n"
+             "g d\nf 5 4 \\\r\n 3 2\n");
     target = "scene";
     put_text("room", "camera from 0 1 4 to 0 0 0 fov 40 up 0 1 0 lens 0.1 focus 4\nsize 64 48\n"
                      "environment sky rotate 30 gain 2 hidden\nexposure 1\nbounces 4\n"
                      "portal corner 0 0 0 edge 1 0 0 edge 0 1 0\nmaterial a diffuse 0.5 0.5 0.5\n"
                      "material b ggx kd 0 0 0 eta 2 3 4 alpha 0.1 0.3\nmaterial c model \"m x\" y\n"
-                     "shape quad scale 4 material a\nshape lathe profile 0 0 1 0 1 0 0.5 1 material b move 1 0 0\n");
-    put_text("shapes", "camera from 0 0 4 to 0 0 0 fov 40\nmaterial a builtin rough-clay\n"
-                       "material b measured x.bsdf\nshape sphere emit 1 2 3\nshape box stretch 1 2 3\n"
-                       "shape torus tube 0.2 detail 12 turn 30\nshape knot turns 2 5 tube 0.1\n"
-                       "shape superellipsoid powers 0.2 1.5 rotate 1 1 0 40\nshape teapot material a\n"
-                       "shape obj a.obj use part a smooth material b\n");
+                     "shape quad scale 4 material a\nshape lathe profile 0 0 1 0 1 0 0.5 1 "
+                     "material b move 1 0 0\n");
+    put_text("shapes",
+             "camera from 0 0 4 to 0 0 0 fov 40\nmaterial a builtin rough-clay\n"
+             "material b measured x.bsdf\nshape sphere emit 1 2 3\nshape box stretch 1 2 3\n"
+             "shape torus tube 0.2 detail 12 turn 30\nshape knot turns 2 5 tube 0.1\n"
+             "shape superellipsoid powers 0.2 1.5 rotate 1 1 0 40\nshape teapot material a\n"
+             "shape obj a.obj use part a smooth material b\n");
     target = "film";
     put("film", film, sizeof film);
 }

@@ -1,5 +1,6 @@
-/* test_allocation.c: whichever allocation of a call fails, first, second and so on up to the last, the
- * call says HNBRDF_ERROR_MEMORY in one line, leaves its result alone and leaks nothing. */
+/* test_allocation.c: whichever allocation of a call fails, first, second and so on up to the
+ * last, the call says HNBRDF_ERROR_MEMORY in one line, leaves its result alone and leaks nothing.
+ */
 #include "failing_malloc.h"
 #include "measured_support.h"
 
@@ -18,7 +19,8 @@ enum { MOST_SITES = 200 };
 /* Does its work once and frees what it made. */
 typedef hnbrdf_result (*job)(const void *with, hnbrdf_error *error);
 
-/* Runs it with allocation 0, 1, 2 ... failing until none is left to fail; there must be `least` sites.
+/* Runs it with allocation 0, 1, 2 ... failing until none is left to fail; there must be `least`
+ * sites.
  */
 static void survive(job work, const void *with, long least)
 {
@@ -51,7 +53,8 @@ static int count_bytes(void *user, const void *data, size_t size)
     return 0;
 }
 
-/* ---- Models -------------------------------------------------------------------------------------- */
+/* ---- Models
+ * -------------------------------------------------------------------------------------- */
 
 /* Loads a file, describes it and makes the same again, saves and exports that. */
 static hnbrdf_result use_model(const void *with, hnbrdf_error *error)
@@ -70,7 +73,8 @@ static hnbrdf_result use_model(const void *with, hnbrdf_error *error)
     if (!result)
         result = hnbrdf_model_save(made, path, error);
     for (int style = 0; !result && style < 3; style++) {
-        const hnbrdf_glsl_options options = {.standalone = 1, .weights = (hnbrdf_glsl_weights)style};
+        const hnbrdf_glsl_options options = {.standalone = 1,
+                                             .weights = (hnbrdf_glsl_weights)style};
         result = hnbrdf_export_glsl(made, &options, count_bytes, &count, error);
         if (!result)
             result = hnbrdf_export_weights(made, &options, count_bytes, &count, error);
@@ -103,7 +107,8 @@ static hnbrdf_result import_shader(const void *with, hnbrdf_error *error)
         fclose(file);
     }
     const size_t sizes[] = {strlen(text)};
-    const hnbrdf_result result = hnbrdf_model_import_brdf(texts, sizes, names, 1, NULL, &model, error);
+    const hnbrdf_result result =
+        hnbrdf_model_import_brdf(texts, sizes, names, 1, NULL, &model, error);
     hnbrdf_model_free(model);
     return result;
 }
@@ -114,7 +119,8 @@ static void imports_survive(void **state)
     survive(import_shader, HNBRDF_TEST_DATA "/sample_plain.brdf", 2);
 }
 
-/* ---- Measurements -------------------------------------------------------------------------------- */
+/* ---- Measurements
+ * -------------------------------------------------------------------------------- */
 
 typedef struct measured_file {
     test_bytes bytes;
@@ -127,8 +133,8 @@ static hnbrdf_result open_measured(const void *with, hnbrdf_error *error)
     const measured_file *file = with;
     hnbrdf_measured *measured = NULL;
     const hnbrdf_result result =
-        file->bytes.data ? hnbrdf_measured_open_memory(file->bytes.data, file->bytes.size, file->path,
-                                                       &file->options, &measured, error)
+        file->bytes.data ? hnbrdf_measured_open_memory(file->bytes.data, file->bytes.size,
+                                                       file->path, &file->options, &measured, error)
                          : hnbrdf_measured_open(file->path, &file->options, &measured, error);
     assert_int_equal(result == HNBRDF_OK, measured != NULL);
     hnbrdf_measured_close(measured);
@@ -197,7 +203,8 @@ static void built_in_and_custom_materials_survive(void **state)
     survive(open_others, NULL, 3);
 }
 
-/* ---- Fitting ------------------------------------------------------------------------------------- */
+/* ---- Fitting
+ * ------------------------------------------------------------------------------------- */
 
 typedef struct fit_case {
     hnbrdf_measured *data[2];
@@ -269,7 +276,8 @@ static void fits_survive(void **state)
     remove(path);
 }
 
-/* ---- Pictures ------------------------------------------------------------------------------------ */
+/* ---- Pictures
+ * ------------------------------------------------------------------------------------ */
 
 /* A picture to a file and back, and light of it. `with` is the file's path. */
 static hnbrdf_result use_picture(const void *with, hnbrdf_error *error)

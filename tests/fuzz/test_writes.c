@@ -1,7 +1,7 @@
-/* test_writes.c: files that stop short and disks that are full, at any byte: reading and writing fail
- * in words, and the old file stays as it was, also when the process ends in the middle. The limit on
- * the size of files (RLIMIT_FSIZE) stands for the full disk: it needs no rights, and can be had at
- * every byte. */
+/* test_writes.c: files that stop short and disks that are full, at any byte: reading and writing
+ * fail in words, and the old file stays as it was, also when the process ends in the middle. The
+ * limit on the size of files (RLIMIT_FSIZE) stands for the full disk: it needs no rights, and can
+ * be had at every byte. */
 #include "model_support.h"
 
 #include "render/image.h"
@@ -103,8 +103,8 @@ static const writer writers[] = {{"a.safetensors", save_model, 1},
 };
 enum { WRITERS = sizeof writers / sizeof writers[0] };
 
-/* The path of the writer's file, with the old content, which is also given back; *size that of the new
- * one. */
+/* The path of the writer's file, with the old content, which is also given back; *size that of
+ * the new one. */
 static bytes begin(const writer *w, char path[256], size_t *size)
 {
     snprintf(path, 256, "%s/%s", directory, w->name);
@@ -186,7 +186,8 @@ static void a_process_that_is_killed_leaves_the_old_file(void **state)
     }
 }
 
-/* ---- Callbacks ----------------------------------------------------------------------------------- */
+/* ---- Callbacks
+ * ----------------------------------------------------------------------------------- */
 
 static int refuse(void *user, const void *data, size_t size)
 {
@@ -222,8 +223,8 @@ static hnbrdf_result write_weights(hnbrdf_write_fn write, void *user, hnbrdf_err
 
 static void a_callback_may_refuse_at_every_byte(void **state)
 {
-    hnbrdf_result (*const all[])(hnbrdf_write_fn, void *, hnbrdf_error *) = {write_model, write_glsl,
-                                                                             write_weights};
+    hnbrdf_result (*const all[])(hnbrdf_write_fn, void *,
+                                 hnbrdf_error *) = {write_model, write_glsl, write_weights};
     (void)state;
     for (int i = 0; i < 3; i++) {
         const size_t size = total(all[i]);
@@ -275,7 +276,8 @@ static void a_read_may_stop_or_fail_at_every_byte(void **state)
     free_bytes(&b);
 }
 
-/* ---- Pipes --------------------------------------------------------------------------------------- */
+/* ---- Pipes
+ * --------------------------------------------------------------------------------------- */
 
 static void a_pipe_is_written_and_stays_one(void **state)
 {
