@@ -23,8 +23,7 @@ void put_double(unsigned char *p, double value)
     put_le(p, bits, 8);
 }
 
-/* ---- Tensor files
- * -------------------------------------------------------------------------------- */
+/* ---- Tensor files ---------------------------------------------------------------------------- */
 
 enum { MAX_ELEMENTS = 2048, TYPE_U8 = 1, TYPE_U32 = 5, TYPE_F32 = 10 };
 
@@ -187,8 +186,7 @@ size_t test_data_at(const test_bytes *file, const char *field)
     return (size_t)(p[0] | p[1] << 8 | p[2] << 16);
 }
 
-/* ---- Outcomes
- * ------------------------------------------------------------------------------------ */
+/* ---- Outcomes -------------------------------------------------------------------------------- */
 
 static const char PATH[] = "folder/broken_rgb.bsdf";
 
@@ -272,8 +270,7 @@ void expect_sane_with(const void *data, size_t size, const char *path,
     hnbrdf_measured_close(measured);
 }
 
-/* ---- Directions
- * ---------------------------------------------------------------------------------- */
+/* ---- Directions ------------------------------------------------------------------------------ */
 
 static void direction(double theta, double phi, float w[3])
 {

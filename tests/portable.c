@@ -28,8 +28,7 @@ static void need(int holds, const char *what, const hnbrdf_error *error)
         stop(what, error && error->text[0] ? error->text : "does not hold");
 }
 
-/* ---- Checksums
- * ----------------------------------------------------------------------------------- */
+/* ---- Checksums ------------------------------------------------------------------------------- */
 
 /* FNV-1a; a hnbrdf_write_fn. */
 static int add_bytes(void *user, const void *data, size_t size)
@@ -74,8 +73,7 @@ static void show(const char *what, const char *detail, uint64_t checksum)
            (unsigned long)(checksum & 0xffffffffu));
 }
 
-/* ---- Files
- * --------------------------------------------------------------------------------------- */
+/* ---- Files ----------------------------------------------------------------------------------- */
 
 static char *read_file(const char *directory, const char *name, size_t *size)
 {
@@ -100,8 +98,7 @@ static uint64_t file_checksum(const char *directory, const char *name)
     return checksum;
 }
 
-/* ---- Models
- * -------------------------------------------------------------------------------------- */
+/* ---- Models ---------------------------------------------------------------------------------- */
 
 /* Values, samples and densities of every material; single calls here, test_core_variants has the
  * batches. */
@@ -236,8 +233,7 @@ static void check_models(const char *seeds, const char *shipped)
     }
 }
 
-/* ---- Messages
- * ------------------------------------------------------------------------------------ */
+/* ---- Messages -------------------------------------------------------------------------------- */
 
 /* Every message with a number in it that has a fraction. */
 static void check_messages(const char *shipped)
@@ -275,8 +271,7 @@ static void check_messages(const char *shipped)
     hnbrdf_model_free(model);
 }
 
-/* ---- Measurements
- * -------------------------------------------------------------------------------- */
+/* ---- Measurements ---------------------------------------------------------------------------- */
 
 /* The C library's atan2() and pow() may differ by an ulp of double from machine to machine. f,
  * rounded to float, does not for these directions and tables. */

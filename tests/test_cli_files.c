@@ -35,8 +35,7 @@ static void finish(FILE *file)
     check(fclose(file) == 0, "cannot write");
 }
 
-/* ---- Models
- * -------------------------------------------------------------------------------------- */
+/* ---- Models ---------------------------------------------------------------------------------- */
 
 /* Any finite numbers will do: k-th of a network whose weights are all near 0. */
 static float weight(int k)
@@ -96,8 +95,7 @@ static void write_models(const char *directory)
     write_model(directory, "one.safetensors", HNBRDF_KIND_HYBRID, &odd, 1);
 }
 
-/* ---- Published shaders
- * --------------------------------------------------------------------------- */
+/* ---- Published shaders ----------------------------------------------------------------------- */
 
 static void put_numbers(FILE *file, const char *type, int count, int *next)
 {
@@ -157,8 +155,7 @@ static void write_brdf(const char *directory, const char *name, float alpha)
     finish(file);
 }
 
-/* ---- Measured files
- * ------------------------------------------------------------------------------ */
+/* ---- Measured files -------------------------------------------------------------------------- */
 
 static void put_integer(FILE *file, unsigned long long value, int bytes)
 {
@@ -247,8 +244,7 @@ static void write_merl(const char *directory)
     finish(file);
 }
 
-/* ---- Environments
- * -------------------------------------------------------------------------------- */
+/* ---- Environments ---------------------------------------------------------------------------- */
 
 /* A grey Radiance map of 4 x 2 pixels; lines shorter than 8 pixels are never packed. */
 static void write_hdr(const char *directory)

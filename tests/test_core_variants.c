@@ -129,8 +129,7 @@ static void check_singles(const hnbrdf_model *model, const scene *s, uint64_t *c
 }
 
 /* Every call for `count` pairs, whose values lie `step` floats apart: nothing between them is
- * touched.
- */
+ * touched. */
 static void check_batches(const hnbrdf_model *model, const scene *s, int count, size_t step)
 {
     static const char *const calls[] = {"eval_batch", "eval_analytic_batch", "eval_many",

@@ -47,8 +47,7 @@ static int free_model(void **state)
     return 0;
 }
 
-/* ---- Looking
- * ------------------------------------------------------------------------------------- */
+/* ---- Looking --------------------------------------------------------------------------------- */
 
 typedef void (*eval_fn)(const hnbrdf_model *, const hnbrdf_material *, const float *, const float *,
                         float *);
@@ -93,8 +92,7 @@ static void set_alpha(hnbrdf_material *material, float x, float y)
     material->alpha[1] = y;
 }
 
-/* ---- Editing
- * ------------------------------------------------------------------------------------- */
+/* ---- Editing --------------------------------------------------------------------------------- */
 
 /* What the gate lets through of the analytic part at the normal, as a share of the whole: an edit
  * of kd shows the gate. */
@@ -121,8 +119,7 @@ static double mean_angle(eval_fn eval, const hnbrdf_material *material)
 
 /* The network's own correction keeps its shape, so the half width can only follow alpha while GGX
  * makes most of the peak; the mean angle follows it always. Past 0.3 a lobe has no half height to
- * speak of.
- */
+ * speak of. */
 static void larger_alpha_widens_the_highlight(void **state)
 {
     static const float sweep[] = {0.01f, 0.02f, 0.04f, 0.07f, 0.1f, 0.15f, 0.2f, 0.3f};
@@ -245,8 +242,7 @@ static void isotropic_made_anisotropic_has_both_lobes(void **state)
                 double found = retro(hnbrdf_eval_analytic, &both, theta, phi) /
                                retro(hnbrdf_eval_analytic, &both, 0.0, phi);
                 /* The axis is known to an ulp of a direction, 1e-7, and alpha_y/alpha_x magnifies
-                 * it.
-                 */
+                 * it. */
                 assert_true(fabs(found - wanted) <= 1e-5 * wanted);
                 /* A half turn changes nothing. */
                 found = retro(hnbrdf_eval, &both, theta, phi);
@@ -261,8 +257,7 @@ static void isotropic_made_anisotropic_has_both_lobes(void **state)
     }
 }
 
-/* ---- Mixing
- * -------------------------------------------------------------------------------------- */
+/* ---- Mixing ---------------------------------------------------------------------------------- */
 
 static double reflectance(float eta)
 {

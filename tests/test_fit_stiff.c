@@ -33,9 +33,7 @@ static int free_plain_model(void **state)
     return 0;
 }
 
-/* ---- Sources
- * ----------------------------------------------------------------------------------------
- */
+/* ---- Sources --------------------------------------------------------------------------------- */
 
 typedef enum trouble {
     NONE,
@@ -153,9 +151,7 @@ static hnbrdf_measured *measured_of(source *s, const char *name)
     return measured;
 }
 
-/* ---- Fits
- * -------------------------------------------------------------------------------------------
- */
+/* ---- Fits ------------------------------------------------------------------------------------ */
 
 static hnbrdf_fit_options small(hnbrdf_kind kind)
 {
@@ -243,9 +239,7 @@ static void fit_all_kinds(source *s, source *truth, double ggx, double hybrid, d
     }
 }
 
-/* ---- What converges
- * ---------------------------------------------------------------------------------
- */
+/* ---- What converges -------------------------------------------------------------------------- */
 
 /* The last steps of the GGX fit move ln alpha, kd and ln(eta - 1) by 0.03 * 0.02 = 6e-4 each, which
  * moves f by at most 3, 1/kd and 2 times that: under 5e-3 in all for kd 0.5; kd 0.01 is searched
@@ -352,9 +346,7 @@ static void values_beyond_any_brdf_are_cut_and_told(void **state)
     }
 }
 
-/* ---- What is refused, and several at once
- * -----------------------------------------------------------
- */
+/* ---- What is refused, and several at once ---------------------------------------------------- */
 
 static void too_few_samples_are_refused_by_name_and_share(void **state)
 {

@@ -47,8 +47,7 @@ static hnbrdf_model *scaled(const hnbrdf_model *model, float factor)
     return made;
 }
 
-/* ---- Nothing overflows
- * --------------------------------------------------------------------------- */
+/* ---- Nothing overflows ----------------------------------------------------------------------- */
 
 /* Inputs at the limit with the sign of each weight make the largest sum there can be: it is still
  * finite, and so is every sum on the way, here with every rounding upwards, which hardware may
@@ -103,9 +102,7 @@ static void every_value_is_finite_whatever_weights_and_directions(void **state)
     hnbrdf_model_free(model);
 }
 
-/* ---- Bounds
- * ----------------------------------------------------------------------------------------
- */
+/* ---- Bounds ---------------------------------------------------------------------------------- */
 
 /* A device that does not round as half.h does: single precision everywhere, with the same
  * weights. */
@@ -223,8 +220,7 @@ static void bounds_hold_where_every_rounding_pushes_one_way(void **state)
     hnbrdf_model_free(model);
 }
 
-/* ---- What it costs
- * ----------------------------------------------------------------------------------- */
+/* ---- What it costs --------------------------------------------------------------------------- */
 
 enum { COST_PAIRS = 4000 };
 

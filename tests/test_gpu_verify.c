@@ -140,8 +140,7 @@ static void holds(const scene_shape *shape)
 }
 
 /* The first material alone: its numbers are constants that the device's compiler may fold into
- * others.
- */
+ * others. */
 static void holds_alone(const scene_shape *shape)
 {
     hnbrdf_model *model = scene_model(shape), *alone = NULL;

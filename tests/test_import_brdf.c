@@ -48,8 +48,7 @@ static hnbrdf_result import(const bytes *texts, int count, const hnbrdf_allocato
     return result;
 }
 
-/* ---- What is imported
- * -------------------------------------------------------------------------- */
+/* ---- What is imported ------------------------------------------------------------------------ */
 
 static const struct {
     int hidden, layers, latent, anisotropic, dense, materials;
@@ -227,8 +226,7 @@ static void roughness_below_the_floor_is_raised_to_it(void **state)
     hnbrdf_model_free(model);
 }
 
-/* ---- Files of one dataset
- * ---------------------------------------------------------------------- */
+/* ---- Files of one dataset -------------------------------------------------------------------- */
 
 static void expect_pair(const brdf_sample *a, const brdf_sample *b, const char *part)
 {
@@ -292,8 +290,7 @@ static void two_materials_need_two_names(void **state)
     free_bytes(&text);
 }
 
-/* ---- Refusals
- * ---------------------------------------------------------------------------------- */
+/* ---- Refusals -------------------------------------------------------------------------------- */
 
 static bytes replaced(const bytes *text, const char *old, const char *new_text)
 {
@@ -489,8 +486,7 @@ static void every_failed_allocation_is_reported_without_a_leak(void **state)
     free_bytes(&text);
 }
 
-/* ---- tests/data
- * -------------------------------------------------------------------------------- */
+/* ---- tests/data ------------------------------------------------------------------------------ */
 
 /* Two materials of one dataset, small enough to be read. */
 static const char *const DATA_FILES[] = {"sample_brushed.brdf", "sample_plain.brdf"};

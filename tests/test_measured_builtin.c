@@ -193,8 +193,7 @@ static void some_materials_hold_exact_zeros(void **state)
     assert_in_range(with_zeros, 2, 6);
 }
 
-/* ---- Beyond one lobe
- * ----------------------------------------------------------------------------- */
+/* ---- Beyond one lobe ------------------------------------------------------------------------- */
 
 enum { PAIRS = 400, ALPHAS = 12, ETAS = 10, KDS = 10 };
 

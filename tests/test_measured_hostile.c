@@ -4,8 +4,7 @@
 
 static const double PI = 3.14159265358979323846;
 
-/* ---- Refusals
- * ------------------------------------------------------------------------------------ */
+/* ---- Refusals -------------------------------------------------------------------------------- */
 
 static void every_truncation_is_refused_or_harmless(void **state)
 {
@@ -287,8 +286,7 @@ static void an_unknown_part_of_the_circle_is_refused(void **state)
     free(file.data);
 }
 
-/* ---- Random damage
- * ------------------------------------------------------------------------------- */
+/* ---- Random damage --------------------------------------------------------------------------- */
 
 static void mutate(unsigned char *data, size_t size, hnbrdf_rng *rng)
 {

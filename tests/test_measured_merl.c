@@ -50,8 +50,7 @@ static int tear_down(void **state)
     return 0;
 }
 
-/* ---- Lookup
- * -------------------------------------------------------------------------------------- */
+/* ---- Lookup ---------------------------------------------------------------------------------- */
 
 /* Directions as floats are off by 1e-7, and the half vector of two that point apart by 1e-7 /
  * cos(theta_d). That blurs phi_d by `blur`; bins of half a degree to either side are left out
@@ -136,8 +135,7 @@ static void channels_carry_their_scale(void **state)
     assert_true(fabs((double)f[1] - 1.0) < 1e-7 && fabs((double)f[2] - 1.0) < 1e-7);
 }
 
-/* ---- Validity
- * ------------------------------------------------------------------------------------ */
+/* ---- Validity -------------------------------------------------------------------------------- */
 
 static void a_bin_with_a_bad_channel_is_no_measurement(void **state)
 {
@@ -190,8 +188,7 @@ static void the_summary_tells_the_valid_share(void **state)
     hnbrdf_measured_close(measured);
 }
 
-/* ---- Refusals
- * ------------------------------------------------------------------------------------ */
+/* ---- Refusals -------------------------------------------------------------------------------- */
 
 static void expect_header(uint32_t a, uint32_t b, uint32_t c, size_t size, hnbrdf_result result,
                           const char *words)

@@ -3,8 +3,7 @@
 
 static const double PI = 3.14159265358979323846;
 
-/* ---- Values
- * -------------------------------------------------------------------------------------- */
+/* ---- Values ---------------------------------------------------------------------------------- */
 
 typedef struct checkpoint {
     test_circle circle;
@@ -212,8 +211,7 @@ static void isotropic_files_do_not_feel_a_turn(void **state)
     free(file.data);
 }
 
-/* ---- Edges of what is accepted
- * ------------------------------------------------------------------- */
+/* ---- Edges of what is accepted --------------------------------------------------------------- */
 
 static void minor_versions_and_unknown_fields_do_not_matter(void **state)
 {

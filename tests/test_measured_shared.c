@@ -197,9 +197,7 @@ static void published_checksums_are_those_of_the_list(void **state)
     assert_int_equal(rows, 100);
 }
 
-/* ---- MERL stand-ins, decoded by the program in shared/tools
- * -----------------------------------------
- */
+/* ---- MERL stand-ins, decoded by the program in shared/tools ---------------------------------- */
 
 static char folder[] = "measured-XXXXXX";
 static const char *const STAND_INS[] = {"alum-bronze", "gold-metallic-paint", "red-phenolic"};

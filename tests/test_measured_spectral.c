@@ -20,8 +20,7 @@ static void set_spectra(test_bytes *file, float value)
         put_float(file->data + first + 4 * i, value);
 }
 
-/* ---- Spectra
- * ------------------------------------------------------------------------------------- */
+/* ---- Spectra --------------------------------------------------------------------------------- */
 
 /* f wo.z at 400 to 700 nm from the reference loader of the database on the same formulas, six
  * digits, computed in float (FORMATS 6.2). */
@@ -158,8 +157,7 @@ static void without_spectra_there_is_no_spectrum(void **state)
     free(spectral.data);
 }
 
-/* ---- Colour
- * -------------------------------------------------------------------------------------- */
+/* ---- Colour ---------------------------------------------------------------------------------- */
 
 static void a_flat_spectrum_is_grey_to_the_last_bit(void **state)
 {

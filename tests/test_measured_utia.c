@@ -64,8 +64,7 @@ static int eval_degrees(const hnbrdf_measured *measured, const double degrees[4]
     return eval_angles(measured, radians, f);
 }
 
-/* ---- Values
- * -------------------------------------------------------------------------------------- */
+/* ---- Values ---------------------------------------------------------------------------------- */
 
 /* The rows of FORMATS 6.4; those of djb are dj_brdf's own. Tolerance: six digits are given,
  * directions and samples are floats. */
@@ -158,8 +157,7 @@ static void djb_decodes_from_its_own_threshold_on(void **state)
 }
 
 /* Half way between samples of -1 and 1 djb sees half of 1/140, raw their mean 0. Directions are
- * floats.
- */
+ * floats. */
 static void djb_clamps_samples_before_it_blends_them(void **state)
 {
     test_bytes file = constant_table(1.0);
@@ -252,8 +250,7 @@ static void extrapolation_below_zero_is_zero_and_valid(void **state)
     free(file.data);
 }
 
-/* ---- Summary
- * ------------------------------------------------------------------------------------- */
+/* ---- Summary --------------------------------------------------------------------------------- */
 
 /* A constant f has the albedo pi f; djb reads 7 as 7/140 = 0.05: decoded and times 100 0.9875. */
 static void the_summary_tells_mode_and_albedo(void **state)
@@ -282,8 +279,7 @@ static void the_summary_tells_mode_and_albedo(void **state)
     }
 }
 
-/* ---- Refusals
- * ------------------------------------------------------------------------------------ */
+/* ---- Refusals -------------------------------------------------------------------------------- */
 
 static void expect_wrong(const char *path, const void *data, size_t size, hnbrdf_result result,
                          const char *words)

@@ -12,8 +12,7 @@
 
 static const double pi = 3.14159265358979323846;
 
-/* ---- OBJ files
- * ----------------------------------------------------------------------------------- */
+/* ---- OBJ files ------------------------------------------------------------------------------- */
 
 static render_mesh read_obj(const char *text)
 {
@@ -112,8 +111,7 @@ static void limits_hold(void **state)
     assert_int_equal(render_obj_read("/nonexistent/a.obj", NULL, &mesh, &error), HNBRDF_ERROR_IO);
 }
 
-/* ---- Polygons
- * ------------------------------------------------------------------------------------ */
+/* ---- Polygons -------------------------------------------------------------------------------- */
 
 static double area_of(const float (*p)[3], const uint32_t t[3])
 {
@@ -177,8 +175,7 @@ static void any_polygon_ends(void **state)
             assert_true(t[i][k] < 100);
 }
 
-/* ---- Shapes
- * -------------------------------------------------------------------------------------- */
+/* ---- Shapes ---------------------------------------------------------------------------------- */
 
 /* Volume inside the triangles, by the divergence theorem; positive if they face outwards. */
 static double volume_of(const render_mesh *mesh)
@@ -238,8 +235,7 @@ static void shapes_face_outwards_and_have_their_volume(void **state)
         {RENDER_SUPERELLIPSOID, {.detail = 256, .powers = {0.1, 0.1}}, 7.8, 0.03},
         {RENDER_LATHE, turned, pi * (2.0 + 1.0 / 3.0), 2e-3},
         /* a tube along the knot's length: what a tube holds by Pappus, where it does not cross
-         * itself
-         */
+         * itself */
         {RENDER_KNOT, {.detail = 96, .tube = 0.1}, 0.0, INFINITY},
         {RENDER_TEAPOT, {.detail = 96}, 0.0, INFINITY},
     };

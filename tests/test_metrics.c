@@ -14,9 +14,7 @@
 
 enum { PAIRS = 1000, MERL_BINS = 90 * 90 * 180 };
 
-/* ---- What is compared: constants, so that every figure is known in closed form
- * --------------------
- */
+/* ---- What is compared: constants, so that every figure is known in closed form --------------- */
 
 /* A neural 1x1 model of weights 0: f = exp(bias), the same for every pair. */
 static hnbrdf_model *constant_model(const float value[3])
@@ -108,8 +106,7 @@ static void assert_close(double value, double expected, double tolerance)
         fail_msg("%.17g, expected %.17g within %g of it", value, expected, tolerance);
 }
 
-/* ---- SMAPE
- * --------------------------------------------------------------------------------------- */
+/* ---- SMAPE ----------------------------------------------------------------------------------- */
 
 static void smape_of_one_value_has_its_definition(void **state)
 {
@@ -136,8 +133,7 @@ static void smape_is_symmetric_and_between_0_and_2(void **state)
     }
 }
 
-/* ---- Comparisons
- * --------------------------------------------------------------------------------- */
+/* ---- Comparisons ----------------------------------------------------------------------------- */
 
 static void constants_compare_to_their_closed_form(void **state)
 {
@@ -250,8 +246,7 @@ static void a_ggx_model_is_its_analytic_part(void **state)
     hnbrdf_model_free(model);
 }
 
-/* ---- Images
- * -------------------------------------------------------------------------------------- */
+/* ---- Images ---------------------------------------------------------------------------------- */
 
 static void image_errors_have_their_known_values(void **state)
 {

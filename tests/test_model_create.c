@@ -140,8 +140,7 @@ static void latents_beyond_l_and_negative_zeros_are_cleared(void **state)
     hnbrdf_model_free(model);
 }
 
-/* ---- Refusals
- * ---------------------------------------------------------------------------------- */
+/* ---- Refusals -------------------------------------------------------------------------------- */
 
 static void expect(const sample *s, hnbrdf_result expected, const char *part)
 {

@@ -70,8 +70,7 @@ static int exists(const char *path)
     return file != NULL;
 }
 
-/* ---- Round trips
- * ------------------------------------------------------------------------------- */
+/* ---- Round trips ----------------------------------------------------------------------------- */
 
 static void a_model_survives_its_bytes_and_gives_the_same_again(void **state)
 {
@@ -162,8 +161,7 @@ static void the_header_reads_as_the_design_says(void **state)
     hnbrdf_model_free(model);
 }
 
-/* ---- Where bytes come from
- * --------------------------------------------------------------------- */
+/* ---- Where bytes come from ------------------------------------------------------------------- */
 
 typedef struct stream {
     const bytes *b;
@@ -257,8 +255,7 @@ static void missing_files_and_directories_are_io_errors(void **state)
     assert_null(back);
 }
 
-/* ---- Failures while saving
- * --------------------------------------------------------------------- */
+/* ---- Failures while saving ------------------------------------------------------------------- */
 
 static void a_failed_save_leaves_the_old_file(void **state)
 {
@@ -344,8 +341,7 @@ static void a_write_callback_can_stop_anywhere(void **state)
     hnbrdf_model_free(model);
 }
 
-/* ---- Memory
- * ------------------------------------------------------------------------------------ */
+/* ---- Memory ---------------------------------------------------------------------------------- */
 
 static void every_failed_allocation_is_reported_without_a_leak(void **state)
 {

@@ -1,7 +1,6 @@
 /* test_model_hostile.c: whatever the bytes of a model file are, loading ends with a model that
  * passes every check or with a result and one line that says where and why. Run it under ASan and
- * UBSan too.
- */
+ * UBSan too. */
 #include "model_support.h"
 
 #include <setjmp.h>

@@ -1,8 +1,7 @@
 /* test_pack.c: materials as texels: what comes back, how near, and that any bits are a legal
  * material. Bounds are those that hnbrdf.h states; beside them stands the rounding of float: a
  * few operations, each within 2^-24 relative, on numbers along the curve that are at most 9.3
- * (the logarithm of 1e-4).
- */
+ * (the logarithm of 1e-4). */
 #include "core_support.h"
 
 #include "core/half.h"
@@ -175,8 +174,7 @@ static void extreme_indices_keep_their_reflectance(void **state)
         hnbrdf_material b = round_trip(&packing, &m);
         for (int c = 0; c < 3; c++) {
             /* r^2 = (sqrt r)^4: 4 r^(3/2) w/510 for bytes; r^2 2^-10 for half floats, 0.998 for
-             * 0.9980
-             */
+             * 0.9980 */
             double before = pow(amplitude(m.eta[c]), 2.0), after = pow(amplitude(b.eta[c]), 2.0);
             assert_near("reflectance", m.eta[c], b.eta[c], fabs(after - before),
                         format == HNBRDF_TEXEL_RGBA16F ? 0x1p-10 * before + 1e-5

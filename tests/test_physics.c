@@ -1,6 +1,5 @@
 /* test_physics.c: directional albedo against closed forms and against another integrator,
- * reciprocity.
- */
+ * reciprocity. */
 #include "hnbrdf/metrics.h"
 
 #include "core_support.h"

@@ -1,6 +1,5 @@
 /* test_render_exr.c: OpenEXR there and back, every compression and tiles; hostile bytes give one
- * line.
- */
+ * line. */
 #include "render/image.h"
 
 #include "hnbrdf/measured.h"
@@ -153,8 +152,7 @@ static void identical_images_give_identical_bytes(void **state)
     render_image_free(&image);
 }
 
-/* ---- Files of other programs
- * ------------------------------------------------------------------------- */
+/* ---- Files of other programs ----------------------------------------------------------------- */
 
 static int64_t put(exr_const_context_t context, void *user, const void *data, uint64_t size,
                    uint64_t offset, exr_stream_error_func_ptr_t error)
@@ -291,8 +289,7 @@ static void grey_files_become_rgb(void **state)
     free(bytes.data);
 }
 
-/* ---- Hostile bytes
- * ----------------------------------------------------------------------------------- */
+/* ---- Hostile bytes --------------------------------------------------------------------------- */
 
 static hnbrdf_result decode_copy(const unsigned char *data, size_t size, hnbrdf_error *error)
 {

@@ -1,6 +1,5 @@
 /* test_render_guide.c: guides are densities that their samples follow, and take noise away, not
- * light.
- */
+ * light. */
 #include "render/render.h"
 
 #include <math.h>

@@ -1,6 +1,5 @@
 /* test_render_images.c: PNG and Radiance, memory and files; hostile bytes give one line and no
- * crash.
- */
+ * crash. */
 #include "render/image.h"
 
 #include <math.h>
@@ -27,8 +26,7 @@ static void assert_one_line(const hnbrdf_error *error)
         assert_true((unsigned char)*c >= ' ');
 }
 
-/* ---- PNG
- * --------------------------------------------------------------------------------------------- */
+/* ---- PNG ------------------------------------------------------------------------------------- */
 
 static unsigned char *decode_png(const render_bytes *bytes, int *width, int *height, int *channels)
 {
@@ -108,8 +106,7 @@ static void png_divides_colour_by_alpha(void **state)
     render_image_free(&image);
 }
 
-/* ---- Radiance
- * ---------------------------------------------------------------------------------------- */
+/* ---- Radiance -------------------------------------------------------------------------------- */
 
 static const char hdr_header[] = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\nEXPOSURE=1\n\n";
 
@@ -255,8 +252,7 @@ static void absurd_radiance_is_refused(void **state)
     }
 }
 
-/* ---- Memory and files
- * -------------------------------------------------------------------------------- */
+/* ---- Memory and files ------------------------------------------------------------------------ */
 
 static void absurd_images_are_refused(void **state)
 {

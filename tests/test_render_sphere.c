@@ -65,8 +65,7 @@ static render_image render(const render_surface *surface, const render_environme
     return image;
 }
 
-/* ---- Random numbers
- * ---------------------------------------------------------------------------------- */
+/* ---- Random numbers -------------------------------------------------------------------------- */
 
 /* 2^6 samples: one in each cell of every grid of 2^a x 2^(6-a). */
 static void samples_of_a_pixel_are_stratified(void **state)
@@ -114,8 +113,7 @@ static void pairs_are_not_tied_to_each_other(void **state)
             }
 }
 
-/* ---- The camera and the frame
- * ------------------------------------------------------------------------ */
+/* ---- The camera and the frame ---------------------------------------------------------------- */
 
 static double dot(const float a[3], const float b[3])
 {
@@ -214,8 +212,7 @@ static void picture_is_upright(void **state)
     render_image_free(&image);
 }
 
-/* ---- The estimator
- * ----------------------------------------------------------------------------------- */
+/* ---- The estimator --------------------------------------------------------------------------- */
 
 /* Two pictures of independent seeds: their mean over covered pixels, and the standard error of that
  * from the differences, since pixels are independent of each other. */
@@ -304,8 +301,7 @@ static void analytic_surface_equals_the_ggx_model(void **state)
     render_image_free(&b);
 }
 
-/* ---- Threads, seeds, progress
- * ------------------------------------------------------------------------ */
+/* ---- Threads, seeds, progress ---------------------------------------------------------------- */
 
 static void picture_does_not_depend_on_threads(void **state)
 {

@@ -80,8 +80,7 @@ static const struct {
     {{0.4f, 0.05f}, 10.0f, 0.1f, 0.7f, FITTED},  {{0.001f, 0.001f}, 2.0f, 0.2f, 0.0f, FITTED},
     {{0.8f, 0.8f}, 1.5f, 0.5f, 0.0f, PAPER},     {{0.4f, 0.05f}, 10.0f, 0.1f, 0.7f, PAPER}};
 /* As hnbrdf_lobes_fit() could give them: shares that change with the view, one lobe wider than
- * alpha.
- */
+ * alpha. */
 static const hnbrdf_lobes fitted = {{0.7f, 3.0f},
                                     {{0.1f, 0.5f, 0.3f, 0.6f}, {0.8f, 0.25f, 0.6f, 0.02f}}};
 /* cos theta, phi */

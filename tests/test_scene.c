@@ -9,8 +9,7 @@
 #include <string.h>
 #include <unistd.h>
 
-/* ---- Energy
- * -------------------------------------------------------------------------------------- */
+/* ---- Energy ---------------------------------------------------------------------------------- */
 
 /* The six walls of a room from -1 to 1, facing inwards. */
 #define ROOM(rest)                                               \
@@ -86,8 +85,7 @@ static void nothing_gives_off_more_than_it_gets(void **state)
     render_loaded_free(&loaded);
 }
 
-/* ---- Against the sphere renderer
- * ----------------------------------------------------------------- */
+/* ---- Against the sphere renderer ------------------------------------------------------------- */
 
 /* The camera of sphere.c: 8 radii away, the sphere fills 1 / RENDER_FRAME of the picture. */
 static void check_against_sphere(const char *shape, double geometry)
@@ -149,8 +147,7 @@ static void sphere_mesh_equals_the_sphere_view(void **state)
     check_against_sphere("shape superellipsoid detail 128 material m", 5e-4);
 }
 
-/* ---- Strategies
- * ---------------------------------------------------------------------------------- */
+/* ---- Strategies ------------------------------------------------------------------------------ */
 
 /* A window to the sky, a lamp of triangles and a glowing ball: light and BRDF sampling alone, and
  * both joined, agree within 5 standard errors of the difference, whatever the number of
@@ -188,8 +185,7 @@ static void strategies_agree(void **state)
     render_loaded_free(&loaded);
 }
 
-/* ---- Shading normals
- * ----------------------------------------------------------------------------- */
+/* ---- Shading normals ------------------------------------------------------------------------- */
 
 /* A room without a light in a bright environment, a coarse smooth ball in a corner through its
  * walls: not one sample finds light. */
@@ -251,8 +247,7 @@ static void outlines_are_not_black(void **state)
     }
 }
 
-/* ---- Seeds, threads, interruptions
- * --------------------------------------------------------------- */
+/* ---- Seeds, threads, interruptions ----------------------------------------------------------- */
 
 static const char small_scene[] =
     "camera from 0 1 5 to 0 0.3 0 fov 35 lens 0.05\nsize 40 24\nenvironment sky\n"
@@ -371,8 +366,7 @@ static void time_budget_ends_a_rendering(void **state)
     render_loaded_free(&loaded);
 }
 
-/* ---- Layers
- * -------------------------------------------------------------------------------------- */
+/* ---- Layers ---------------------------------------------------------------------------------- */
 
 static void layers_show_albedo_and_normal(void **state)
 {

@@ -34,9 +34,7 @@ static int add(void *user, const void *data, size_t size)
     return 0;
 }
 
-/* ---- What a thread does; each ends with a checksum of what came out
- * -------------------------------
- */
+/* ---- What a thread does; each ends with a checksum of what came out -------------------------- */
 
 static int single(const shared *s, int thread, uint64_t *sum)
 {
@@ -193,8 +191,7 @@ static int run(const shared *s, int which, int thread, uint64_t *sum)
     return failed;
 }
 
-/* ---- Threads
- * ------------------------------------------------------------------------------------- */
+/* ---- Threads --------------------------------------------------------------------------------- */
 
 typedef struct worker {
     const shared *s;

@@ -21,8 +21,7 @@
  * at the end. What is returned is the last state unless an earlier one was better by more than
  * 5 %, which is what such a sample can tell; and for a hybrid it is never worse than GGX alone by
  * more than that (plus 0.001): if all training was in vain, the network returned leaves GGX as it
- * is. Every number in a model is finite.
- */
+ * is. Every number in a model is finite. */
 #ifndef HNBRDF_FIT_H
 #define HNBRDF_FIT_H
 
@@ -124,8 +123,7 @@ typedef struct hnbrdf_fit_options {
     /* Where the state of training is kept, written twice a minute and when the callback stops the
      * fit; NULL for none. With resume = 1 training goes on from there, and ends with the very
      * model that an uninterrupted fit of the same steps gives. The caller removes the file when
-     * it is done with it.
-     */
+     * it is done with it. */
     const char *checkpoint;
     int resume;
 } hnbrdf_fit_options;

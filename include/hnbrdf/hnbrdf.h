@@ -21,8 +21,7 @@
  * and b constants of the model. One network serves every material of a model.
  *
  * Threads: a loaded model never changes and may be shared. Every function that evaluates is pure:
- * no allocation, no I/O, no errno, no locale, no global state.
- */
+ * no allocation, no I/O, no errno, no locale, no global state. */
 #ifndef HNBRDF_H
 #define HNBRDF_H
 

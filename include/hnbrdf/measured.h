@@ -7,8 +7,7 @@
  * Formats: MERL .binary (Matusik et al. 2003), RGL .bsdf, isotropic and anisotropic, RGB and
  * spectral (Dupuy and Jakob 2018), UTIA .bin (Filip and Vavra 2014; the set of 150 anisotropic
  * materials, not the dense one of 1.5 GB a file), and built-in procedural materials. A file is
- * recognised by its content; a UTIA file, which has no header, by its size.
- */
+ * recognised by its content; a UTIA file, which has no header, by its size. */
 #ifndef HNBRDF_MEASURED_H
 #define HNBRDF_MEASURED_H
 
@@ -159,8 +158,7 @@ HNBRDF_API int hnbrdf_measured_eval_spectrum(const hnbrdf_measured *measured, co
                                              const float wo[3], size_t count, const float *nm,
                                              float *f);
 
-/* ---- Where to look: the three samplers every error figure must name
- * ----------------------------- */
+/* ---- Where to look: the three samplers every error figure must name -------------------------- */
 
 typedef enum hnbrdf_sampler {
     HNBRDF_SAMPLER_UNIFORM = 0, /* wi and wo uniform in solid angle over the hemisphere */

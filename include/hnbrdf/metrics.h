@@ -1,8 +1,7 @@
 /* metrics.h: how far a model is from a measurement (libhnbrdf_metrics).
  *
  * SMAPE = 2/N sum |f - F| / (|f| + |F|), 0 where both are 0, averaged over the channels: 0 is
- * perfect, 2 the worst. The sampler must be named beside every figure (measured.h).
- */
+ * perfect, 2 the worst. The sampler must be named beside every figure (measured.h). */
 #ifndef HNBRDF_METRICS_H
 #define HNBRDF_METRICS_H
 

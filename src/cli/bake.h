@@ -68,26 +68,22 @@ typedef struct bake {
     int (*told)(const struct bake *b, const bake_row *row); /* after each row; not 0 ends all */
 } bake;
 
-/* ---- bake_teacher.c: a material of a model as something to fit to
- * ---------------------------------- */
+/* ---- bake_teacher.c: a material of a model as something to fit to ---------------------------- */
 
 /* The model must outlive it. 0, or CLI_FAILURE after a message. */
 int bake_teacher(const hnbrdf_model *model, int material, hnbrdf_measured **measured);
 
-/* ---- bake_half.c
- * ----------------------------------------------------------------------------------- */
+/* ---- bake_half.c ----------------------------------------------------------------------------- */
 
 /* The model with the weights of an export in half precision; NULL when memory is short. */
 hnbrdf_model *bake_half(const hnbrdf_model *model);
 
-/* ---- bake_sizes.c: candidates, and what they cost
- * -------------------------------------------------- */
+/* ---- bake_sizes.c: candidates, and what they cost -------------------------------------------- */
 
 /* Makes b->candidates and measures the time of each and of the model. Likewise. */
 int bake_make_candidates(bake *b);
 
-/* ---- bake_fit.c: one wave of fits
- * ------------------------------------------------------------------ */
+/* ---- bake_fit.c: one wave of fits ------------------------------------------------------------ */
 
 /* One fit to make: which candidate, from which seed, for how long. */
 typedef struct bake_job {
@@ -114,15 +110,13 @@ int bake_width(const bake *b, int full);
 /* The error that the wish is about. */
 double bake_judged(const bake *b, const bake_row *row);
 
-/* ---- bake_search.c
- * --------------------------------------------------------------------------------- */
+/* ---- bake_search.c --------------------------------------------------------------------------- */
 
 /* Tries candidates until the wish is met, the time is up or Ctrl-C; sets picked, met and stopped.
  * 0, or CLI_FAILURE after a message. */
 int bake_search(bake *b);
 
-/* ---- bake_tables.c, bake_plot.c
- * -------------------------------------------------------------------- */
+/* ---- bake_tables.c, bake_plot.c -------------------------------------------------------------- */
 
 void bake_print_heading(const bake *b);
 void bake_print_row(const bake *b, const bake_row *row);

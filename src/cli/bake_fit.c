@@ -42,8 +42,7 @@ double bake_judged(const bake *b, const bake_row *row)
     return b->worst ? row->worst : row->smape;
 }
 
-/* ---- Rows
- * ---------------------------------------------------------------------------------------- */
+/* ---- Rows ------------------------------------------------------------------------------------ */
 
 /* errors [materials]: of the model's material at[m], or m. */
 static hnbrdf_result measure(const bake *b, const hnbrdf_model *model, const int *at, size_t pairs,
@@ -101,8 +100,7 @@ double bake_half_error(const bake *b)
     return b->worst ? worst : mean;
 }
 
-/* ---- GGX alone
- * ----------------------------------------------------------------------------------- */
+/* ---- GGX alone ------------------------------------------------------------------------------- */
 
 static int show_ggx(void *user, const hnbrdf_fit_progress *p)
 {
@@ -192,8 +190,7 @@ int bake_ggx(bake *b)
     return cli_fail("%s", error.text);
 }
 
-/* ---- Waves
- * --------------------------------------------------------------------------------------- */
+/* ---- Waves ----------------------------------------------------------------------------------- */
 
 typedef struct wave wave;
 

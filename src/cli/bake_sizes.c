@@ -60,8 +60,7 @@ static void add_latents(bake *b, int hidden, int layers)
         add(b, hidden, layers, most / 2);
 }
 
-/* ---- Time
- * ---------------------------------------------------------------------------------------- */
+/* ---- Time ------------------------------------------------------------------------------------ */
 
 /* A network of this size with weights that mean nothing: time does not depend on them. */
 static hnbrdf_model *make_dummy(const bake *b, const bake_candidate *c)

@@ -18,8 +18,7 @@ static int eval(const void *user, const float wi[3], const float wo[3], float f[
 
 /* Equal alphas, unless the network sees the azimuth of h. The encoding `directions` sees it too,
  * but only as far as training left a trace of it: such a material counts as isotropic if its GGX
- * part is.
- */
+ * part is. */
 static int is_isotropic(const teacher *t)
 {
     hnbrdf_model_desc desc;

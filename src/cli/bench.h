@@ -5,8 +5,7 @@
 
 #include "cli/cli.h"
 
-/* ---- bench_probe.c: timing
- * ----------------------------------------------------------------------- */
+/* ---- bench_probe.c: timing ------------------------------------------------------------------- */
 
 /* One thing that is timed. */
 typedef struct bench_probe {
@@ -36,8 +35,7 @@ void bench_time(const bench_timing *timing, bench_probe *const *probes, int coun
 /* Nanoseconds of this thread alone, in which others that want the processor do not count. */
 double bench_thread_ns(void);
 
-/* ---- The models and the table
- * -------------------------------------------------------------------- */
+/* ---- The models and the table ---------------------------------------------------------------- */
 
 enum { BENCH_NAME = 96, BENCH_MODELS = 32, BENCH_ROWS = 512, BENCH_DEVICES = 8 };
 
@@ -99,16 +97,14 @@ const char *bench_net(const bench_model *model, char text[16]);
 double bench_ns(const bench_row *row);
 double bench_network_ns(const bench_row *row);
 /* The row of GGX alone on the same backend, variant and precision as far as there is one; NULL:
- * none.
- */
+ * none. */
 const bench_row *bench_ggx(const bench *b, const bench_row *row);
 /* Multiplications and additions of the network in `ns`, as a share of what the row's threads
  * could do with its instructions (a software device's: with the widest there are), fused or not;
  * NaN where unknown. */
 double bench_peak_fraction(const bench *b, const bench_row *row, double ns, int fused);
 
-/* ---- bench_cpu.c
- * --------------------------------------------------------------------------------- */
+/* ---- bench_cpu.c ----------------------------------------------------------------------------- */
 
 typedef struct bench_cpu bench_cpu;
 /* Adds the rows of the C library. NULL after a message; close after bench_time(). */
@@ -117,8 +113,7 @@ void bench_cpu_close(bench_cpu *cpu);
 /* The processor's name, as far as the system tells. */
 const char *bench_cpu_name(void);
 
-/* ---- bench_gpu.c
- * --------------------------------------------------------------------------------- */
+/* ---- bench_gpu.c ----------------------------------------------------------------------------- */
 
 typedef struct bench_gpu bench_gpu;
 typedef struct bench_gpu_options {
@@ -130,8 +125,7 @@ typedef struct bench_gpu_options {
 bench_gpu *bench_gpu_open(bench *b, const bench_gpu_options *options);
 void bench_gpu_close(bench_gpu *gpu);
 
-/* ---- bench_peer.c
- * -------------------------------------------------------------------------------- */
+/* ---- bench_peer.c ---------------------------------------------------------------------------- */
 
 /* A shader in the style of the published ones for the first materials of a hybrid model whose
  * hidden size is a multiple of 4; malloc'ed, NULL when memory is short. It defines what an
@@ -141,17 +135,13 @@ char *bench_peer_shader(const hnbrdf_model_desc *desc, int materials);
  * floor. NULL when memory is short. */
 hnbrdf_model *bench_peer_model(const hnbrdf_model_desc *desc);
 
-/* ---- bench_quality.c
- * ----------------------------------------------------------------------------- */
+/* ---- bench_quality.c ------------------------------------------------------------------------- */
 
 /* Fills smape and psnr of the models, and of their peers if `peers`. 0, or CLI_FAILURE after a
- * message.
- */
+ * message. */
 int bench_measure_quality(bench *b, const cli_data *data, int peers);
 
-/* ---- bench_write.c, bench_plot.c
- * ------------------------------------------------------------------
- */
+/* ---- bench_write.c, bench_plot.c ------------------------------------------------------------- */
 
 void bench_print(const bench *b);
 void bench_write_csv(const bench *b, FILE *file);

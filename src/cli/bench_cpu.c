@@ -1,6 +1,5 @@
 /* bench_cpu.c: what the C library takes on one thread: single evaluations, batches, the network
- * alone.
- */
+ * alone. */
 #include "cli/bench.h"
 #include "core/network.h"
 
@@ -29,8 +28,7 @@ struct bench_cpu {
     cpu_work *works; /* all that were made */
 };
 
-/* ---- What is timed
- * ------------------------------------------------------------------------------- */
+/* ---- What is timed --------------------------------------------------------------------------- */
 
 static double run_single(void *context, long repeats)
 {
@@ -86,8 +84,7 @@ static double run_network(void *context, long repeats)
     return bench_thread_ns() - started;
 }
 
-/* ---- Rows
- * ---------------------------------------------------------------------------------------- */
+/* ---- Rows ------------------------------------------------------------------------------------ */
 
 /* Directions as a renderer has them, and inputs as a network sees them: numbers between -1 and 1.
  * */

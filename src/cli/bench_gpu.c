@@ -58,8 +58,7 @@ static double run_item(void *context, long repeats)
     return item->on->is_cpu ? used / cli_processors() : ns;
 }
 
-/* ---- Scenes
- * -------------------------------------------------------------------------------------- */
+/* ---- Scenes ---------------------------------------------------------------------------------- */
 
 /* NULL after a message. */
 static gpu_item *open_item(gpu_bench_device *on, const gpu_scene *scene, gpu_work work)
@@ -191,8 +190,7 @@ static int add_peer(bench *b, gpu_bench_device *on, const bench_model *model)
     return CLI_OK;
 }
 
-/* ---- Devices
- * ------------------------------------------------------------------------------------- */
+/* ---- Devices --------------------------------------------------------------------------------- */
 
 /* Without what it says about its driver: "vulkan:llvmpipe (LLVM 15.0.6, 256 bits)" is
  * "vulkan:llvmpipe". */

@@ -62,8 +62,7 @@ static const char evaluation[] = "vec3 hnbrdf_eval(hnbrdf_material m, vec3 wi, v
                                  "    vec3 neural_output, gate;\n"
                                  "    hnbrdf_network(m, wi, wo, neural_output, gate);\n";
 
-/* ---- Numbers
- * ------------------------------------------------------------------------------------- */
+/* ---- Numbers --------------------------------------------------------------------------------- */
 
 static float rounded(float value)
 {
@@ -103,8 +102,7 @@ static void put_numbers(text_buffer *text, const char *type, const float *values
     text_buffer_print(text, ")");
 }
 
-/* ---- The network
- * --------------------------------------------------------------------------------- */
+/* ---- The network ----------------------------------------------------------------------------- */
 
 static int inputs_of(const hnbrdf_model_desc *desc, int layer)
 {
@@ -117,8 +115,7 @@ static int outputs_of(const hnbrdf_model_desc *desc, int layer)
 }
 
 /* mat4(...) * fL_B: `rows` rows from `row` on, four columns or what is left of them; column by
- * column.
- */
+ * column. */
 static void put_product(text_buffer *text, const hnbrdf_model_desc *desc, int layer, int row,
                         int rows, int block)
 {
@@ -184,8 +181,7 @@ static void put_network(text_buffer *text, const hnbrdf_model_desc *desc)
                       last);
 }
 
-/* ---- The whole
- * ----------------------------------------------------------------------------------- */
+/* ---- The whole ------------------------------------------------------------------------------- */
 
 static void put_materials(text_buffer *text, const hnbrdf_model_desc *desc, int materials)
 {

@@ -52,8 +52,7 @@ static plot_kind kind_of(const bench_row *row)
                                                          : PLOT_HYBRID;
 }
 
-/* ---- Choosing
- * ------------------------------------------------------------------------------------ */
+/* ---- Choosing -------------------------------------------------------------------------------- */
 
 static int same_point(const bench_row *a, const bench_row *b)
 {
@@ -61,8 +60,7 @@ static int same_point(const bench_row *a, const bench_row *b)
 }
 
 /* Of the rows of one model on a backend, which differ in variant, storage and precision, the
- * fastest.
- */
+ * fastest. */
 static void add_point(plot_panel *panel, const bench_row *row, double error)
 {
     double ns = bench_ns(row);
@@ -109,8 +107,7 @@ static int choose_backends(const bench *b, const char *backends[PLOT_BACKENDS])
     return count;
 }
 
-/* ---- Drawing
- * ------------------------------------------------------------------------------------- */
+/* ---- Drawing --------------------------------------------------------------------------------- */
 
 /* The points, in order of time, that no faster one beats. */
 static void draw_front(const plot_panel *panel, const svg_panel *axes, FILE *file)

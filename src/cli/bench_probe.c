@@ -1,6 +1,5 @@
 /* bench_probe.c: timing on a machine that others use too: many short samples in turn, the least
- * counts.
- */
+ * counts. */
 #include "cli/bench.h"
 
 #include <math.h>

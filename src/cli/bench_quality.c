@@ -30,9 +30,7 @@ typedef struct quality {
     cli_progress line;
 } quality;
 
-/* ---- Half precision, as the exported shaders compute where + and * round correctly
- * -----------------
- */
+/* ---- Half precision, as the exported shaders compute where + and * round correctly ----------- */
 
 #ifdef HNBRDF_WITH_VULKAN
 static const int has_half = 1;
@@ -68,9 +66,7 @@ static double smape_added_by_half(const quality *q, const hnbrdf_model *model,
     return valid ? sum / (3.0 * (double)valid) : (double)NAN;
 }
 
-/* ---- Who is measured
- * ------------------------------------------------------------------------------
- */
+/* ---- Who is measured ------------------------------------------------------------------------- */
 
 static void add_subject(quality *q, const subject *s)
 {
@@ -100,8 +96,7 @@ static const hnbrdf_material *material_of(const quality *q, int s, int m)
                                  hnbrdf_model_find(model, hnbrdf_measured_name(q->data->items[m])));
 }
 
-/* ---- SMAPE
- * --------------------------------------------------------------------------------------- */
+/* ---- SMAPE ----------------------------------------------------------------------------------- */
 
 static void compare_one(void *context, int index, int worker)
 {
@@ -132,8 +127,7 @@ static int measure_smape(quality *q)
     return CLI_OK;
 }
 
-/* ---- PSNR
- * ---------------------------------------------------------------------------------------- */
+/* ---- PSNR ------------------------------------------------------------------------------------ */
 
 static int render(quality *q, const render_surface *surface, render_image *image)
 {
@@ -194,8 +188,7 @@ static int measure_psnr(quality *q)
     return code;
 }
 
-/* ---- Both
- * ---------------------------------------------------------------------------------------- */
+/* ---- Both ------------------------------------------------------------------------------------ */
 
 /* Over the materials that have a value; NaN without any. */
 static double mean(const double *values, int count)

@@ -11,8 +11,7 @@ static const char columns[] = "model,net,encoding,latent,backend,variant,weights
                               "peak_fraction,first_dispatch_ms,"
                               "threads,net_muladd_fraction";
 
-/* ---- What follows from a row
- * --------------------------------------------------------------------- */
+/* ---- What follows from a row ----------------------------------------------------------------- */
 
 typedef struct figures {
     double ns, network_ns, io_ns, per_second, peak_fraction, network_peak_fraction,
@@ -40,8 +39,7 @@ static const char *encoding_of(const bench_row *row)
     return row->model->desc.kind == HNBRDF_KIND_GGX ? "none" : hnbrdf_encoding_name(row->encoding);
 }
 
-/* ---- For people
- * ---------------------------------------------------------------------------------- */
+/* ---- For people ------------------------------------------------------------------------------ */
 
 /* A number with `digits` decimals in `width` columns; a dash where it is unknown. */
 static void print_number(int width, int digits, double value)
@@ -136,8 +134,7 @@ void bench_print(const bench *b)
         print_ratios(b, &b->rows[k]);
 }
 
-/* ---- For programs
- * -------------------------------------------------------------------------------- */
+/* ---- For programs ---------------------------------------------------------------------------- */
 
 static void write_csv_number(FILE *file, double value)
 {

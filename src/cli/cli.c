@@ -11,8 +11,7 @@
 
 enum { HELP_COLUMNS = 100, MESSAGE_SIZE = 1024 };
 
-/* ---- Messages
- * ------------------------------------------------------------------------------------ */
+/* ---- Messages -------------------------------------------------------------------------------- */
 
 /* One line whatever file names and contents hold: control characters become '?'. */
 static void print_line(const char *before, const char *format, va_list arguments)
@@ -60,8 +59,7 @@ int cli_processors(void)
     return count < 1 ? 1 : count > 1024 ? 1024 : (int)count;
 }
 
-/* ---- Suggestions
- * --------------------------------------------------------------------------------- */
+/* ---- Suggestions ----------------------------------------------------------------------------- */
 
 static size_t min3(size_t a, size_t b, size_t c)
 {
@@ -118,8 +116,7 @@ const char *cli_guess_nearest(const cli_guess *guess)
     return guess->nearest && guess->distance <= 1 + strlen(guess->word) / 4 ? guess->nearest : NULL;
 }
 
-/* ---- Help
- * ---------------------------------------------------------------------------------------- */
+/* ---- Help ------------------------------------------------------------------------------------ */
 
 /* Words of text from `column` on, wrapped at HELP_COLUMNS and indented to `column`. */
 static void print_wrapped(const char *text, int column)
@@ -189,8 +186,7 @@ static void print_help(const cli_command *command, const cli_option *options)
     print_indented(command->examples);
 }
 
-/* ---- Parsing
- * ------------------------------------------------------------------------------------- */
+/* ---- Parsing --------------------------------------------------------------------------------- */
 
 int cli_parse_real(const char *text, double *value)
 {

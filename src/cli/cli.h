@@ -10,8 +10,7 @@
 /* Exit codes: 0 done, 1 failure (bad data, out of bounds, I/O), 2 wrong usage. */
 enum { CLI_OK = 0, CLI_FAILURE = 1, CLI_USAGE = 2 };
 
-/* ---- Subcommands: one file each, cmd_NAME.c. argv[0] is the subcommand's name.
- * ------------------- */
+/* ---- Subcommands: one file each, cmd_NAME.c. argv[0] is the subcommand's name. --------------- */
 int cmd_fit(int argc, char **argv);
 int cmd_eval(int argc, char **argv);
 int cmd_compare(int argc, char **argv);
@@ -31,9 +30,8 @@ int cmd_import(int argc, char **argv);
 int cmd_info(int argc, char **argv);
 int cmd_stability(int argc, char **argv);
 
-/* ---- Options
- * --------------------------------------------------------------------------------------- A
- * command describes itself once; --help, parsing and messages come from that. */
+/* ---- Options ------------------------------------------------------------------------------------
+ * A  * command describes itself once; --help, parsing and messages come from that. */
 typedef enum cli_type {
     CLI_FLAG,  /* int *: set to 1 */
     CLI_TEXT,  /* const char **: points into argv */
@@ -91,10 +89,10 @@ int cli_parse_real(const char *text, double *value);
 /* What a 0 for --threads stands for: the processors that are online. */
 int cli_processors(void);
 
-/* ---- Reading measured files
- * ------------------------------------------------------------------------ The options of
- * measured.h, as the commands that open measured files offer them. What is set here holds for
- * every file the process opens; each such command has CLI_READING_OPTIONS in its table. */
+/* ---- Reading measured files ---------------------------------------------------------------------
+ * The options of  * measured.h, as the commands that open measured files offer them. What is set
+ * here holds for  * every file the process opens; each such command has CLI_READING_OPTIONS in
+ * its table. */
 typedef struct cli_reading {
     int merl, merl_node, utia; /* values of the enums of measured.h */
     double utia_scale;
@@ -127,10 +125,9 @@ void cli_print_reading(void);
      "keep negative values of RGL files: colours outside the gamut (default: clipped to 0)"}
 /* clang-format on */
 
-/* ---- Sources and data
- * ------------------------------------------------------------------------------ DATA arguments:
- * "builtin" (all built-in materials), "builtin:NAME", files, or directories (every .bsdf, .binary
- * and .bin file in them, in byte order of their names). */
+/* ---- Sources and data ---------------------------------------------------------------------------
+ * DATA arguments:  * "builtin" (all built-in materials), "builtin:NAME", files, or directories
+ * (every .bsdf, .binary  * and .bin file in them, in byte order of their names). */
 typedef struct cli_data {
     hnbrdf_measured **items;
     int count;
@@ -163,10 +160,10 @@ int cli_choose_material(const hnbrdf_model *model, const char *name);
  * message. */
 int cli_choose_materials(const hnbrdf_model *model, const char *list, int **indices, int *count);
 
-/* ---- Output
- * ---------------------------------------------------------------------------------------- Files
- * are written aside and renamed when complete; the old file stays until then. "-" is stdout; it
- * and what is no regular file (a pipe, a device) are written directly, aside is then NULL. */
+/* ---- Output -------------------------------------------------------------------------------------
+ * Files  * are written aside and renamed when complete; the old file stays until then. "-" is
+ * stdout; it  * and what is no regular file (a pipe, a device) are written directly, aside is
+ * then NULL. */
 typedef struct cli_output {
     FILE *file; /* write here */
     char *path, *aside;
@@ -181,10 +178,9 @@ int cli_make_folder(const char *path);       /* unless it is there; likewise */
 /* Text as a JSON string with its quotes. */
 void cli_write_json_text(FILE *file, const char *text);
 
-/* ---- Progress
- * -------------------------------------------------------------------------------------- One line
- * on stderr, rewritten in place on a terminal, a line every 10 s elsewhere; nothing for anything
- * that ends within 2 s. share is 0 to 1. Call as often as you like. */
+/* ---- Progress -----------------------------------------------------------------------------------
+ * One line  * on stderr, rewritten in place on a terminal, a line every 10 s elsewhere; nothing
+ * for anything  * that ends within 2 s. share is 0 to 1. Call as often as you like. */
 typedef struct cli_progress {
     double started, shown;
     const char *what;

@@ -1,6 +1,5 @@
 /* cmd_bake.c: `hnbrdf bake`: the smallest network that is good enough for the materials of one
- * scene.
- */
+ * scene. */
 #include "cli/bake.h"
 
 #include <stdlib.h>
@@ -55,8 +54,7 @@ static int told(const bake *b, const bake_row *row)
     return CLI_OK;
 }
 
-/* ---- What is learned from
- * ------------------------------------------------------------------------ */
+/* ---- What is learned from -------------------------------------------------------------------- */
 
 /* The measurements of the chosen materials, by name; they stay data's. */
 static int take_measurements(bake *b, const cli_data *data)
@@ -83,8 +81,7 @@ static int make_teachers(bake *b)
     return CLI_OK;
 }
 
-/* ---- Results
- * ------------------------------------------------------------------------------------- */
+/* ---- Results --------------------------------------------------------------------------------- */
 
 static int write_file(const bake *b, const char *path, void (*write)(const bake *b, FILE *file))
 {
@@ -153,8 +150,7 @@ static void release(bake *b)
     free(b->reference);
 }
 
-/* ---- Command
- * ------------------------------------------------------------------------------------- */
+/* ---- Command --------------------------------------------------------------------------------- */
 
 static int search(bake *b, const cli_data *data, const outputs *o)
 {

@@ -71,8 +71,7 @@ typedef struct settings {
     bench_gpu_options gpu;
 } settings;
 
-/* ---- Rows
- * ---------------------------------------------------------------------------------------- */
+/* ---- Rows ------------------------------------------------------------------------------------ */
 
 bench_row *bench_add_row(bench *b, const bench_model *model, const char *backend,
                          const char *variant, const char *weights, const char *precision)
@@ -140,8 +139,7 @@ double bench_peak_fraction(const bench *b, const bench_row *row, double ns, int 
     return (double)NAN;
 }
 
-/* ---- Models
- * -------------------------------------------------------------------------------------- */
+/* ---- Models ---------------------------------------------------------------------------------- */
 
 static int has_name(const bench *b, const char *name)
 {
@@ -233,8 +231,7 @@ static int fit_models(bench *b, const cli_data *data, const settings *set)
 }
 
 /* GGX alone goes first: the analytic part of the first model that has one, else of default
- * materials.
- */
+ * materials. */
 static int add_ggx(bench *b)
 {
     hnbrdf_model_desc ggx = {.kind = HNBRDF_KIND_GGX};
@@ -256,8 +253,7 @@ static int add_ggx(bench *b)
     return code;
 }
 
-/* ---- Data
- * ---------------------------------------------------------------------------------------- */
+/* ---- Data ------------------------------------------------------------------------------------ */
 
 /* "A,B" as DATA arguments. */
 static int open_data(const char *list, cli_data *data)
@@ -271,8 +267,7 @@ static int open_data(const char *list, cli_data *data)
     return code;
 }
 
-/* ---- Timing
- * -------------------------------------------------------------------------------------- */
+/* ---- Timing ---------------------------------------------------------------------------------- */
 
 typedef struct watch {
     bench *b;
@@ -328,8 +323,7 @@ static int time_rows(bench *b, const settings *set)
     return CLI_OK;
 }
 
-/* ---- Output
- * -------------------------------------------------------------------------------------- */
+/* ---- Output ---------------------------------------------------------------------------------- */
 
 static int write_file(const bench *b, const char *path, void (*write)(const bench *b, FILE *file))
 {
@@ -357,8 +351,7 @@ static int write_results(const bench *b, const settings *set)
     return code == CLI_OK ? write_file(b, set->plot, bench_write_plot) : code;
 }
 
-/* ---- Command
- * ------------------------------------------------------------------------------------- */
+/* ---- Command --------------------------------------------------------------------------------- */
 
 static int measure(bench *b, const settings *set)
 {

@@ -69,8 +69,7 @@ typedef struct job {
     cli_progress progress;
 } job;
 
-/* ---- Measuring
- * ----------------------------------------------------------------------------------- */
+/* ---- Measuring ------------------------------------------------------------------------------- */
 
 static hnbrdf_result measure(const job *j, row *r, hnbrdf_error *message)
 {
@@ -141,8 +140,7 @@ static int measure_all(job *j, int threads)
     return CLI_OK;
 }
 
-/* ---- Which materials
- * ----------------------------------------------------------------------------- */
+/* ---- Which materials ------------------------------------------------------------------------- */
 
 /* 1 if both models have the material; else 0, or -1 after a message if that is an error. */
 static int find_material(const job *j, row *r, int skip_missing)
@@ -176,8 +174,7 @@ static int choose_rows(job *j, const cli_data *data, int skip_missing)
                     : cli_fail("%s: the model has none of the materials of the data", j->path);
 }
 
-/* ---- Output
- * -------------------------------------------------------------------------------------- */
+/* ---- Output ---------------------------------------------------------------------------------- */
 
 static void write_number(FILE *file, const char *before, double value)
 {
@@ -295,8 +292,7 @@ static int write_file(const job *j, const char *path, void (*write)(const job *j
     return cli_output_close(&output);
 }
 
-/* ---- Command
- * ------------------------------------------------------------------------------------- */
+/* ---- Command --------------------------------------------------------------------------------- */
 
 static int parse_sampler(const char *name, hnbrdf_sampler *sampler)
 {

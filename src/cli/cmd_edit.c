@@ -51,8 +51,7 @@ typedef struct edit {
     int count; /* 1: the same for every float of the field */
 } edit;
 
-/* ---- Reading --set
- * ------------------------------------------------------------------------------- */
+/* ---- Reading --set --------------------------------------------------------------------------- */
 
 static const field *find_field(const char *name, size_t length)
 {
@@ -144,8 +143,7 @@ static int read_edits(const char *list, edit *edits, int *count)
     }
 }
 
-/* ---- Applying
- * ------------------------------------------------------------------------------------ */
+/* ---- Applying -------------------------------------------------------------------------------- */
 
 static void apply(const edit *e, hnbrdf_material *material)
 {

@@ -49,8 +49,7 @@ typedef struct eval_job {
     long not_unit, first_not_unit; /* lines with directions that are no unit vectors */
 } eval_job;
 
-/* ---- Columns
- * ------------------------------------------------------------------------------------- */
+/* ---- Columns --------------------------------------------------------------------------------- */
 
 static int read_header(eval_job *job)
 {
@@ -81,8 +80,7 @@ static int is_number(const char *text)
     return cli_parse_real(text, &value);
 }
 
-/* ---- Lines
- * --------------------------------------------------------------------------------------- */
+/* ---- Lines ----------------------------------------------------------------------------------- */
 
 static int read_pair(const eval_job *job, float pair[6])
 {
@@ -176,8 +174,7 @@ static int evaluate_lines(eval_job *job)
     return more == 0 ? CLI_OK : CLI_FAILURE;
 }
 
-/* ---- Command
- * ------------------------------------------------------------------------------------- */
+/* ---- Command --------------------------------------------------------------------------------- */
 
 static int run(eval_job *job, const char *in, const char *out)
 {

@@ -25,8 +25,7 @@ static const cli_command command = {
     "hnbrdf gallery merl.safetensors --pairs gold-paint:blue-fabric,nickel:pvc -o gallery",
 };
 
-/* ---- The model
- * ----------------------------------------------------------------------------------- */
+/* ---- The model ------------------------------------------------------------------------------- */
 
 /* 1 if this argument is DATA, 0 if it is a model file, -1 after a message. */
 static int is_data(gallery *g, const char *argument)
@@ -71,8 +70,7 @@ static int fit(gallery *g, double seconds)
     return CLI_OK;
 }
 
-/* ---- What is shown
- * ------------------------------------------------------------------------------- */
+/* ---- What is shown --------------------------------------------------------------------------- */
 
 static int name_materials(gallery *g, const char *list)
 {
@@ -121,8 +119,7 @@ static int choose(gallery *g, const char *materials, const char *pairs)
     return code;
 }
 
-/* ---- Command
- * ------------------------------------------------------------------------------------- */
+/* ---- Command --------------------------------------------------------------------------------- */
 
 static int open_all(gallery *g, char **arguments, int count, double seconds, char *fitted_path)
 {

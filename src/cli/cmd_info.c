@@ -30,8 +30,7 @@ static const cli_command command = {
     "hnbrdf info model.safetensors --json",
 };
 
-/* ---- Models
- * -------------------------------------------------------------------------------------- */
+/* ---- Models ---------------------------------------------------------------------------------- */
 
 static const char *net_name(const hnbrdf_model_desc *desc, char text[16])
 {
@@ -146,8 +145,7 @@ static void json_model(const hnbrdf_model *model)
     fputs("  ]\n}\n", stdout);
 }
 
-/* ---- Measured
- * ------------------------------------------------------------------------------------ */
+/* ---- Measured -------------------------------------------------------------------------------- */
 
 static const char *format_name(const hnbrdf_measured *measured)
 {
@@ -220,8 +218,7 @@ static void json_data(const cli_data *data)
     fputs("\n]}\n", stdout);
 }
 
-/* ---- Command
- * ------------------------------------------------------------------------------------- */
+/* ---- Command --------------------------------------------------------------------------------- */
 
 static int is_collection(const char *path)
 {

@@ -29,9 +29,7 @@ static const cli_command command = {
     "merl-report",
 };
 
-/* ---- Output
- * ---------------------------------------------------------------------------------------
- */
+/* ---- Output ---------------------------------------------------------------------------------- */
 
 static int write_results(const report *r)
 {
@@ -64,8 +62,7 @@ static int finished(const report *r, const report_entry *e)
     return write_results(r);
 }
 
-/* ---- Command
- * ------------------------------------------------------------------------------------- */
+/* ---- Command --------------------------------------------------------------------------------- */
 
 static int run(report *r, char **data, int count)
 {

@@ -32,8 +32,7 @@ static const cli_command command = {
     "hnbrdf report images rgl/ --model rgl.safetensors --size 256 --spp 256 -o rgl-images",
 };
 
-/* ---- What figures were made with
- * ----------------------------------------------------------------- */
+/* ---- What figures were made with ------------------------------------------------------------- */
 
 static int hash_bytes(void *user, const void *data, size_t size)
 {
@@ -91,8 +90,7 @@ static int keep_settings(const report *r, hnbrdf_model *const *models)
     return cli_output_close(&output);
 }
 
-/* ---- Figures of an earlier run
- * ------------------------------------------------------------------- */
+/* ---- Figures of an earlier run --------------------------------------------------------------- */
 
 static report_picture *find_picture(report *r, const char *material, const char *name)
 {
@@ -146,8 +144,7 @@ static int is_done(const report *r, int m)
     return done;
 }
 
-/* ---- Measuring
- * ----------------------------------------------------------------------------------- */
+/* ---- Measuring ------------------------------------------------------------------------------- */
 
 /* 1 if the picture of this entry is in the picture rows. */
 static int is_shown(const report *r, const report_entry *e)
@@ -249,8 +246,7 @@ static int measure_and_write(report *r, hnbrdf_model *const *models)
     return code;
 }
 
-/* ---- Command
- * ------------------------------------------------------------------------------------- */
+/* ---- Command --------------------------------------------------------------------------------- */
 
 static int run(report *r, char **data, int count)
 {

@@ -51,8 +51,7 @@ typedef struct sheet_job {
     picture_progress progress;
 } sheet_job;
 
-/* ---- What is shown
- * ----------------------------------------------------------------------------------- */
+/* ---- What is shown --------------------------------------------------------------------------- */
 
 static int open_model(const char *path, cli_source *source)
 {
@@ -134,8 +133,7 @@ static int open_all(sheet_job *job, char **data, int count)
                                                                 : cli_fail("%s", error.text);
 }
 
-/* ---- One material
- * ------------------------------------------------------------------------------------ */
+/* ---- One material ---------------------------------------------------------------------------- */
 
 /* All surfaces of a row draw the same directions, which suit all of them. */
 static void make_surfaces(const sheet_job *job, const sheet_material *m,
@@ -221,8 +219,7 @@ static int fill_row(sheet_job *job, sheet_material *m, render_sheet_row *row)
     return CLI_OK;
 }
 
-/* ---- The page
- * ---------------------------------------------------------------------------------------- */
+/* ---- The page -------------------------------------------------------------------------------- */
 
 static void expose(sheet_job *job)
 {

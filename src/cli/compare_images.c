@@ -24,8 +24,7 @@ typedef struct job {
     int count;
 } job;
 
-/* ---- Reading
- * ------------------------------------------------------------------------------------- */
+/* ---- Reading --------------------------------------------------------------------------------- */
 
 static int check_values(const picture *p)
 {
@@ -68,8 +67,7 @@ static int measure(picture *p, const picture *reference)
     return picture_compare(a, b, &p->error);
 }
 
-/* ---- Tables
- * -------------------------------------------------------------------------------------- */
+/* ---- Tables ---------------------------------------------------------------------------------- */
 
 static void write_table(const job *j)
 {
@@ -148,8 +146,7 @@ static int is_machine_read(const compare_images_options *options)
            (options->json && strcmp(options->json, "-") == 0);
 }
 
-/* ---- The difference
- * ------------------------------------------------------------------------------ */
+/* ---- The difference -------------------------------------------------------------------------- */
 
 static int draw_difference(const job *j)
 {

@@ -1,6 +1,5 @@
 /* csv.c: read comma-separated text line by line (RFC 4180, one record a line), from people and
- * pipes.
- */
+ * pipes. */
 #include "cli/csv.h"
 
 #include "cli/cli.h"

@@ -1,6 +1,5 @@
 /* gallery.h: what the parts of `hnbrdf gallery` share: strips of edited materials, and pages of
- * them.
- */
+ * them. */
 #ifndef HNBRDF_CLI_GALLERY_H
 #define HNBRDF_CLI_GALLERY_H
 
@@ -23,9 +22,7 @@ typedef struct gallery {
     picture_progress progress;
 } gallery;
 
-/* ---- gallery_strips.c: edits of one material, side by side, the unedited one first
- * -----------------
- */
+/* ---- gallery_strips.c: edits of one material, side by side, the unedited one first ----------- */
 
 typedef struct gallery_strip {
     hnbrdf_material materials[GALLERY_EDITS];
@@ -41,9 +38,7 @@ void gallery_strip_anisotropy(const hnbrdf_material *material, gallery_strip *st
 /* From a to b. */
 void gallery_strip_mix(const hnbrdf_material *a, const hnbrdf_material *b, gallery_strip *strip);
 
-/* ---- gallery_choose.c: 0, or CLI_FAILURE after a message
- * -------------------------------------------
- */
+/* ---- gallery_choose.c: 0, or CLI_FAILURE after a message ------------------------------------- */
 
 /* The `most` materials in which GGX and network both matter: that answer to edits of their GGX
  * part, and are not GGX alone. */
@@ -51,9 +46,7 @@ int gallery_choose_materials(gallery *g, int most);
 /* Up to `most` pairs of materials, those that are farthest apart, each material once. */
 int gallery_choose_pairs(gallery *g, int most);
 
-/* ---- gallery_pages.c: likewise
- * ---------------------------------------------------------------------
- */
+/* ---- gallery_pages.c: likewise --------------------------------------------------------------- */
 
 /* Renders and writes all pages, and gallery.md. */
 int gallery_write(gallery *g);

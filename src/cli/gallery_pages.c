@@ -19,8 +19,7 @@ typedef struct page {
     int beside; /* 1: each strip again with GGX alone */
 } page;
 
-/* ---- Which pages
- * --------------------------------------------------------------------------------- */
+/* ---- Which pages ----------------------------------------------------------------------------- */
 
 static int is_hybrid(const gallery *g)
 {
@@ -107,8 +106,7 @@ static int work_of(const gallery *g)
     return GALLERY_EDITS * (edits * (is_hybrid(g) ? 2 : 1) + g->pair_count);
 }
 
-/* ---- Rendering
- * ----------------------------------------------------------------------------------- */
+/* ---- Rendering ------------------------------------------------------------------------------- */
 
 static int render_cell(gallery *g, render_surface *surface, render_sheet_cell *cell)
 {
@@ -186,8 +184,7 @@ static int render_row(gallery *g, const gallery_strip *strip, int analytic, int 
     return code;
 }
 
-/* ---- A page
- * -------------------------------------------------------------------------------------- */
+/* ---- A page ---------------------------------------------------------------------------------- */
 
 static const char *kind_of(const gallery *g, int analytic)
 {
@@ -261,8 +258,7 @@ static int make_page(gallery *g, const page *p)
     return code;
 }
 
-/* ---- All of them
- * --------------------------------------------------------------------------------- */
+/* ---- All of them ----------------------------------------------------------------------------- */
 
 /* The page in gallery.md, with the commands that make the last sphere of each strip. */
 static void describe_page(const gallery *g, const page *p, FILE *file)

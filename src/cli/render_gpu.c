@@ -9,8 +9,7 @@
 
 #include <stdlib.h>
 
-/* ---- Against the CPU
- * ------------------------------------------------------------------------------- */
+/* ---- Against the CPU ------------------------------------------------------------------------- */
 
 /* Numbers of two pictures. */
 typedef struct difference {
@@ -86,8 +85,7 @@ static int check(const render_gpu *job, const render_image *image, int exact)
     return code;
 }
 
-/* ---- On the device
- * --------------------------------------------------------------------------------- */
+/* ---- On the device --------------------------------------------------------------------------- */
 
 static hnbrdf_result render(const render_gpu *job, const gpu_device *device, render_image *image,
                             double *sample_ns, hnbrdf_error *error)

@@ -101,14 +101,12 @@ int report_write(const report *r, const char *name, void (*write)(const report *
 int report_write_net(const report *r, const char *name, const int net[2],
                      void (*write)(const report *r, const int net[2], FILE *file));
 
-/* ---- report_grid.c
- * ------------------------------------------------------------------------------- */
+/* ---- report_grid.c --------------------------------------------------------------------------- */
 
 /* "ggx", "hybrid", "paper", "neural"; NULL for any other value. */
 const char *report_form_name(report_form form);
 /* Makes the entries: ggx first, then by net, latent size and form. 0, or CLI_FAILURE after a
- * message.
- */
+ * message. */
 int report_make_entries(report *r);
 void report_free_entries(report *r);
 /* The entry of this form at a place of the grid, or NULL. latent is the hybrid's; ggx has
@@ -124,8 +122,7 @@ char *report_path(const report *r, const char *name, const char *suffix);
 /* Material m of the data in a model that has all of them, whatever their order. */
 const hnbrdf_material *report_material(const report *r, const hnbrdf_model *model, int m);
 
-/* ---- report_fit.c
- * -------------------------------------------------------------------------------- */
+/* ---- report_fit.c ---------------------------------------------------------------------------- */
 
 /* Fits or reuses, saves and measures all entries; calls `finished` after each one and stops when it
  * does not return 0. Ctrl-C ends it after the step. 0, or CLI_FAILURE after a message. */
@@ -161,9 +158,7 @@ void report_images_end(report *r);
 /* Shown while spheres are rendered, and asked whether to stop. */
 void report_images_watch(report *r, picture_progress *progress);
 
-/* ---- report_tables.c, report_plot.c, report_ggx.c: into FILE, whatever is done so far
- * ----------------------------
- */
+/* ---- report_tables.c, report_plot.c, report_ggx.c: into FILE, whatever is done so far -------- */
 
 void report_write_markdown(const report *r, FILE *file);
 void report_write_accuracy(const report *r, FILE *file);
@@ -184,9 +179,7 @@ void report_write_model_columns(const report_entry *e, FILE *file);
 /* "Data: ...", a line. */
 void report_write_data(const report *r, FILE *file);
 
-/* ---- report_image_tables.c
- * ------------------------------------------------------------------------
- */
+/* ---- report_image_tables.c ------------------------------------------------------------------- */
 
 /* What PSNR is measured of; the paper's second table; the paper's own figures of it. */
 void report_write_psnr_method(const report *r, FILE *file);
@@ -196,9 +189,7 @@ void report_write_papers_psnr(FILE *file);
 void report_write_images_csv(const report *r, FILE *file);
 void report_write_images_markdown(const report *r, FILE *file);
 
-/* ---- report_rows.c: picture rows
- * ------------------------------------------------------------------
- */
+/* ---- report_rows.c: picture rows ------------------------------------------------------------- */
 
 enum { REPORT_ROWS_A_PAGE = 8 };
 /* 1 if the spheres of material m are kept in pictures/. */

@@ -40,9 +40,9 @@ typedef struct watch {
     double later;       /* expected for the entries after this one */
 } watch;
 
-/* ---- What a finished model was made with
- * --------------------------------------------------------- models/NAME.txt: the settings in one
- * line, then what the fit took. Written last: it says that the model beside it is complete. */
+/* ---- What a finished model was made with --------------------------------------------------------
+ * models/NAME.txt: the settings in one  * line, then what the fit took. Written last: it says
+ * that the model beside it is complete. */
 
 static uint64_t hash_text(uint64_t h, const char *text) /* FNV-1a */
 {
@@ -114,8 +114,7 @@ static void forget(const report *r, const report_entry *e, const char *suffix)
     free(path);
 }
 
-/* ---- Fitting
- * ------------------------------------------------------------------------------------- */
+/* ---- Fitting --------------------------------------------------------------------------------- */
 
 /* Multiplications; only ratios matter. */
 static double work_of(const report *r, const report_entry *e)
@@ -257,8 +256,7 @@ static hnbrdf_model *reuse(const report *r, report_entry *e)
     return model;
 }
 
-/* ---- Measuring
- * ----------------------------------------------------------------------------------- */
+/* ---- Measuring ------------------------------------------------------------------------------- */
 
 typedef struct measuring {
     const report *r;
@@ -309,8 +307,7 @@ static int measure(const report *r, report_entry *e, const hnbrdf_model *model)
     return code;
 }
 
-/* ---- The whole grid
- * ------------------------------------------------------------------------------ */
+/* ---- The whole grid -------------------------------------------------------------------------- */
 
 static void describe(report_entry *e, const hnbrdf_model *model)
 {
@@ -376,8 +373,7 @@ int report_run(report *r, int (*finished)(const report *r, const report_entry *e
     return result;
 }
 
-/* ---- Models alone
- * -------------------------------------------------------------------------------- */
+/* ---- Models alone ---------------------------------------------------------------------------- */
 
 int report_load_model(const report *r, const char *path, hnbrdf_model **model)
 {

@@ -10,9 +10,7 @@
 /* Worse by less than this share, the second best start counts as the same minimum. */
 #define SAME_MINIMUM 0.01
 
-/* ---- Order
- * ----------------------------------------------------------------------------------------
- */
+/* ---- Order ----------------------------------------------------------------------------------- */
 
 typedef struct place {
     double error;
@@ -46,9 +44,7 @@ static double spread(const report *r, int m)
     return s->second / s->best - 1.0;
 }
 
-/* ---- CSV
- * ------------------------------------------------------------------------------------------
- */
+/* ---- CSV ------------------------------------------------------------------------------------- */
 
 void report_write_ggx(const report *r, FILE *file)
 {
@@ -78,9 +74,7 @@ void report_write_ggx(const report *r, FILE *file)
     free(places);
 }
 
-/* ---- Markdown
- * -------------------------------------------------------------------------------------
- */
+/* ---- Markdown -------------------------------------------------------------------------------- */
 
 /* Least, quartiles and most of what value() gives for all materials. */
 static void write_quantiles(const report *r, const char *name,
@@ -199,9 +193,7 @@ void report_write_ggx_section(const report *r, FILE *file)
     fputs("\n![GGX alone](ggx.svg)\n", file);
 }
 
-/* ---- Plot
- * -----------------------------------------------------------------------------------------
- */
+/* ---- Plot ------------------------------------------------------------------------------------ */
 
 enum { PANELS = 4, PANEL_HEIGHT = 120, PANEL_STEP = 172, PANEL_WIDTH = 640 };
 

@@ -5,8 +5,7 @@
 
 #include <string.h>
 
-/* ---- CSV
- * ----------------------------------------------------------------------------------------- */
+/* ---- CSV ------------------------------------------------------------------------------------- */
 
 void report_write_images_csv(const report *r, FILE *file)
 {
@@ -26,8 +25,7 @@ void report_write_images_csv(const report *r, FILE *file)
         }
 }
 
-/* ---- The paper's second table
- * -------------------------------------------------------------------- */
+/* ---- The paper's second table ---------------------------------------------------------------- */
 
 static const char *base_name(const char *path)
 {
@@ -85,8 +83,7 @@ void report_write_papers_psnr(FILE *file)
         file);
 }
 
-/* ---- Model against model
- * ------------------------------------------------------------------------- */
+/* ---- Model against model --------------------------------------------------------------------- */
 
 /* Mean of a's PSNR less b's with its standard error, over the materials that are done; the peaks
  * are the same in both and cancel. */
@@ -165,8 +162,7 @@ static void write_models(const report *r, FILE *file)
     }
 }
 
-/* ---- The whole
- * ----------------------------------------------------------------------------------- */
+/* ---- The whole ------------------------------------------------------------------------------- */
 
 void report_write_images_markdown(const report *r, FILE *file)
 {

@@ -44,8 +44,7 @@ static int watch(void *progress, double share)
     return report_interrupted();
 }
 
-/* ---- Rendering
- * ----------------------------------------------------------------------------------- */
+/* ---- Rendering ------------------------------------------------------------------------------- */
 
 static int render_twice(const report *r, int m, render_surface *surface, render_image pictures[2])
 {
@@ -106,8 +105,7 @@ void report_images_drop_reference(report *r, int m)
         render_image_free(&r->images->references[m][k]);
 }
 
-/* ---- Measuring
- * ----------------------------------------------------------------------------------- */
+/* ---- Measuring ------------------------------------------------------------------------------- */
 
 int report_images_measure(report *r, int m, report_entry *e, const hnbrdf_model *model,
                           render_image *mean)

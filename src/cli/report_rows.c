@@ -11,8 +11,7 @@
 /* Pixels of a sphere's side in a row: room for what stands below. */
 enum { LEAST_CELL = 136, MOST_CELL = 192 };
 
-/* ---- What is kept
- * -------------------------------------------------------------------------------- */
+/* ---- What is kept ---------------------------------------------------------------------------- */
 
 int report_rows_has(const report *r, int m)
 {
@@ -54,8 +53,7 @@ int report_rows_is_kept(const report *r, int m)
     return kept;
 }
 
-/* ---- One row
- * ------------------------------------------------------------------------------------- */
+/* ---- One row --------------------------------------------------------------------------------- */
 
 /* What the columns show: the measurement, the models, and their differences. */
 typedef struct row_plan {
@@ -159,8 +157,7 @@ static int fill_row(const report *r, const row_plan *plan, int m, double gain,
     return code;
 }
 
-/* ---- Pages
- * --------------------------------------------------------------------------------------- */
+/* ---- Pages ----------------------------------------------------------------------------------- */
 
 static int write_page(const report *r, const row_plan *plan, const render_sheet_row *rows,
                       int count, int page)

@@ -1,13 +1,11 @@
 /* report_tables.c: the results of a report as CSV and as Markdown in the layout of the paper's
- * tables.
- */
+ * tables. */
 #include "cli/csv.h"
 #include "cli/report.h"
 
 #include <string.h>
 
-/* ---- CSV
- * ----------------------------------------------------------------------------------------- */
+/* ---- CSV ------------------------------------------------------------------------------------- */
 
 void report_write_model_columns(const report_entry *e, FILE *file)
 {
@@ -79,8 +77,7 @@ void report_write_materials(const report *r, FILE *file)
         }
 }
 
-/* ---- Markdown: the tables of errors
- * -------------------------------------------------------------- */
+/* ---- Markdown: the tables of errors ---------------------------------------------------------- */
 
 const char *report_form_title(report_form form)
 {
@@ -141,8 +138,7 @@ static void write_images(const report *r, FILE *file)
     report_write_psnr_table(r, file);
 }
 
-/* ---- Markdown: hybrids against the others
- * -------------------------------------------------------- */
+/* ---- Markdown: hybrids against the others ---------------------------------------------------- */
 
 static void write_ratio_cell(const report *r, const report_entry *e, const report_entry *other,
                              FILE *file)
@@ -275,8 +271,7 @@ static void write_costs(const report *r, FILE *file)
     }
 }
 
-/* ---- Markdown: the paper
- * ------------------------------------------------------------------------- */
+/* ---- Markdown: the paper --------------------------------------------------------------------- */
 
 static void write_papers_figures(FILE *file)
 {
@@ -299,8 +294,7 @@ static void write_papers_figures(FILE *file)
     report_write_papers_psnr(file);
 }
 
-/* ---- Markdown: the whole
- * ------------------------------------------------------------------------- */
+/* ---- Markdown: the whole --------------------------------------------------------------------- */
 
 void report_write_data(const report *r, FILE *file)
 {

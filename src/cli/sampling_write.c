@@ -24,8 +24,7 @@ static int write_file(const sampling_report *r, const char *name,
     return cli_output_close(&output);
 }
 
-/* ---- CSV
- * --------------------------------------------------------------------------------------- */
+/* ---- CSV ------------------------------------------------------------------------------------- */
 
 static void write_csv(const sampling_report *r, FILE *file)
 {
@@ -44,8 +43,7 @@ static void write_csv(const sampling_report *r, FILE *file)
     }
 }
 
-/* ---- Page
- * -------------------------------------------------------------------------------------- */
+/* ---- Page ------------------------------------------------------------------------------------ */
 
 static void write_number(FILE *file, double value)
 {
@@ -105,8 +103,7 @@ static void write_page(const sampling_report *r, FILE *file)
     fputs("![Error over samples a pixel](sampling.svg)\n\n![Strips](sampling-strips.png)\n", file);
 }
 
-/* ---- Plot
- * -------------------------------------------------------------------------------------- */
+/* ---- Plot ------------------------------------------------------------------------------------ */
 
 /* Mean over the materials of the error over the material's own brightness squared; 0 if none has
  * this way. */

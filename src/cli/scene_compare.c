@@ -75,8 +75,7 @@ static int write_one(const scene_job *job, const render_image *image, const stru
     return code;
 }
 
-/* ---- Errors
- * -------------------------------------------------------------------------------------- */
+/* ---- Errors ---------------------------------------------------------------------------------- */
 
 /* What the PNG shows of a value, 0 to 1. */
 static double shown(float value, double gain)
@@ -121,8 +120,7 @@ static double noise_of(const halves *h)
     return sum / (double)count / sqrt(2.0);
 }
 
-/* ---- The table
- * ----------------------------------------------------------------------------------- */
+/* ---- The table ------------------------------------------------------------------------------- */
 
 /* Row MEASURED holds the noise as its MAE. */
 static void print_table(const row *rows)
@@ -205,8 +203,7 @@ static int check_tables(const scene_files *files)
     return code == CLI_OK && files->json ? cli_output_check(files->json) : code;
 }
 
-/* ---- All of it
- * ----------------------------------------------------------------------------------- */
+/* ---- All of it ------------------------------------------------------------------------------- */
 
 static int render_halves(const scene_files *files, const scene_job *job, const struct kind *kind,
                          const char *folder, halves *h)

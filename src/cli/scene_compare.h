@@ -1,6 +1,5 @@
 /* scene_compare.h: one scene rendered with the models, with their GGX parts and with the
- * measurements.
- */
+ * measurements. */
 #ifndef HNBRDF_CLI_SCENE_COMPARE_H
 #define HNBRDF_CLI_SCENE_COMPARE_H
 

@@ -9,8 +9,7 @@
 
 enum { NAMES_SHOWN = 16, NAMES_SIZE = 512 };
 
-/* ---- Names
- * --------------------------------------------------------------------------------------- */
+/* ---- Names ----------------------------------------------------------------------------------- */
 
 /* "a, b, c and 7 more": the names of a collection for a message. */
 typedef struct name_list {
@@ -57,8 +56,7 @@ static int fail_not_found(const char *where, const char *name, name_list *list,
                     suggestion(guess, meant, sizeof meant), finish_list(list));
 }
 
-/* ---- Built-in materials
- * -------------------------------------------------------------------------- */
+/* ---- Built-in materials ---------------------------------------------------------------------- */
 
 static const char *builtin_name_in(const char *path)
 {
@@ -92,9 +90,7 @@ static int open_builtin(int index, hnbrdf_measured **measured)
     return CLI_OK;
 }
 
-/* ---- Reading options
- * ------------------------------------------------------------------------------
- */
+/* ---- Reading options ------------------------------------------------------------------------- */
 
 cli_reading cli_read = {.utia_scale = 1.0};
 
@@ -128,8 +124,7 @@ void cli_print_reading(void)
            r->spectra ? " --spectra" : "", r->keep_sign ? " --signed" : "");
 }
 
-/* ---- Recognising files
- * --------------------------------------------------------------------------- */
+/* ---- Recognising files ----------------------------------------------------------------------- */
 
 static int has_extension(const char *path, const char *extension)
 {
@@ -188,8 +183,7 @@ static int open_measured_file(const char *path, hnbrdf_measured **measured)
     return cli_fail("%s", error.text);
 }
 
-/* ---- DATA
- * ---------------------------------------------------------------------------------------- */
+/* ---- DATA ------------------------------------------------------------------------------------ */
 
 /* The data while they are opened: where each item came from, to name both when two have one name.
  * */
@@ -343,8 +337,7 @@ void cli_close_data(cli_data *data)
     data->count = 0;
 }
 
-/* ---- SOURCE
- * -------------------------------------------------------------------------------------- */
+/* ---- SOURCE ---------------------------------------------------------------------------------- */
 
 int cli_open_source(const char *path, cli_source *source)
 {
@@ -378,8 +371,7 @@ void cli_close_source(cli_source *source)
     source->measured = NULL;
 }
 
-/* ---- Materials of a source
- * ----------------------------------------------------------------------- */
+/* ---- Materials of a source ------------------------------------------------------------------- */
 
 int cli_choose_material(const hnbrdf_model *model, const char *name)
 {

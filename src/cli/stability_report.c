@@ -35,8 +35,7 @@ static const char *verdict(const stability_row *row)
                                 : "finite";
 }
 
-/* ---- For people
- * -------------------------------------------------------------------------------------- */
+/* ---- For people ------------------------------------------------------------------------------ */
 
 static void print_place(const stability_row *row, FILE *file)
 {
@@ -178,8 +177,7 @@ void stability_print(const stability_result *results, int count, int brief, FILE
           file);
 }
 
-/* ---- For programs
- * ------------------------------------------------------------------------------------ */
+/* ---- For programs ---------------------------------------------------------------------------- */
 
 void stability_write_csv(const stability_result *results, int count, FILE *file)
 {

@@ -147,8 +147,7 @@ void svg_mark(FILE *file, svg_shape shape, double x, double y, double radius, co
     fputs("/>\n", file);
 }
 
-/* ---- Axes
- * ---------------------------------------------------------------------------------------- */
+/* ---- Axes ------------------------------------------------------------------------------------ */
 
 /* 0 at the low end, 1 at the high one. */
 static double share_of(const svg_axis *axis, double value)

@@ -15,8 +15,7 @@ typedef struct cli_texels {
 } cli_texels;
 
 /* A row of texels a material, in the order of the materials. Returns 0, or CLI_FAILURE after a
- * message.
- */
+ * message. */
 int cli_texels_write(const cli_texels *texels, const char *path);
 
 /* Lines: the format, and the SMAPE between packed and original materials, mean and worst. */

@@ -4,8 +4,7 @@
 #include "core/kernel.h"
 #include "core/prepared.h"
 
-/* ---- Prepared materials
- * ------------------------------------------------------------------------ */
+/* ---- Prepared materials ---------------------------------------------------------------------- */
 
 void hnbrdf_prepare_analytic(const hnbrdf_model *model, const hnbrdf_material *material,
                              hnbrdf_prepared *prepared)
@@ -40,8 +39,7 @@ void hnbrdf_prepare(const hnbrdf_model *model, const hnbrdf_material *material,
     hnbrdf_prepare_lobes(model, material, prepared);
 }
 
-/* ---- One pair
- * ---------------------------------------------------------------------------------- */
+/* ---- One pair -------------------------------------------------------------------------------- */
 
 void hnbrdf_prepared_eval(const hnbrdf_prepared *prepared, const float wi[3], const float wo[3],
                           float f[3])
@@ -79,8 +77,7 @@ void hnbrdf_eval_analytic(const hnbrdf_model *model, const hnbrdf_material *mate
         f[c] = hnbrdf_finish(f_a[c]);
 }
 
-/* ---- Batches
- * ----------------------------------------------------------------------------------- */
+/* ---- Batches --------------------------------------------------------------------------------- */
 
 static hnbrdf_pairs pairs_of(size_t count, const float *wi, size_t wi_stride, const float *wo,
                              size_t wo_stride, float *f, size_t f_stride)

@@ -72,8 +72,7 @@ KERNEL_INLINE unit_vector activate_units(unit_vector x)
 }
 #endif
 
-/* ---- The network of one evaluation, vectors over units
- * ----------------------------------------- */
+/* ---- The network of one evaluation, vectors over units --------------------------------------- */
 
 #if KERNEL_WIDTH > 1
 
@@ -228,16 +227,14 @@ static void kernel_single(const hnbrdf_prepared *prepared, const float wi[3], co
     memcpy(f, value, 3 * sizeof *f);
 }
 
-/* ---- The network of a block of evaluations, vectors over lanes
- * ----------------------------------- */
+/* ---- The network of a block of evaluations, vectors over lanes ------------------------------- */
 
 typedef float lane[LANES];
 
 #if KERNEL_WIDTH > 1
 
 /* y[r][l] = biases[r] + sum over k of w[k][r] x[k][l] for `rows` rows and KERNEL_WIDE vectors of
- * lanes.
- */
+ * lanes. */
 KERNEL_INLINE void tile(const float *w, int stride, int depth, lane *x, const float *biases,
                         int activate, int rows, lane *y)
 {
@@ -347,8 +344,7 @@ static void kernel_network(const hnbrdf_prepared *prepared,
     network_folded(prepared, x, out);
 }
 
-/* ---- A block of pairs, arrays over lanes
- * --------------------------------------------------------- */
+/* ---- A block of pairs, arrays over lanes ----------------------------------------------------- */
 
 /* The materials of a block. */
 typedef struct lane_materials {
@@ -533,8 +529,7 @@ KERNEL_APART void evaluate_lanes(const hnbrdf_model *model, const hnbrdf_prepare
     compose_lanes(desc, b);
 }
 
-/* ---- Batches
- * ------------------------------------------------------------------------------------- */
+/* ---- Batches --------------------------------------------------------------------------------- */
 
 static void spread_material(const hnbrdf_prepared *prepared, lane_materials *m)
 {
@@ -580,8 +575,7 @@ static void kernel_analytic(const hnbrdf_prepared *prepared, const hnbrdf_pairs 
 
 /* The materials of one block, by lane. Where all lanes have the same one, that is prepared
  * (unless it is already: *held) and returned; else NULL, and the latent codes are put before what
- * will be encoded.
- */
+ * will be encoded. */
 static const hnbrdf_prepared *take_materials(const hnbrdf_model *model,
                                              const hnbrdf_material *const *of,
                                              const hnbrdf_material **held,

@@ -3,8 +3,7 @@
 #include "core/compose.h"
 #include "core/prepared.h"
 
-/* ---- Lobes
- * ------------------------------------------------------------------------------------- */
+/* ---- Lobes ----------------------------------------------------------------------------------- */
 
 HNBRDF_DIVIDES_AS_IEEE
 float hnbrdf_specular_share(const hnbrdf_model *model, const hnbrdf_material *material)
@@ -62,8 +61,7 @@ static void shares_at(const hnbrdf_lobes *lobes, float z, float share[HNBRDF_LOB
     }
 }
 
-/* ---- Density
- * ----------------------------------------------------------------------------------- */
+/* ---- Density --------------------------------------------------------------------------------- */
 
 /* Of reflections about visible normals D V(wo)/2; about all normals D h.n / (4 wo.h). */
 HNBRDF_DIVIDES_AS_IEEE
@@ -110,8 +108,7 @@ float hnbrdf_pdf(const hnbrdf_model *model, const hnbrdf_material *material, con
     return hnbrdf_prepared_pdf(&prepared, wi, wo);
 }
 
-/* ---- Drawing
- * ----------------------------------------------------------------------------------- */
+/* ---- Drawing --------------------------------------------------------------------------------- */
 
 /* Cosine-distributed direction; u2 < 1 keeps z above 0. */
 static void draw_cosine(float u1, float u2, float w[3])

@@ -69,9 +69,7 @@ static void piece_done(trainer *t, const char *stage, int worker)
                         (double)done * t->pool.tiles * FIT_TILE, 0);
 }
 
-/* ---- Stages 1 and 2: data, GGX
- * --------------------------------------------------------------------
- */
+/* ---- Stages 1 and 2: data, GGX --------------------------------------------------------------- */
 
 static void draw_one(void *context, int material, int worker)
 {
@@ -120,9 +118,7 @@ static void fit_one(void *context, int material, int worker)
     piece_done(t, "ggx", worker);
 }
 
-/* ---- Result
- * ----------------------------------------------------------------------------------------
- */
+/* ---- Result ---------------------------------------------------------------------------------- */
 
 /* The trained weights as desc wants them, row-major without padding, in `weights`. */
 static void describe_network(const trainer *t, float *weights, hnbrdf_model_desc *desc)

@@ -103,10 +103,10 @@ static double descend(const fit_kernel *kernel, const fit_pool *pool, int materi
     return least;
 }
 
-/* ---- Diffuse and reflectance of one channel
- * ---------------------------------------------------------- With the lobe given, kd and eta of a
- * channel are found by search: its loss has several minima in them (a dark channel may be read as
- * diffuse or as the lobe's tail) where Adam stays in the nearest. */
+/* ---- Diffuse and reflectance of one channel -----------------------------------------------------
+ * With the lobe given, kd and eta of a  * channel are found by search: its loss has several
+ * minima in them (a dark channel may be read as  * diffuse or as the lobe's tail) where Adam
+ * stays in the nearest. */
 
 enum { SEARCH_PAIRS = SCOUT_TILES * FIT_TILE, SEARCH_KD = 25, SEARCH_ETA = 17 };
 

@@ -1,7 +1,6 @@
 /* judge.c: whether training still leads anywhere. The best state so far is kept; a training that
  * has diverged is set back to it; what the fit returns is never clearly worse than it, nor than
- * GGX alone.
- */
+ * GGX alone. */
 #include "fit/ggx.h"
 #include "fit/trainer.h"
 
@@ -40,8 +39,7 @@ static int is_due(const trainer *t)
 /* Mean loss of t->parameters over the first tiles of all materials, by what training ends with
  * (SMAPE unless the loss is the logarithm), so that all states can be compared. *dead: in the
  * worst layer, the units whose gradient was zero throughout; they are off for every pair, or
- * nothing behind them is on.
- */
+ * nothing behind them is on. */
 static double loss_now(trainer *t, int *dead)
 {
     const fit_layout *l = &t->layout;

@@ -74,8 +74,7 @@ typedef struct fit_kernel {
                       const fit_tile *tile, int material, float mix, float *scratch,
                       float *gradient);
     /* The analytic part alone, wi, wo and target of the tile; parameters and gradient
-     * [FIT_ANALYTIC].
-     */
+     * [FIT_ANALYTIC]. */
     double (*analytic)(const float *parameters, const fit_tile *tile, float mix, float *scratch,
                        float *gradient);
 } fit_kernel;

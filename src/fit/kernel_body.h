@@ -134,8 +134,7 @@ static double channel_loss(const REAL *restrict u, const float *restrict target,
     return (double)tile_sum(loss);
 }
 
-/* ---- The analytic part
- * ------------------------------------------------------------------------- */
+/* ---- The analytic part ----------------------------------------------------------------------- */
 
 /* What the backward pass needs of one tile. */
 typedef struct analytic_cache {
@@ -233,8 +232,7 @@ static double kernel_analytic(const REAL *parameters, const fit_tile *tile, REAL
     return loss;
 }
 
-/* ---- The network
- * ------------------------------------------------------------------------------- */
+/* ---- The network ----------------------------------------------------------------------------- */
 
 /* derived: for k = 1 .. N-1 the hidden matrices output-major [padded][padded]; then the last one
  * input-major [padded][FIT_LANES], its unused columns 0. */
@@ -268,8 +266,7 @@ static void bounded_exp(const REAL *restrict out, REAL sign, REAL *restrict e,
 }
 
 /* Values, loss and the derivative of the loss by the network's outputs (and by f_a, into
- * by_analytic).
- */
+ * by_analytic). */
 static double compose_loss(const fit_layout *l, const REAL *out, const fit_tile *tile,
                            REAL analytic[3][FIT_TILE], REAL mix, REAL *by_out,
                            REAL by_analytic[3][FIT_TILE])

@@ -48,9 +48,7 @@ static void initialise(trainer *t)
         p[l->codes + i] = uniform(&rng, 0.5);
 }
 
-/* ---- A frozen network
- * ------------------------------------------------------------------------------
- */
+/* ---- A frozen network ------------------------------------------------------------------------ */
 
 /* The weights of options.freeze into the flat array. */
 static void take_network(trainer *t)
@@ -105,9 +103,7 @@ static void take_codes(trainer *t)
     }
 }
 
-/* ---- Steps
- * -----------------------------------------------------------------------------------------
- */
+/* ---- Steps ----------------------------------------------------------------------------------- */
 
 /* Choose the tiles of a step: materials in shuffled rounds, each material's tiles in turn. */
 static void schedule(trainer *t)

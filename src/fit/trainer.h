@@ -68,8 +68,7 @@ void hnbrdf_fit_set_back(trainer *t);
 void hnbrdf_fit_judge_end(trainer *t, hnbrdf_fit_report *report);
 
 /* The network stage, from a fresh start or from a checkpoint. Fills steps, rate and loss of the
- * report.
- */
+ * report. */
 hnbrdf_result hnbrdf_fit_train(trainer *t, hnbrdf_fit_report *report, hnbrdf_error *error);
 
 /* Write options.checkpoint, aside and renamed. */

@@ -1,6 +1,5 @@
 /* evaluate.c: the exported shader of a model on one device as a function: any material, any
- * directions.
- */
+ * directions. */
 #include "gpu/evaluate.h"
 
 #include "core/error.h"

@@ -1,6 +1,5 @@
 /* evaluate.h: the exported shader of a model on one device as a function: any material, any
- * directions.
- */
+ * directions. */
 #ifndef HNBRDF_GPU_EVALUATE_H
 #define HNBRDF_GPU_EVALUATE_H
 

@@ -63,8 +63,7 @@ gpu_rules gpu_rules_exact(const gpu_arithmetic *arithmetic)
     apply_probe(arithmetic, &rules);
     rules.repeats_functions = 1;
     /* hnbrdf_exp: 1.1 ulp. hnbrdf_log: 1.05 ulp + 5e-8; s = f/(2 + f), |s| <= 0.172, enters as
-     * 2.06 s.
-     */
+     * 2.06 s. */
     rules.exp = 1.1 * ULP;
     rules.exp_slope = 0;
     rules.log = 1.05 * ULP;

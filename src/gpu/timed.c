@@ -24,8 +24,7 @@ static double milliseconds(void)
     return (double)now.tv_sec * 1e3 + (double)now.tv_nsec * 1e-6;
 }
 
-/* ---- Buffers
- * ------------------------------------------------------------------------------------- */
+/* ---- Buffers --------------------------------------------------------------------------------- */
 
 static hnbrdf_result upload_directions(const gpu_device *device, gpu_timed_buffers *buffers,
                                        hnbrdf_error *error)
@@ -66,8 +65,7 @@ void gpu_timed_buffers_close(const gpu_device *device, gpu_timed_buffers *buffer
     gpu_buffer_close(device, &buffers->values);
 }
 
-/* ---- Scenes
- * -------------------------------------------------------------------------------------- */
+/* ---- Scenes ---------------------------------------------------------------------------------- */
 
 static hnbrdf_result open_program(const gpu_device *device, const gpu_timed_buffers *buffers,
                                   const gpu_scene *scene, gpu_work work, gpu_timed *timed,

@@ -37,9 +37,7 @@ static void srgb_from_xyz(const double xyz[3], double rgb[3])
         rgb[c] = M[c][0] * xyz[0] + M[c][1] * xyz[1] + M[c][2] * xyz[2];
 }
 
-/* ---- Interference: Born and Wolf, Principles of Optics, 7.6; Belcour and Barla 2017
- * ---------------
- */
+/* ---- Interference: Born and Wolf, Principles of Optics, 7.6; Belcour and Barla 2017 ---------- */
 
 /* Amplitude reflected by the boundary from index n0 to n1, polarised s (0) or p (1). */
 static double complex boundary(double complex n0, double complex cos0, double complex n1,

@@ -44,8 +44,7 @@ static void metal(double f[3], const pair *p, double lobe, const double n[3], co
         f[c] += lobe * fresnel_conductor(n[c], k[c], p->c);
 }
 
-/* ---- Metals
- * -------------------------------------------------------------------------------------- */
+/* ---- Metals ---------------------------------------------------------------------------------- */
 
 /* Aluminium flakes at two depths of a blue binder, no coat: two lobes of different width and colour
  * (as fitted to car paints by Ngan et al. 2005 and Guenther et al. 2005), over a dark diffuse
@@ -95,8 +94,7 @@ static void anodised_titanium(const pair *p, double f[3])
     add(f, 0.7 * ggx(p, 0.16, 0.16) + 0.3 * ggx(p, 0.4, 0.4), colour);
 }
 
-/* ---- Under a coat
- * -------------------------------------------------------------------------------- */
+/* ---- Under a coat ---------------------------------------------------------------------------- */
 
 /* Red lacquer: a sharp coat over a saturated diffuse base, whose green lies outside the gamut. */
 static void clear_coat_red(const pair *p, double f[3])
@@ -145,8 +143,7 @@ static void pearl_flake_paint(const pair *p, double f[3])
         f[c] += diffuse_under_coat(p, base[c]);
 }
 
-/* ---- Rough, woven and granular
- * ------------------------------------------------------------------- */
+/* ---- Rough, woven and granular --------------------------------------------------------------- */
 
 /* Fired clay: rough Lambertian facets, flat towards grazing and brighter towards the light. */
 static void rough_clay(const pair *p, double f[3])
@@ -205,8 +202,7 @@ static void moon_dust(const pair *p, double f[3])
         f[c] += hapke(p, albedo[c], 1.0, 0.06, -0.3);
 }
 
-/* ---- The list
- * ------------------------------------------------------------------------------------ */
+/* ---- The list -------------------------------------------------------------------------------- */
 
 const builtin_material hnbrdf_builtin_materials[] = {
     {"metallic-paint-blue", "two flake lobes over a diffuse base", 1, NULL, metallic_paint_blue},

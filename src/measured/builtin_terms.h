@@ -20,8 +20,7 @@ static inline double square(double x)
     return x * x;
 }
 
-/* ---- Pairs
- * --------------------------------------------------------------------------------------- */
+/* ---- Pairs ----------------------------------------------------------------------------------- */
 
 static inline pair make_pair(const double wi[3], const double wo[3])
 {
@@ -67,8 +66,7 @@ static inline pair retro_pair(const pair *p)
     return make_pair(mirrored, p->wo);
 }
 
-/* ---- Specular
- * ------------------------------------------------------------------------------------ */
+/* ---- Specular -------------------------------------------------------------------------------- */
 
 /* D G1 G1 / (4 wi.z wo.z) of GGX with Smith shadowing: Walter et al. 2007; Heitz 2014. */
 static inline double ggx(const pair *p, double alpha_x, double alpha_y)
@@ -106,8 +104,7 @@ static inline double schlick(double f0, double c)
     return f0 + (1.0 - f0) * square(square(m)) * m;
 }
 
-/* ---- Coats
- * --------------------------------------------------------------------------------------- */
+/* ---- Coats ----------------------------------------------------------------------------------- */
 
 /* What gets into and out of a smooth coat of index 1.5: Weidlich and Wilkie 2007, Arbitrarily
  * Layered Micro-Facet Surfaces. Over a base that sees refracted directions, divide by 1.5^2:
@@ -127,8 +124,7 @@ static inline double diffuse_under_coat(const pair *p, double albedo)
     return coat_transmission(p) / (COAT_ETA * COAT_ETA) * albedo / (PI * (1.0 - albedo * inside));
 }
 
-/* ---- Rough, fibrous and granular
- * ----------------------------------------------------------------- */
+/* ---- Rough, fibrous and granular ------------------------------------------------------------- */
 
 /* Reflectance factor 1: Oren and Nayar 1994 in the form of Y. Fujii, whose lobe loses energy but
  * never gains any; roughness in [0, 1]. */

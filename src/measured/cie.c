@@ -62,8 +62,7 @@ static void observer_under_d65(int nm, double xyz[3])
 }
 
 /* Row c of the matrix from XYZ to linear sRGB, up to a factor: the plane through the two other
- * primaries.
- */
+ * primaries. */
 static void channel_row(int c, double row[3])
 {
     double primary[2][3];

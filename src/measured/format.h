@@ -36,8 +36,7 @@ hnbrdf_result hnbrdf_rgl_open(const unsigned char *bytes, size_t size, const cha
                               hnbrdf_error *error);
 
 /* A file without a header: recognised by its size, and as a failed one by a label that ends in
- * ".bin".
- */
+ * ".bin". */
 int hnbrdf_utia_recognise(size_t size, const char *label);
 hnbrdf_result hnbrdf_utia_open(const unsigned char *bytes, size_t size, const char *label,
                                const hnbrdf_measured_options *options, measured_body *body,

@@ -23,8 +23,7 @@ struct hnbrdf_measured {
     char name[HNBRDF_MAX_NAME + 1];
 };
 
-/* ---- Names
- * --------------------------------------------------------------------------------------- */
+/* ---- Names ----------------------------------------------------------------------------------- */
 
 /* Bytes of the character at p, 0 if it is a control character or not UTF-8 (Unicode 15, table
  * 3-7). */
@@ -107,8 +106,7 @@ static void make_name(char name[HNBRDF_MAX_NAME + 1], const char *path)
         memcpy(name, "unnamed", sizeof "unnamed");
 }
 
-/* ---- Opening
- * ------------------------------------------------------------------------------------- */
+/* ---- Opening --------------------------------------------------------------------------------- */
 
 /* given, or the defaults where it is NULL or has 0s that stand for something else. */
 static hnbrdf_result settle_options(const hnbrdf_measured_options *given,
@@ -333,8 +331,7 @@ void hnbrdf_measured_close(hnbrdf_measured *measured)
     free(measured);
 }
 
-/* ---- Asking
- * -------------------------------------------------------------------------------------- */
+/* ---- Asking ---------------------------------------------------------------------------------- */
 
 const char *hnbrdf_measured_format_name(hnbrdf_measured_format format)
 {

@@ -34,8 +34,7 @@ float hnbrdf_rng_float(hnbrdf_rng *rng)
     return (float)(hnbrdf_rng_u32(rng) >> 8) * 0x1p-24f;
 }
 
-/* ---- Samplers
- * ------------------------------------------------------------------------------------ */
+/* ---- Samplers -------------------------------------------------------------------------------- */
 
 const char *hnbrdf_sampler_name(hnbrdf_sampler sampler)
 {

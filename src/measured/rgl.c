@@ -33,8 +33,7 @@ int hnbrdf_rgl_recognise(const unsigned char *bytes, size_t size)
     return hnbrdf_tensor_file_recognise(bytes, size);
 }
 
-/* ---- Fields and shapes
- * --------------------------------------------------------------------------- */
+/* ---- Fields and shapes ----------------------------------------------------------------------- */
 
 static hnbrdf_result check_kind(const reader *r, const tensor *field, tensor_type type, int dims)
 {
@@ -128,8 +127,7 @@ static hnbrdf_result check_shapes(const reader *r, const rgl_fields *fields)
     return result;
 }
 
-/* ---- Values
- * -------------------------------------------------------------------------------------- */
+/* ---- Values ---------------------------------------------------------------------------------- */
 
 static float element(const tensor *field, size_t i)
 {
@@ -207,8 +205,7 @@ static hnbrdf_result read_grid(const reader *r, const tensor *field, rgl_grid *g
     return HNBRDF_OK;
 }
 
-/* ---- Building
- * ------------------------------------------------------------------------------------ */
+/* ---- Building -------------------------------------------------------------------------------- */
 
 static hnbrdf_result read_directions(const reader *r, const rgl_fields *fields, rgl *material)
 {

@@ -1,6 +1,5 @@
 /* sha256.c: SHA-256 of bytes in memory: FIPS 180-4, Secure Hash Standard, section 6.2; names are
- * its.
- */
+ * its. */
 #include "measured/sha256.h"
 
 #include <stdint.h>

@@ -1,7 +1,6 @@
 /* utia.c: UTIA .bin tables (Filip and Vavra 2014, Template-Based Sampling of Anisotropic BRDFs):
  * 5-D grids of doubles without a header, and the three readings of their numbers that public
- * readers have.
- */
+ * readers have. */
 #include "measured/format.h"
 #include "measured/bytes.h"
 #include "core/error.h"
@@ -29,8 +28,7 @@ typedef struct utia_table {
     float v[PAIRS][3];       /* [theta_i][phi_i][theta_v][phi_v]; i is the light, v the viewer */
 } utia_table;
 
-/* ---- What the numbers mean
- * ----------------------------------------------------------------------- */
+/* ---- What the numbers mean ------------------------------------------------------------------- */
 
 /* IEC 61966-2-1 from `threshold` on, where the two branches of the standard meet near 0.04045. */
 static double decode(double v, double threshold)
@@ -58,8 +56,7 @@ static double brdf_value(const utia_table *table, double interpolated)
     return table->scale * interpolated;
 }
 
-/* ---- Lookup
- * -------------------------------------------------------------------------------------- */
+/* ---- Lookup ---------------------------------------------------------------------------------- */
 
 /* The four neighbours of one direction. Weights are negative where theta is beyond the last
  * sample. */
@@ -97,8 +94,7 @@ static int utia_eval(const void *data, const double wi[3], const double wo[3], d
     return 1;
 }
 
-/* ---- Energy
- * -------------------------------------------------------------------------------------- */
+/* ---- Energy ---------------------------------------------------------------------------------- */
 
 static void direction(double sine2, double phi, double w[3])
 {
@@ -125,8 +121,7 @@ static double albedo(const utia_table *table, double sine2)
     return PI * fmax(sum[0], fmax(sum[1], sum[2])) / (ALBEDO_AZIMUTHS * ALBEDO_RINGS * PHIS);
 }
 
-/* ---- Opening
- * ------------------------------------------------------------------------------------- */
+/* ---- Opening --------------------------------------------------------------------------------- */
 
 int hnbrdf_utia_recognise(size_t size, const char *label)
 {

@@ -4,11 +4,11 @@
 #include <math.h>
 #include <string.h>
 
-/* ---- Directional albedo
- * ------------------------------------------------------------------------------ wi is charted by
- * the normal h that mirrors wo to it, by its slopes in units of the roughness on a scale that is
- * linear near 0 and logarithmic far out, x = asinh(h.x/(h.z a)). That resolves a narrow lobe and
- * the diffuse rest together; the midpoint rule on it converges like one on a smooth function. */
+/* ---- Directional albedo -------------------------------------------------------------------------
+ * wi is charted by  * the normal h that mirrors wo to it, by its slopes in units of the roughness
+ * on a scale that is  * linear near 0 and logarithmic far out, x = asinh(h.x/(h.z a)). That
+ * resolves a narrow lobe and  * the diffuse rest together; the midpoint rule on it converges like
+ * one on a smooth function. */
 
 enum { SIDE = 72, BLOCK = 72, ANGLES = 23, AZIMUTHS = 8 };
 
@@ -106,8 +106,7 @@ static void find_albedo(const hnbrdf_model *model, const hnbrdf_material *materi
         }
 }
 
-/* ---- Reciprocity, positivity
- * ------------------------------------------------------------------------- */
+/* ---- Reciprocity, positivity ----------------------------------------------------------------- */
 
 static void compare_swapped(const hnbrdf_model *model, const hnbrdf_material *material,
                             hnbrdf_physics *physics)

@@ -46,8 +46,7 @@ static hnbrdf_result fail_line(const reading *r, const char *message)
                        r->words->line, message);
 }
 
-/* ---- Names and constructors
- * -------------------------------------------------------------------- */
+/* ---- Names and constructors ------------------------------------------------------------------ */
 
 /* vec2, mat3, mat2x4 and the like, with what they make. */
 static int is_constructor(const hnbrdf_words *words, block *made)
@@ -108,8 +107,7 @@ static hnbrdf_result read_operand(reading *r, char name[MAX_OPERAND])
     return HNBRDF_OK;
 }
 
-/* ---- Groups
- * ------------------------------------------------------------------------------------ */
+/* ---- Groups ---------------------------------------------------------------------------------- */
 
 static const group *find(const groups *list, const char *name)
 {
@@ -163,8 +161,7 @@ static hnbrdf_result append(reading *r, groups *list, const char *name, int size
     return HNBRDF_OK;
 }
 
-/* ---- Statements
- * -------------------------------------------------------------------------------- */
+/* ---- Statements ------------------------------------------------------------------------------ */
 
 /* One statement while it is read: some rows of a layer. */
 typedef struct rows {
@@ -361,8 +358,7 @@ static hnbrdf_result read_statement(reading *r)
     return finish_rows(r, &s, name);
 }
 
-/* ---- Function body
- * ----------------------------------------------------------------------------- */
+/* ---- Function body --------------------------------------------------------------------------- */
 
 static int ends_statement(const hnbrdf_words *words)
 {
@@ -371,8 +367,7 @@ static int ends_statement(const hnbrdf_words *words)
 }
 
 /* Whether hardGeLU or a matrix of numbers stands in the statement that begins here; moves to its
- * end.
- */
+ * end. */
 static int skip_statement(hnbrdf_words *words)
 {
     int found = 0;

@@ -28,8 +28,7 @@ static size_t weight_size(const hnbrdf_model_desc *desc, int layer)
     return (size_t)hnbrdf_layer_inputs(desc, layer) * (size_t)hnbrdf_layer_outputs(desc, layer);
 }
 
-/* ---- Checks
- * ------------------------------------------------------------------------------------ */
+/* ---- Checks ---------------------------------------------------------------------------------- */
 
 static hnbrdf_result check_size(const char *what, int value, int low, int high, hnbrdf_error *error)
 {
@@ -180,8 +179,7 @@ static hnbrdf_result check_unique(const char **names, int count, hnbrdf_error *e
     return HNBRDF_OK;
 }
 
-/* ---- Creation
- * ---------------------------------------------------------------------------------- */
+/* ---- Creation -------------------------------------------------------------------------------- */
 
 /* Rounded up so that the next array is aligned like this one. */
 static size_t padded(size_t bytes)
@@ -332,8 +330,7 @@ void hnbrdf_model_free(hnbrdf_model *model)
     }
 }
 
-/* ---- Looking in
- * -------------------------------------------------------------------------------- */
+/* ---- Looking in ------------------------------------------------------------------------------ */
 
 void hnbrdf_model_describe(const hnbrdf_model *model, hnbrdf_model_desc *desc)
 {

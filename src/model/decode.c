@@ -23,8 +23,7 @@ typedef struct loading {
     hnbrdf_material *materials;
 } loading;
 
-/* ---- Metadata
- * ---------------------------------------------------------------------------------- */
+/* ---- Metadata -------------------------------------------------------------------------------- */
 
 static hnbrdf_result fail_key(const loading *l, hnbrdf_result result, int key, const char *expected)
 {
@@ -113,8 +112,7 @@ static hnbrdf_result read_metadata(loading *l)
                : fail_key(l, HNBRDF_ERROR_FORMAT, HNBRDF_KEY_SCALE, "a number that is not 0");
 }
 
-/* ---- Names
- * ------------------------------------------------------------------------------------- */
+/* ---- Names ----------------------------------------------------------------------------------- */
 
 static hnbrdf_result check_count(const loading *l, uint64_t count)
 {
@@ -147,8 +145,7 @@ static uint64_t count_items(hnbrdf_json list)
 }
 
 /* Names become C strings where they stand: unescaped over themselves, the NUL over the quotation
- * mark.
- */
+ * mark. */
 static hnbrdf_result take_names(loading *l, hnbrdf_json *list)
 {
     hnbrdf_json_text item;
@@ -211,8 +208,7 @@ static hnbrdf_result default_names(loading *l)
     return HNBRDF_OK;
 }
 
-/* ---- Shapes
- * ------------------------------------------------------------------------------------ */
+/* ---- Shapes ---------------------------------------------------------------------------------- */
 
 static void print_shape(char *text, size_t size, int rank, const uint64_t *shape)
 {
@@ -291,8 +287,7 @@ static hnbrdf_result check_tensors(const loading *l)
     return HNBRDF_OK;
 }
 
-/* ---- Values
- * ------------------------------------------------------------------------------------ */
+/* ---- Values ---------------------------------------------------------------------------------- */
 
 /* Numbers [first, first + count) of a tensor. */
 static hnbrdf_result decode(const loading *l, int tensor, size_t first, size_t count, float *to)
@@ -357,8 +352,7 @@ static hnbrdf_result read_materials(loading *l)
     return HNBRDF_OK;
 }
 
-/* ---- The whole
- * --------------------------------------------------------------------------------- */
+/* ---- The whole ------------------------------------------------------------------------------- */
 
 static hnbrdf_result read_model(loading *l)
 {

@@ -1,6 +1,5 @@
 /* export_material.c: the material of a scene as a GLSL struct, and the scene's materials as
- * constants.
- */
+ * constants. */
 #include "model/export_material.h"
 
 void hnbrdf_put_material_struct(hnbrdf_printer *out, const hnbrdf_scene *s)

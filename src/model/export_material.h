@@ -1,6 +1,5 @@
 /* export_material.h: the material of a scene as a GLSL struct, and the scene's materials as
- * constants.
- */
+ * constants. */
 #ifndef HNBRDF_MODEL_EXPORT_MATERIAL_H
 #define HNBRDF_MODEL_EXPORT_MATERIAL_H
 

@@ -105,8 +105,7 @@ static void put_half_inputs(hnbrdf_printer *out, const hnbrdf_scene *s)
                    v, v, v);
 }
 
-/* ---- What all styles share
- * ---------------------------------------------------------------------- */
+/* ---- What all styles share ------------------------------------------------------------------- */
 
 void hnbrdf_put_input(hnbrdf_printer *out, const hnbrdf_scene *s, int i)
 {
@@ -126,9 +125,7 @@ void hnbrdf_put_constant(hnbrdf_printer *out, const hnbrdf_scene *s, int which)
         hnbrdf_put_float(out, numbers[which]);
 }
 
-/* ---- Literals: units one by one, or four at a time
- * ------------------------------------------------
- */
+/* ---- Literals: units one by one, or four at a time ------------------------------------------- */
 
 /* Units of one statement: the last layer has three, c and then g. */
 static int step_of(const hnbrdf_scene *s, int layer)
@@ -291,8 +288,7 @@ static void put_literals(hnbrdf_printer *out, const hnbrdf_scene *s)
     put_outputs(out, s);
 }
 
-/* ---- All of it
- * ----------------------------------------------------------------------------------- */
+/* ---- All of it ------------------------------------------------------------------------------- */
 
 /* hnbrdf_hard_gelu() or its half form for the vectors that the style computes in. */
 static void put_activations(hnbrdf_printer *out, const hnbrdf_scene *s)

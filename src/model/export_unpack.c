@@ -19,8 +19,7 @@ void hnbrdf_put_texel_summary(hnbrdf_printer *out, const hnbrdf_packing *packing
 }
 
 /* `count` channels from number `first` on: t0.xyz, or vec3(t0.w, t1.xy) where they lie in two
- * texels.
- */
+ * texels. */
 static void put_channels(hnbrdf_printer *out, int first, int count)
 {
     int split = first / 4 != (first + count - 1) / 4;

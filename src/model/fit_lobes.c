@@ -45,8 +45,7 @@ typedef struct mixture {
     double variance; /* plus a constant */
 } mixture;
 
-/* ---- Observing
- * --------------------------------------------------------------------------------- */
+/* ---- Observing ------------------------------------------------------------------------------- */
 
 /* All samples into one lobe of this scale; 0 stands for cosine. */
 static void use_source(search *s, float scale)
@@ -158,8 +157,7 @@ static double observe(search *s, const float scales[SOURCES])
     return total;
 }
 
-/* ---- Shares
- * ------------------------------------------------------------------------------------ */
+/* ---- Shares ---------------------------------------------------------------------------------- */
 
 /* At least least_share each, together 1. */
 static void normalise(mixture *m, int knot)
@@ -215,8 +213,7 @@ static void fit_shares(const search *s, mixture *m, int steps, int stride)
     }
 }
 
-/* ---- Widths
- * ------------------------------------------------------------------------------------ */
+/* ---- Widths ---------------------------------------------------------------------------------- */
 
 enum { QUICK = 8, CAREFUL = 60 };
 

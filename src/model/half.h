@@ -1,5 +1,4 @@
-/* half.h: what a network in half precision is made of; its numbers are kept in floats.
- */
+/* half.h: what a network in half precision is made of; its numbers are kept in floats. */
 #ifndef HNBRDF_MODEL_HALF_H
 #define HNBRDF_MODEL_HALF_H
 

@@ -16,8 +16,7 @@ typedef struct published {
     int latent;
 } published;
 
-/* ---- Parameters
- * -------------------------------------------------------------------------------- */
+/* ---- Parameters ------------------------------------------------------------------------------ */
 
 enum { DIFFUSE_R, DIFFUSE_G, DIFFUSE_B, ETA_R, ETA_G, ETA_B, ALPHA_X, ALPHA_Y, ALPHA, LATENT };
 static const char *const PARAMETERS[LATENT] = {"diffuse_r", "diffuse_g", "diffuse_b",
@@ -127,8 +126,7 @@ static hnbrdf_result check_parameters(const char *file, unsigned long seen, int 
     return HNBRDF_OK;
 }
 
-/* ---- exp(S*(neural_output) + M)
- * ----------------------------------------------------------------- */
+/* ---- exp(S*(neural_output) + M) -------------------------------------------------------------- */
 
 /* A product of numbers, and of neural_output at most once, each with or without parentheses. */
 static hnbrdf_result read_product(hnbrdf_words *words, float *number, int *has_output,
@@ -176,8 +174,7 @@ static hnbrdf_result read_exponent(hnbrdf_words *words, published *p, hnbrdf_err
     return HNBRDF_OK;
 }
 
-/* ---- One file
- * ---------------------------------------------------------------------------------- */
+/* ---- One file -------------------------------------------------------------------------------- */
 
 /* Moves behind the '{' of a function's definition; stays behind the name if this is none. */
 static int take_definition(hnbrdf_words *words)
@@ -277,8 +274,7 @@ static hnbrdf_result read_file(const char *file, const char *text, size_t size, 
     return HNBRDF_OK;
 }
 
-/* ---- All files
- * --------------------------------------------------------------------------------- */
+/* ---- All files ------------------------------------------------------------------------------- */
 
 /* The first and the current file side by side, and all materials behind them. */
 typedef struct importing {

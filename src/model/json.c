@@ -43,8 +43,7 @@ static int take(hnbrdf_json *json, char wanted, const char *expected)
     return 1;
 }
 
-/* ---- Structure
- * --------------------------------------------------------------------------------- */
+/* ---- Structure ------------------------------------------------------------------------------- */
 
 int hnbrdf_json_open(hnbrdf_json *json, char bracket)
 {
@@ -81,8 +80,7 @@ int hnbrdf_json_finish(hnbrdf_json *json)
     return !json->expected;
 }
 
-/* ---- Strings
- * ----------------------------------------------------------------------------------- */
+/* ---- Strings --------------------------------------------------------------------------------- */
 
 static int hex_digit(char c)
 {
@@ -247,8 +245,7 @@ int hnbrdf_json_escape(const char *text, size_t size, hnbrdf_write_fn write, voi
     return 0;
 }
 
-/* ---- Numbers and values that are skipped
- * ------------------------------------------------------- */
+/* ---- Numbers and values that are skipped ----------------------------------------------------- */
 
 static int is_digit(char c)
 {

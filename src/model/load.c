@@ -10,8 +10,7 @@
 static const size_t DEFAULT_MAX_BYTES = (size_t)256 << 20;
 enum { FIRST_CHUNK = 1 << 16 };
 
-/* ---- Bytes
- * ------------------------------------------------------------------------------------- */
+/* ---- Bytes ----------------------------------------------------------------------------------- */
 
 typedef struct source {
     const char *path;
@@ -74,8 +73,7 @@ static hnbrdf_result read_all(const source *s, unsigned char **bytes, size_t *si
     }
 }
 
-/* ---- Loading
- * ----------------------------------------------------------------------------------- */
+/* ---- Loading --------------------------------------------------------------------------------- */
 
 static hnbrdf_result load_bytes(const source *s, const unsigned char *bytes, size_t size,
                                 hnbrdf_model **model)

@@ -24,8 +24,7 @@ const char *const hnbrdf_key_names[HNBRDF_KEY_COUNT] = {
     "format", "kind", "encoding", "scale", "shift", "floor", "materials",
 };
 
-/* ---- What a model's tensors look like
- * ---------------------------------------------------------- */
+/* ---- What a model's tensors look like -------------------------------------------------------- */
 
 int hnbrdf_tensor_shape(const hnbrdf_model_desc *desc, int tensor, uint64_t shape[2])
 {
@@ -63,8 +62,7 @@ float *hnbrdf_tensor_row(hnbrdf_material *material, int tensor)
     }
 }
 
-/* ---- Reading
- * ----------------------------------------------------------------------------------- */
+/* ---- Reading --------------------------------------------------------------------------------- */
 
 typedef struct extent {
     uint64_t begin, end;

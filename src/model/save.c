@@ -11,8 +11,7 @@
 #include <sys/stat.h>
 #endif
 
-/* ---- Bytes on their way
- * ------------------------------------------------------------------------ */
+/* ---- Bytes on their way ---------------------------------------------------------------------- */
 
 typedef struct sink {
     hnbrdf_write_fn write; /* NULL: only count */
@@ -74,8 +73,7 @@ static void put_floats(sink *s, const float *values, uint64_t count)
     }
 }
 
-/* ---- Header
- * ------------------------------------------------------------------------------------ */
+/* ---- Header ---------------------------------------------------------------------------------- */
 
 static void put_key(sink *s, int key, const char *value)
 {
@@ -168,8 +166,7 @@ static void put_header(sink *s, const hnbrdf_model_desc *desc)
     put_text(s, "}");
 }
 
-/* ---- Data
- * -------------------------------------------------------------------------------------- */
+/* ---- Data ------------------------------------------------------------------------------------ */
 
 static void put_data(sink *s, const hnbrdf_model_desc *desc)
 {
@@ -213,8 +210,7 @@ hnbrdf_result hnbrdf_model_write(const hnbrdf_model *model, hnbrdf_write_fn writ
                     : HNBRDF_OK;
 }
 
-/* ---- Files
- * ------------------------------------------------------------------------------------- */
+/* ---- Files ----------------------------------------------------------------------------------- */
 
 static int write_stream(void *user, const void *data, size_t size)
 {

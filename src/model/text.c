@@ -1,7 +1,6 @@
 /* text.c: numbers and UTF-8 as text, the same whatever the locale.
  * Short numbers are parsed with one exact product or division, all others by shifting decimal
- * digits.
- */
+ * digits. */
 #include "model/text.h"
 
 #include <float.h>
@@ -14,8 +13,7 @@ static int is_digit(char c)
     return c >= '0' && c <= '9';
 }
 
-/* ---- Printing
- * ---------------------------------------------------------------------------------- */
+/* ---- Printing -------------------------------------------------------------------------------- */
 
 static int format_digits(char *buffer, size_t size, double value, int digits)
 {
@@ -39,8 +37,7 @@ int hnbrdf_format_double(char *buffer, size_t size, double value)
     return format_digits(buffer, size, value, 17);
 }
 
-/* ---- Exact decimals
- * ---------------------------------------------------------------------------- */
+/* ---- Exact decimals -------------------------------------------------------------------------- */
 
 /* A midpoint between two doubles has at most 767 significant digits, so that of what is cut from
  * longer numbers it only matters whether it is zero. */
@@ -173,8 +170,7 @@ static int decimal_to_binary(decimal *d, const format *f, double *value)
     return 1;
 }
 
-/* ---- Parsing
- * ----------------------------------------------------------------------------------- */
+/* ---- Parsing --------------------------------------------------------------------------------- */
 
 static const double POWER_OF_TEN[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
                                       1e8,  1e9,  1e10, 1e11, 1e12, 1e13, 1e14, 1e15,
@@ -283,8 +279,7 @@ const char *hnbrdf_parse_float(const char *begin, const char *end, float *value)
     return at;
 }
 
-/* ---- UTF-8
- * ------------------------------------------------------------------------------------- */
+/* ---- UTF-8 ----------------------------------------------------------------------------------- */
 
 size_t hnbrdf_utf8_length(const char *begin, const char *end)
 {

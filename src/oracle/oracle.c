@@ -1,6 +1,5 @@
 /* oracle.c: DESIGN section 2 line by line, in real numbers of many digits. Slow, and meant to be
- * read.
- */
+ * read. */
 #include "oracle/oracle.h"
 
 #include "oracle/real.h"
@@ -48,8 +47,7 @@ static real limited(real x, real low, real high)
     return x < low ? low : x > high ? high : x;
 }
 
-/* ---- The analytic part
- * ------------------------------------------------------------------------------- */
+/* ---- The analytic part ----------------------------------------------------------------------- */
 
 static real D(vec h, real ax, real ay)
 {
@@ -69,8 +67,7 @@ static real F(real eta, real c)
     return a * a * (1 + b * b) / 2;
 }
 
-/* ---- Encodings
- * --------------------------------------------------------------------------------------- */
+/* ---- Encodings ------------------------------------------------------------------------------- */
 
 typedef struct angles {
     vec h;
@@ -119,8 +116,7 @@ static void encode(hnbrdf_encoding encoding, vec wi, vec wo, const angles *a, re
     }
 }
 
-/* ---- The network
- * ------------------------------------------------------------------------------------- */
+/* ---- The network ----------------------------------------------------------------------------- */
 
 static real hard_gelu(real x)
 {
@@ -150,8 +146,7 @@ static void network(const hnbrdf_model_desc *desc, const float *latent, const re
     memcpy(out, from, (size_t)columns * sizeof *out);
 }
 
-/* ---- All of it
- * --------------------------------------------------------------------------------------- */
+/* ---- All of it ------------------------------------------------------------------------------- */
 
 static real specular_share(const hnbrdf_material *material)
 {

@@ -1,6 +1,5 @@
 /* real.h: the numbers the oracle computes with: __float128 where the compiler has it, else long
- * double.
- */
+ * double. */
 #ifndef HNBRDF_ORACLE_REAL_H
 #define HNBRDF_ORACLE_REAL_H
 

@@ -8,8 +8,7 @@
 enum { MAX_MATERIALS = RENDER_MAX_SURFACES };
 static const size_t max_text = (size_t)4 << 20;
 
-/* ---- Statements
- * ---------------------------------------------------------------------------------- */
+/* ---- Statements ------------------------------------------------------------------------------ */
 
 static hnbrdf_result read_camera(words *in)
 {
@@ -183,8 +182,7 @@ static hnbrdf_result read_material(words *in)
     return result;
 }
 
-/* ---- Lines
- * --------------------------------------------------------------------------------------- */
+/* ---- Lines ----------------------------------------------------------------------------------- */
 
 static hnbrdf_result read_size(words *in)
 {

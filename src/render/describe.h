@@ -21,8 +21,7 @@
  *   sphere; quad; box; torus [tube R]; knot [turns P Q] [tube R]; superellipsoid [powers E1 E2];
  * teapot; lathe profile R Y R Y ...; obj FILE [use PART MATERIAL]... [smooth] Placing, in the order
  * given: scale S, stretch X Y Z, turn DEG (about y), rotate X Y Z DEG (about an axis), move X Y Z.
- * Files are looked for beside the scene. Both sides of a surface reflect; its outside emits.
- */
+ * Files are looked for beside the scene. Both sides of a surface reflect; its outside emits. */
 #ifndef HNBRDF_RENDER_DESCRIBE_H
 #define HNBRDF_RENDER_DESCRIBE_H
 

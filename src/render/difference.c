@@ -22,8 +22,7 @@ static double difference_at(const render_image *a, const render_image *b, size_t
     return sum / 3.0;
 }
 
-/* ---- The scale
- * ----------------------------------------------------------------------------------- */
+/* ---- The scale ------------------------------------------------------------------------------- */
 
 static int compare_values(const void *a, const void *b)
 {
@@ -71,8 +70,7 @@ hnbrdf_result render_difference_map(const render_image *a, const render_image *b
     return result;
 }
 
-/* ---- The page
- * ------------------------------------------------------------------------------------ */
+/* ---- The page -------------------------------------------------------------------------------- */
 
 static const float page_colour[3] = {0.016f, 0.017f, 0.019f}, plain[3] = {0.50f, 0.50f, 0.52f},
                    bright[3] = {0.80f, 0.80f, 0.80f};

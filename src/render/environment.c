@@ -213,8 +213,7 @@ double render_environment_lookup(const render_environment *environment, const fl
     return look(environment, texel_of(environment, direction), radiance);
 }
 
-/* ---- Drawing. shaders/sphere.comp holds the same, to the last bit.
- * ------------------------------- */
+/* ---- Drawing. shaders/sphere.comp holds the same, to the last bit. --------------------------- */
 
 /* The number of a place; u in [0, 1). */
 static uint32_t place_of(double u)

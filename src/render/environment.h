@@ -7,8 +7,7 @@
  *               the map looks as seen from inside.
  *   Radiance    constant within a texel, and so is the density: proportional to the luminance of
  *               the texel, drawn uniformly in solid angle inside it. Both stay exact at the
- *               poles.
- */
+ *               poles. */
 #ifndef HNBRDF_RENDER_ENVIRONMENT_H
 #define HNBRDF_RENDER_ENVIRONMENT_H
 

@@ -112,8 +112,7 @@ static exr_context_initializer_t initializer(exr_memory *memory)
     return init;
 }
 
-/* ---- Writing
- * ------------------------------------------------------------------------------------- */
+/* ---- Writing --------------------------------------------------------------------------------- */
 
 /* Where a channel's floats lie in an image. */
 typedef struct exr_plane {
@@ -262,8 +261,7 @@ hnbrdf_result render_exr_encode(const render_image *image, const render_write_op
     return HNBRDF_OK;
 }
 
-/* ---- Reading
- * ------------------------------------------------------------------------------------- */
+/* ---- Reading --------------------------------------------------------------------------------- */
 
 typedef struct exr_input {
     exr_context_t context;

@@ -35,8 +35,7 @@ void render_film_free(render_film *film)
     memset(film, 0, sizeof *film);
 }
 
-/* ---- Pictures
- * ------------------------------------------------------------------------------------ */
+/* ---- Pictures -------------------------------------------------------------------------------- */
 
 static int32_t samples_at(const render_film *film, size_t pixel)
 {
@@ -98,8 +97,7 @@ hnbrdf_result render_film_develop(const render_film *film, int layers, render_im
     return result;
 }
 
-/* ---- Files
- * --------------------------------------------------------------------------------------- */
+/* ---- Files ----------------------------------------------------------------------------------- */
 
 typedef struct header {
     char magic[16];

@@ -41,8 +41,7 @@ hnbrdf_result render_film_decode(const void *data, size_t size, const char *name
 hnbrdf_result render_film_load(const char *path, uint64_t fingerprint, render_film *film,
                                hnbrdf_error *error);
 
-/* ---- Filling it
- * ---------------------------------------------------------------------------------- */
+/* ---- Filling it ------------------------------------------------------------------------------ */
 
 /* Zero-initialise for defaults. */
 typedef struct render_path_options {

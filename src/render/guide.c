@@ -5,8 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- Drawing from a mixture
- * -------------------------------------------------------------------------- */
+/* ---- Drawing from a mixture ------------------------------------------------------------------ */
 
 /* Turned by half a turn about the normal, the mirror direction becomes the view direction. */
 static float lobe_pdf(const hnbrdf_prepared *prepared, int retro, const float wi[3],
@@ -61,8 +60,7 @@ void render_surface_guide(render_surface *surface, const render_guide *guide)
     surface->pdf = guide_pdf;
 }
 
-/* ---- Candidates
- * -------------------------------------------------------------------------------------- */
+/* ---- Candidates ------------------------------------------------------------------------------ */
 
 static const struct candidate {
     float alpha[2];
@@ -81,8 +79,7 @@ enum {
 };
 
 /* The first one is as good as a cosine lobe; the others are metals, which put 9 of 10 samples in
- * GGX.
- */
+ * GGX. */
 static hnbrdf_material candidate_material(int k)
 {
     hnbrdf_material material;
@@ -104,8 +101,7 @@ hnbrdf_result render_guide_model(hnbrdf_model **model, hnbrdf_error *error)
     return hnbrdf_model_create(&desc, NULL, model, error);
 }
 
-/* ---- Fitting
- * ----------------------------------------------------------------------------------------- */
+/* ---- Fitting --------------------------------------------------------------------------------- */
 
 /* One direction: the density of every candidate there, and the share of f wi.z it stands for. */
 typedef struct observation {

@@ -21,8 +21,7 @@ static void any_tangent(const float n[3], float t[3])
     t[2] = -sign * n[0];
 }
 
-/* ---- Normals that meet the viewer
- * ---------------------------------------------------------------- */
+/* ---- Normals that meet the viewer ------------------------------------------------------------ */
 
 /* Bends the shading normal, on the viewer's side as `geometric` is, until wo and its mirror image
  * are above their horizons (in the manner of Keller et al. 2017). */
@@ -66,8 +65,7 @@ static void make_frame(const float n[3], const float t[3], const float wo[3], re
     frame->wo[2] = render_dot(wo, n);
 }
 
-/* ---- Shapes
- * -------------------------------------------------------------------------------------- */
+/* ---- Shapes ---------------------------------------------------------------------------------- */
 
 /* Normals point outwards; *t is 0 where the shape has no tangents. */
 static void sphere_at(const render_shape *shape, const float origin[3], const float direction[3],

@@ -105,8 +105,7 @@ int render_has_extension(const char *path, const char *extension)
     return 1;
 }
 
-/* ---- Files
- * --------------------------------------------------------------------------------------- */
+/* ---- Files ----------------------------------------------------------------------------------- */
 
 static hnbrdf_result read_stream(FILE *file, const char *path, size_t limit, render_bytes *bytes,
                                  hnbrdf_error *error)

@@ -66,8 +66,7 @@ int render_has_extension(const char *path, const char *extension);
  * so. */
 int render_has_exr(void);
 
-/* ---- One function a format, on bytes in memory; `name` is used in messages
- * ---------------------- */
+/* ---- One function a format, on bytes in memory; `name` is used in messages ------------------- */
 
 typedef struct render_bytes {
     unsigned char *data; /* from malloc */

@@ -12,8 +12,7 @@ typedef struct segment {
     double x0, y0, x1, y1;
 } segment;
 
-/* ---- Text
- * -------------------------------------------------------------------------------------------- */
+/* ---- Text ------------------------------------------------------------------------------------ */
 
 /* Next code point of UTF-8; bytes that are none count as U+FFFD one by one. */
 static unsigned next_code(const char **text)
@@ -62,8 +61,7 @@ void render_text_shorten(const char *text, double x_height, double width, char *
     memcpy(out + kept, ellipsis, sizeof ellipsis);
 }
 
-/* ---- Paths
- * ------------------------------------------------------------------------------------------- */
+/* ---- Paths ----------------------------------------------------------------------------------- */
 
 static double number(const char **path)
 {
@@ -113,8 +111,7 @@ static double distance(const segment *s, double x, double y)
     return hypot(px - t * dx, py - t * dy);
 }
 
-/* ---- Pixels
- * ------------------------------------------------------------------------------------------ */
+/* ---- Pixels ---------------------------------------------------------------------------------- */
 
 static void blend(render_image *image, int x, int y, double coverage, const float colour[3])
 {

@@ -22,8 +22,7 @@ double render_text_width(const char *text, double x_height);
 void render_text(render_image *image, int x, int y, const char *text, double x_height,
                  const float colour[3]);
 /* Copies text, ending it with an ellipsis if it is wider than width pixels or does not fit size
- * bytes.
- */
+ * bytes. */
 void render_text_shorten(const char *text, double x_height, double width, char *out, size_t size);
 
 #endif

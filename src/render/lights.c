@@ -1,13 +1,11 @@
 /* lights.c: where light comes from: environment, portals and shapes that give it off, as one
- * mixture.
- */
+ * mixture. */
 #include "render/scene.h"
 
 #include <math.h>
 #include <string.h>
 
-/* ---- Environment
- * --------------------------------------------------------------------------------- */
+/* ---- Environment ----------------------------------------------------------------------------- */
 
 double render_portal_density(const render_portal *portal, const float position[3],
                              const float direction[3])
@@ -76,8 +74,7 @@ static int draw_portal(const render_scene *scene, const float position[3], const
     return length > 0.0f;
 }
 
-/* ---- Shapes
- * -------------------------------------------------------------------------------------- */
+/* ---- Shapes ---------------------------------------------------------------------------------- */
 
 double render_light_density(const render_scene *scene, uint32_t shape, uint32_t primitive,
                             float distance, float cosine)

@@ -37,8 +37,7 @@ static void beside(const loader *l, const char *file, char path[2 * RENDER_MAX_P
     snprintf(path, (size_t)2 * RENDER_MAX_PATH, "%.*s%s", folder, l->d->name, file);
 }
 
-/* ---- Materials
- * ----------------------------------------------------------------------------------- */
+/* ---- Materials ------------------------------------------------------------------------------- */
 
 static hnbrdf_result find_model(loader *l, const char *file, hnbrdf_model **model)
 {
@@ -182,8 +181,7 @@ static hnbrdf_result load_materials(loader *l)
     return result;
 }
 
-/* ---- Shapes
- * -------------------------------------------------------------------------------------- */
+/* ---- Shapes ---------------------------------------------------------------------------------- */
 
 static hnbrdf_result place_sphere(const loader *l, const render_text_shape *t, render_shape *shape)
 {
@@ -276,8 +274,7 @@ static hnbrdf_result load_shapes(const loader *l)
     return result;
 }
 
-/* ---- The scene
- * ----------------------------------------------------------------------------------- */
+/* ---- The scene ------------------------------------------------------------------------------- */
 
 static hnbrdf_result load_environment(const loader *l)
 {

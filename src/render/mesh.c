@@ -89,8 +89,7 @@ uint32_t render_mesh_part(render_mesh *mesh, const char *name, size_t length)
     return (uint32_t)mesh->part_count++;
 }
 
-/* ---- Normals
- * ------------------------------------------------------------------------------------- */
+/* ---- Normals --------------------------------------------------------------------------------- */
 
 static double dot(const double a[3], const double b[3])
 {
@@ -153,8 +152,7 @@ int render_mesh_smooth(render_mesh *mesh)
     return 0;
 }
 
-/* ---- Transforms
- * ---------------------------------------------------------------------------------- */
+/* ---- Transforms ------------------------------------------------------------------------------ */
 
 render_transform render_transform_then(const render_transform *a, const render_transform *b)
 {

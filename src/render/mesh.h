@@ -65,8 +65,7 @@ enum { RENDER_MAX_CONCAVE = 256 };
 /* 0, or -1 for a concave polygon of more than RENDER_MAX_CONCAVE corners. */
 int render_polygon_split(const float (*p)[3], uint32_t count, uint32_t (*triangles)[3]);
 
-/* ---- Files
- * --------------------------------------------------------------------------------------- */
+/* ---- Files ----------------------------------------------------------------------------------- */
 
 /* Zero-initialise for defaults, which are also the most. */
 typedef struct render_obj_limits {

@@ -41,8 +41,7 @@ static hnbrdf_result no_memory(const reader *in)
     return bad(in, HNBRDF_ERROR_MEMORY, "no memory for what was read so far");
 }
 
-/* ---- Words
- * --------------------------------------------------------------------------------------- */
+/* ---- Words ----------------------------------------------------------------------------------- */
 
 static int is_blank(char c)
 {
@@ -113,8 +112,7 @@ static hnbrdf_result numbers(reader *in, const char *what, int count, double *va
     return HNBRDF_OK;
 }
 
-/* ---- Statements
- * ---------------------------------------------------------------------------------- */
+/* ---- Statements ------------------------------------------------------------------------------ */
 
 /* An index from 1, or from -1 backwards, to *value from 0. */
 static hnbrdf_result read_index(reader *in, size_t count, const char *what, uint32_t *value)

@@ -70,8 +70,7 @@ static hnbrdf_result save(job *j, hnbrdf_error *error)
 }
 
 /* The first pass takes one sample; later ones about as many as there were, up to some seconds'
- * worth.
- */
+ * worth. */
 static int next_target(const job *j, double seconds_a_sample)
 {
     int least = j->spp;

@@ -58,8 +58,7 @@ static float unit_float(double u)
     return (float)((uint32_t)(u * 0x1p24)) * 0x1p-24f;
 }
 
-/* ---- Camera
- * -------------------------------------------------------------------------------------- */
+/* ---- Camera ---------------------------------------------------------------------------------- */
 
 static void start_path(const wave *w, int width, int column, int row, path *p)
 {
@@ -92,8 +91,7 @@ static void start_path(const wave *w, int width, int column, int row, path *p)
     p->pixel = row * width + column;
 }
 
-/* ---- What a path brings
- * -------------------------------------------------------------------------- */
+/* ---- What a path brings ---------------------------------------------------------------------- */
 
 static double largest(const double v[3])
 {
@@ -163,8 +161,7 @@ static int trace_path(const wave *w, path *p)
     return p->point.surface >= 0 && w->bounce < w->options->bounces;
 }
 
-/* ---- Reflection
- * ---------------------------------------------------------------------------------- */
+/* ---- Reflection ------------------------------------------------------------------------------ */
 
 static void to_local(const render_point *frame, const float world[3], float local[3])
 {
@@ -337,8 +334,7 @@ static void bounce(wave *w)
     w->bounce++;
 }
 
-/* ---- Tiles
- * --------------------------------------------------------------------------------------- */
+/* ---- Tiles ----------------------------------------------------------------------------------- */
 
 static void add_to_film(const path *p, render_film *film)
 {

@@ -66,8 +66,7 @@ static void look_around(const render_scene *scene, float seen[DOWN][ACROSS])
 }
 
 /* The largest of the nine cells around, so that no direction is missed between those that were
- * tried.
- */
+ * tried. */
 static float around(const float seen[DOWN][ACROSS], int x, int y)
 {
     float most = 0.0f;

@@ -5,9 +5,7 @@
 #include "hnbrdf/measured.h"
 #include "render/environment.h"
 
-/* ---- Surfaces: what is put on the sphere
- * ------------------------------------------------------------
- */
+/* ---- Surfaces: what is put on the sphere ----------------------------------------------------- */
 
 /* Where to look for light: a mixture of GGX densities (hnbrdf_pdf() of a GGX model), each about the
  * mirror direction or, for retroreflection, about the view. Any guide gives the right picture;
@@ -62,9 +60,7 @@ hnbrdf_result render_guide_model(hnbrdf_model **model, hnbrdf_error *error);
 render_guide render_guide_fit(const render_surface *const *surfaces, int count,
                               const hnbrdf_model *model);
 
-/* ---- The estimator
- * ----------------------------------------------------------------------------------
- */
+/* ---- The estimator --------------------------------------------------------------------------- */
 
 typedef enum render_strategy {
     RENDER_MIS = 0, /* environment and BRDF sampling joined by the balance heuristic (Veach 1995) */
@@ -108,9 +104,7 @@ void render_shade(const render_surface *surface, const render_environment *envir
                   render_strategy strategy, const render_stream *stream, uint32_t first,
                   const render_point *points, int count, double sum[3]);
 
-/* ---- The picture
- * ------------------------------------------------------------------------------------
- */
+/* ---- The picture ----------------------------------------------------------------------------- */
 
 /* Seen along -z by a camera at 8 radii with a long lens; the unit sphere fills 1 / RENDER_FRAME
  * of the square picture. */
@@ -149,8 +143,7 @@ hnbrdf_result render_sphere(const render_surface *surface, const render_environm
                             const render_options *options, render_image *image,
                             hnbrdf_error *error);
 
-/* ---- What is behind the sphere
- * ------------------------------------------------------------------- */
+/* ---- What is behind the sphere --------------------------------------------------------------- */
 
 /* A neutral backdrop, lit like a studio wall: brighter at the middle, `level` there. Drops alpha.
  * */

@@ -7,8 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- Lights
- * -------------------------------------------------------------------------------------- */
+/* ---- Lights ---------------------------------------------------------------------------------- */
 
 static double luminance(const float rgb[3])
 {
@@ -82,8 +81,7 @@ static hnbrdf_result prepare_portals(render_scene *scene, hnbrdf_error *error)
                : HNBRDF_OK;
 }
 
-/* ---- Camera
- * -------------------------------------------------------------------------------------- */
+/* ---- Camera ---------------------------------------------------------------------------------- */
 
 static hnbrdf_result aim(render_camera *camera, hnbrdf_error *error)
 {
@@ -109,8 +107,7 @@ static hnbrdf_result aim(render_camera *camera, hnbrdf_error *error)
     return HNBRDF_OK;
 }
 
-/* ---- Albedos
- * ------------------------------------------------------------------------------------- */
+/* ---- Albedos --------------------------------------------------------------------------------- */
 
 static void measure_albedo(render_scene_surface *s)
 {
@@ -137,8 +134,7 @@ static void measure_albedo(render_scene_surface *s)
     }
 }
 
-/* ---- All of it
- * ----------------------------------------------------------------------------------- */
+/* ---- All of it ------------------------------------------------------------------------------- */
 
 hnbrdf_result render_scene_build(render_scene *scene, hnbrdf_error *error)
 {
@@ -169,8 +165,7 @@ void render_scene_free(render_scene *scene)
     memset(scene, 0, sizeof *scene);
 }
 
-/* ---- Fingerprint
- * --------------------------------------------------------------------------------- */
+/* ---- Fingerprint ----------------------------------------------------------------------------- */
 
 /* FNV-1a. */
 uint64_t render_hash(uint64_t hash, const void *data, size_t size)

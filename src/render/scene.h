@@ -5,8 +5,7 @@
 #include "render/mesh.h"
 #include "render/render.h"
 
-/* ---- What is there
- * ------------------------------------------------------------------------------- */
+/* ---- What is there --------------------------------------------------------------------------- */
 
 /* One shape in the world: a mesh, or a sphere where the mesh is empty. Both sides of a surface
  * reflect; light is given off by the outside alone. */
@@ -88,8 +87,7 @@ uint64_t render_scene_fingerprint(const render_scene *scene);
 uint64_t render_hash(uint64_t hash, const void *data, size_t size);
 #define RENDER_HASH_START UINT64_C(14695981039346656037)
 
-/* ---- Rays
- * ---------------------------------------------------------------------------------------- */
+/* ---- Rays ------------------------------------------------------------------------------------ */
 
 /* Where a ray ends. */
 typedef struct render_hit {
@@ -116,15 +114,13 @@ typedef struct render_surface_point {
 /*
  * Interpolated normals that would have the viewer, or the mirror direction, below the surface are
  * bent just so far that both are above it: no black edges. A direction below the plane of the
- * triangle gets no light whatever the shading normal says: nothing leaks through a surface.
- */
+ * triangle gets no light whatever the shading normal says: nothing leaks through a surface. */
 void render_surface_at(const render_scene *scene, const float origin[3], const float direction[3],
                        const render_hit *hit, render_surface_point *point);
 /* The start of a ray that leaves the point, off the surface by a few roundings on the seen side. */
 void render_ray_start(const render_surface_point *point, float origin[3]);
 
-/* ---- Lights
- * -------------------------------------------------------------------------------------- */
+/* ---- Lights ---------------------------------------------------------------------------------- */
 
 typedef struct render_light_sample {
     float direction[3], distance; /* INFINITY for the environment */
@@ -158,8 +154,7 @@ double render_portal_density(const render_portal *portal, const float position[3
 hnbrdf_result render_portal_guide(const render_scene *scene, render_environment *guide,
                                   hnbrdf_error *error);
 
-/* ---- Small vectors
- * ------------------------------------------------------------------------------- */
+/* ---- Small vectors --------------------------------------------------------------------------- */
 
 static inline float render_dot(const float a[3], const float b[3])
 {

@@ -9,8 +9,7 @@ static float unit_float(uint32_t u)
     return (float)(u >> 8) * 0x1p-24f;
 }
 
-/* ---- Geometry
- * ---------------------------------------------------------------------------------------- */
+/* ---- Geometry -------------------------------------------------------------------------------- */
 
 static float dot(const float a[3], const float b[3])
 {
@@ -31,12 +30,10 @@ static void to_world(const render_point *point, const float local[3], float worl
                    local[2] * point->normal[k];
 }
 
-/* ---- The estimator
- * ----------------------------------------------------------------------------------- */
+/* ---- The estimator --------------------------------------------------------------------------- */
 
 /* Samples of a block wait here for one batch of evaluations: factor is radiance wi.z weight /
- * density. Floats up to the sum, as in shaders/sphere.comp.
- */
+ * density. Floats up to the sum, as in shaders/sphere.comp. */
 typedef struct sample_batch {
     float wi[2 * RENDER_BLOCK][3], wo[2 * RENDER_BLOCK][3], f[2 * RENDER_BLOCK][3];
     float factor[2 * RENDER_BLOCK][3];
@@ -44,8 +41,7 @@ typedef struct sample_batch {
 } sample_batch;
 
 /* With the balance heuristic weight / density is 1 over the sum of both densities, whichever drew
- * it.
- */
+ * it. */
 static void add_sample(sample_batch *batch, const float wi[3], const float wo[3],
                        const float radiance[3], float density)
 {

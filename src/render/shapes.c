@@ -7,8 +7,7 @@
 
 static const double pi = 3.14159265358979323846;
 
-/* ---- Patches
- * ------------------------------------------------------------------------------------- */
+/* ---- Patches --------------------------------------------------------------------------------- */
 
 static double clamp(double x, double low, double high)
 {
@@ -97,8 +96,7 @@ int render_patch_mesh(render_patch_fn patch, const void *user, int across, int a
     return 0;
 }
 
-/* ---- Formulas
- * ------------------------------------------------------------------------------------ */
+/* ---- Formulas -------------------------------------------------------------------------------- */
 
 static int quad(const void *user, double u, double v, double p[3], double n[3])
 {
@@ -203,8 +201,7 @@ static int superellipsoid(const void *user, double u, double v, double p[3], dou
     return 1;
 }
 
-/* ---- Lathe
- * --------------------------------------------------------------------------------------- */
+/* ---- Lathe ----------------------------------------------------------------------------------- */
 
 /* Points of a profile between two corners. */
 typedef struct run {
@@ -261,8 +258,7 @@ static int lathe(const render_shape_options *options, render_mesh *mesh)
     return 0;
 }
 
-/* ---- All of them
- * --------------------------------------------------------------------------------- */
+/* ---- All of them ----------------------------------------------------------------------------- */
 
 static render_shape_options settled(const render_shape_options *options)
 {

@@ -37,8 +37,7 @@ typedef struct render_shape_options {
 int render_shape_mesh(render_shape_kind kind, const render_shape_options *options,
                       render_mesh *mesh);
 
-/* ---- For shapes made of pieces
- * ------------------------------------------------------------------- */
+/* ---- For shapes made of pieces --------------------------------------------------------------- */
 
 /* A point for (u, v) in [0, 1]^2. dP/du x dP/dv points outwards. Returns 1 if it has set the
  * normal n too; 0 leaves that to differences. */

@@ -32,8 +32,7 @@ int render_sphere_hit(float x, float y, render_point *point)
     return 1;
 }
 
-/* ---- One pixel
- * --------------------------------------------------------------------------------------- */
+/* ---- One pixel ------------------------------------------------------------------------------- */
 
 typedef struct render_job {
     const render_surface *surface;
@@ -86,8 +85,7 @@ static void render_pixel(const render_job *job, int column, int row)
     job->image->alpha[pixel] = (float)covered / (float)options->spp;
 }
 
-/* ---- All of them
- * ------------------------------------------------------------------------------------- */
+/* ---- All of them ----------------------------------------------------------------------------- */
 
 static void render_tile(void *user, int tile)
 {

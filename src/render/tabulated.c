@@ -21,8 +21,7 @@ size_t render_table_bytes(void)
     return sizeof(render_table);
 }
 
-/* ---- The chart
- * --------------------------------------------------------------------------------- */
+/* ---- The chart ------------------------------------------------------------------------------- */
 
 /* wi at a point of the chart for a view at azimuth 0, and the solid angle per d(theta_h)
  * d(phi_h). 0 below the horizon. */
@@ -44,8 +43,7 @@ static int view_below(double z, double *weight)
     return view;
 }
 
-/* ---- Making
- * ------------------------------------------------------------------------------------ */
+/* ---- Making ---------------------------------------------------------------------------------- */
 
 typedef struct scratch {
     float wi[RINGS * TURNS * SUB * SUB][3], wo[RINGS * TURNS * SUB * SUB][3],
@@ -131,8 +129,7 @@ void render_table_free(render_table *table)
     free(table);
 }
 
-/* ---- Sampling
- * ---------------------------------------------------------------------------------- */
+/* ---- Sampling -------------------------------------------------------------------------------- */
 
 static double step(const float *sums, int index)
 {

@@ -1,7 +1,6 @@
 /* teapot.c: the Utah teapot: Newell's cubic Bezier patches of 1975, as all books print them.
  * Body, lid and bottom are his profiles turned about the axis, where he approximates the circle
- * by four cubics.
- */
+ * by four cubics. */
 #include "render/shapes.h"
 
 #include <math.h>

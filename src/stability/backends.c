@@ -204,8 +204,7 @@ static hnbrdf_result run(stability_backend *backend, stability_stage stage,
     return HNBRDF_OK;
 }
 
-/* ---- The list
- * ---------------------------------------------------------------------------------------- */
+/* ---- The list -------------------------------------------------------------------------------- */
 
 static const struct {
     const char *suffix;

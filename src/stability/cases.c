@@ -24,8 +24,7 @@ static unsigned pick(hnbrdf_rng *rng, unsigned count)
     return hnbrdf_rng_u32(rng) % count;
 }
 
-/* ---- Materials
- * --------------------------------------------------------------------------------------- */
+/* ---- Materials ------------------------------------------------------------------------------- */
 
 static void as_it_is(hnbrdf_rng *rng, int number, hnbrdf_material *m)
 {
@@ -140,8 +139,7 @@ static void forbidden(hnbrdf_rng *rng, int number, hnbrdf_material *m)
     memcpy(m, fields, sizeof fields);
 }
 
-/* ---- Pairs of directions
- * ----------------------------------------------------------------------------- */
+/* ---- Pairs of directions --------------------------------------------------------------------- */
 
 static void to_length(float w[3], double length)
 {
@@ -347,8 +345,7 @@ static void broken_pair(hnbrdf_rng *rng, int k, const hnbrdf_material *m, float 
         wo[pick(rng, 3)] = values[pick(rng, 5)];
 }
 
-/* ---- The table
- * --------------------------------------------------------------------------------------- */
+/* ---- The table ------------------------------------------------------------------------------- */
 
 #define OFTEN_CANCELS                                                                           \
     "an exponent that is a small difference of great terms: what the network sums up has lost " \

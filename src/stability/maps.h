@@ -1,6 +1,5 @@
 /* maps.h: where over two angles precision goes: the relative error of an implementation, cell by
- * cell.
- */
+ * cell. */
 #ifndef HNBRDF_STABILITY_MAPS_H
 #define HNBRDF_STABILITY_MAPS_H
 
@@ -16,8 +15,7 @@ typedef enum stability_map_kind {
 enum { STABILITY_MAP_SIDE = 96 };
 
 /* A cosine at t in [0, 1] of an axis that resolves both ends: 1e-7 at 0, 1/2 at 1/2, and 1 - near
- * at 1.
- */
+ * at 1. */
 double stability_map_cosine(double t, double near);
 /* The inverse. */
 double stability_map_position(double cosine, double one_minus_cosine, double near);

@@ -20,8 +20,7 @@ typedef struct layer_sums {
 } layer_sums;
 
 /* The mean of what a state does to a rounded number, in units of UNIT: it rounds by up to two of
- * them.
- */
+ * them. */
 static double push(stability_state state, double value)
 {
     switch (state) {

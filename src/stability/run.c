@@ -22,8 +22,7 @@ int stability_stage_numbers(stability_stage stage)
     return numbers[stage];
 }
 
-/* ---- The truth
- * --------------------------------------------------------------------------------------- */
+/* ---- The truth ------------------------------------------------------------------------------- */
 
 /* What number `n` of a stage should be, and what its error is measured by. */
 static double truth(const oracle_point *point, stability_stage stage, int n, double *scale)
@@ -58,8 +57,7 @@ static double sensitivity(const hnbrdf_model_desc *desc, stability_stage stage,
     return total;
 }
 
-/* ---- Judging
- * ----------------------------------------------------------------------------------------- */
+/* ---- Judging --------------------------------------------------------------------------------- */
 
 /* Turning a direction rounds its x and y to 4.5 u, u = 2^-24: two products and a sum of numbers
  * up to 1, and the cosine and sine. Slopes of h = wi + wo are then 9 u/s.z off, in alphas 9
@@ -223,8 +221,7 @@ static void judge_block(stability_row *row, const hnbrdf_model_desc *desc,
     }
 }
 
-/* ---- Running
- * ----------------------------------------------------------------------------------------- */
+/* ---- Running --------------------------------------------------------------------------------- */
 
 /* What the case multiplies weights and biases by; 0: nothing. */
 static float factor_of(const stability_case *what, const hnbrdf_model *model)

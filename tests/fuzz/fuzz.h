@@ -1,7 +1,6 @@
 /* fuzz.h: what the fuzz targets share. A target is one file that defines LLVMFuzzerTestOneInput():
  * clang's libFuzzer drives it where HNBRDF_BUILD_FUZZERS is set, replay.c (any compiler) in the
- * tests.
- */
+ * tests. */
 #ifndef HNBRDF_TESTS_FUZZ_H
 #define HNBRDF_TESTS_FUZZ_H
 

@@ -7,8 +7,7 @@
 #include "hnbrdf/measured.h"
 
 /* The bytes at `data` opened under the name `path`; what opens gives values within the promised
- * range.
- */
+ * range. */
 static inline void fuzz_measured(const uint8_t *data, size_t size, const char *path,
                                  const hnbrdf_measured_options *options)
 {

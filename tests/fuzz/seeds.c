@@ -35,8 +35,7 @@ static void put_text(const char *name, const char *text)
     put(name, text, strlen(text));
 }
 
-/* ---- Models
- * -------------------------------------------------------------------------------------- */
+/* ---- Models ---------------------------------------------------------------------------------- */
 
 static int write_stream(void *user, const void *data, size_t size)
 {
@@ -109,8 +108,7 @@ static void write_shaders(void)
     put("both", text, first + 1 + second);
 }
 
-/* ---- Measurements
- * -------------------------------------------------------------------------------- */
+/* ---- Measurements ---------------------------------------------------------------------------- */
 
 static void put_bytes(const char *name, test_bytes file)
 {
@@ -144,8 +142,7 @@ static void write_measured(void)
     put("srgb", patch, 5 + 24);
 }
 
-/* ---- Pictures
- * ------------------------------------------------------------------------------------ */
+/* ---- Pictures -------------------------------------------------------------------------------- */
 
 /* The file, and as one of every other compression: a block that does not get smaller is stored as
  * it is, whatever the compression. */
@@ -197,8 +194,7 @@ static void write_pictures(void)
     put("runs", runs, sizeof runs - 1);
 }
 
-/* ---- The rest
- * ------------------------------------------------------------------------------------ */
+/* ---- The rest -------------------------------------------------------------------------------- */
 
 static void write_pairs(void)
 {
@@ -246,8 +242,7 @@ static void write_checkpoint(void)
     put("half_way", bytes, sizeof bytes);
 }
 
-/* ---- Scenes
- * -------------------------------------------------------------------------------------- */
+/* ---- Scenes ---------------------------------------------------------------------------------- */
 
 static void write_scenes(void)
 {

@@ -20,8 +20,7 @@ enum { MOST_SITES = 200 };
 typedef hnbrdf_result (*job)(const void *with, hnbrdf_error *error);
 
 /* Runs it with allocation 0, 1, 2 ... failing until none is left to fail; there must be `least`
- * sites.
- */
+ * sites. */
 static void survive(job work, const void *with, long least)
 {
     long sites = 0, alive = 0;
@@ -53,8 +52,7 @@ static int count_bytes(void *user, const void *data, size_t size)
     return 0;
 }
 
-/* ---- Models
- * -------------------------------------------------------------------------------------- */
+/* ---- Models ---------------------------------------------------------------------------------- */
 
 /* Loads a file, describes it and makes the same again, saves and exports that. */
 static hnbrdf_result use_model(const void *with, hnbrdf_error *error)
@@ -119,8 +117,7 @@ static void imports_survive(void **state)
     survive(import_shader, HNBRDF_TEST_DATA "/sample_plain.brdf", 2);
 }
 
-/* ---- Measurements
- * -------------------------------------------------------------------------------- */
+/* ---- Measurements ---------------------------------------------------------------------------- */
 
 typedef struct measured_file {
     test_bytes bytes;
@@ -203,8 +200,7 @@ static void built_in_and_custom_materials_survive(void **state)
     survive(open_others, NULL, 3);
 }
 
-/* ---- Fitting
- * ------------------------------------------------------------------------------------- */
+/* ---- Fitting --------------------------------------------------------------------------------- */
 
 typedef struct fit_case {
     hnbrdf_measured *data[2];
@@ -276,8 +272,7 @@ static void fits_survive(void **state)
     remove(path);
 }
 
-/* ---- Pictures
- * ------------------------------------------------------------------------------------ */
+/* ---- Pictures -------------------------------------------------------------------------------- */
 
 /* A picture to a file and back, and light of it. `with` is the file's path. */
 static hnbrdf_result use_picture(const void *with, hnbrdf_error *error)

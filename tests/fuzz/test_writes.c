@@ -186,8 +186,7 @@ static void a_process_that_is_killed_leaves_the_old_file(void **state)
     }
 }
 
-/* ---- Callbacks
- * ----------------------------------------------------------------------------------- */
+/* ---- Callbacks ------------------------------------------------------------------------------- */
 
 static int refuse(void *user, const void *data, size_t size)
 {
@@ -276,8 +275,7 @@ static void a_read_may_stop_or_fail_at_every_byte(void **state)
     free_bytes(&b);
 }
 
-/* ---- Pipes
- * --------------------------------------------------------------------------------------- */
+/* ---- Pipes ----------------------------------------------------------------------------------- */
 
 static void a_pipe_is_written_and_stays_one(void **state)
 {
