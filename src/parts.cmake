@@ -1,4 +1,4 @@
-# hnbrdf_part(NAME SOURCES ... [NEEDS parts...] [LINKS libraries...])
+# hnbrdf_part(NAME ROOMS ... [SOURCES ...] [NEEDS parts...] [LINKS libraries...])
 # Compiles the sources once and makes two libraries of them: NAME_static and NAME_shared, both with the
 # output name NAME. Inside the build, tools and tests link NAME_static: it also shows them the
 # functions that are not exported.
@@ -11,7 +11,10 @@ endif()
 
 set_property(GLOBAL PROPERTY HNBRDF_PARTS "")
 function(hnbrdf_part name)
-  cmake_parse_arguments(PART "" "" "SOURCES;NEEDS;LINKS" ${ARGN})
+  cmake_parse_arguments(PART "" "" "ROOMS;SOURCES;NEEDS;LINKS" ${ARGN})
+  foreach(room ${PART_ROOMS})
+    list(APPEND PART_SOURCES ${HNBRDF_ROOM_${room}})
+  endforeach()
   add_library(${name}_objects OBJECT ${PART_SOURCES})
   target_link_libraries(${name}_objects PRIVATE hnbrdf_flags)
   target_compile_definitions(${name}_objects PRIVATE HNBRDF_BUILD)

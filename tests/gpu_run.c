@@ -21,7 +21,7 @@
 extern const char hnbrdf_hybrid_brdf_glsl[];
 
 static gpu_device device;
-static gpu_arithmetic arithmetic;
+static check_arithmetic arithmetic;
 
 static const char SHADER[] =
     "#version 450\n"
@@ -56,9 +56,9 @@ const gpu_device *gpu_run_device(void)
     return &device;
 }
 
-gpu_rules gpu_run_rules(int exact)
+check_rules gpu_run_rules(int exact)
 {
-    return exact ? gpu_rules_exact(&arithmetic) : gpu_rules_fast(&arithmetic, device.driver_id);
+    return exact ? check_rules_exact(&arithmetic) : check_rules_fast(&arithmetic, device.driver_id);
 }
 
 #if CAN_FLUSH

@@ -28,7 +28,7 @@ void gpu_run_c_end(void);
 /* The device that the running test is to use, and how it rounds in a build with HNBRDF_EXACT 1 or
  * 0. */
 const gpu_device *gpu_run_device(void);
-gpu_rules gpu_run_rules(int exact);
+check_rules gpu_run_rules(int exact);
 
 /* SPIR-V of body with HNBRDF_EXACT 1 or 0, malloc'ed. The body follows hybrid_brdf.glsl, the
  *   scene and uint in_words[], float results[] (set 0, bindings 0 and 1), uint count, int

@@ -1,7 +1,7 @@
 # The renderer: images and files, light, the estimator and the camera, labels and sheets.
 function(hnbrdf_render_test name)
   hnbrdf_test(${name} ${ARGN})
-  target_link_libraries(${name} PRIVATE hnbrdf_render)
+  target_link_libraries(${name} PRIVATE hnbrdf_scene)
   target_include_directories(${name} SYSTEM PRIVATE ${STB_INCLUDE_DIR})
 endfunction()
 hnbrdf_render_test(test_render_images test_render_images.c)

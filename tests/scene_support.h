@@ -9,8 +9,8 @@
 
 #include <cmocka.h>
 
-#include "render/describe.h"
-#include "render/film.h"
+#include "scene/describe.h"
+#include "scene/film.h"
 
 /* Skips the test where there is no Embree. */
 void test_need_embree(void);

@@ -1,7 +1,7 @@
 /* test_glsl_export.c: what the exporter writes, read as text. */
 #include "gpu_support.h"
 
-#include "model/text.h"
+#include "base/text.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

@@ -2,7 +2,7 @@
 #include "gpu_run.h"
 #include "gpu_support.h"
 
-#include "gpu/pairs.h"
+#include "check/pairs.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -45,8 +45,8 @@ static void draw_pairs(float *pairs)
     hnbrdf_rng rng;
     hnbrdf_rng_seed(&rng, 5, 0);
     for (size_t k = 0; k < PAIRS; k++) {
-        if (gpu_pair_draw(&rng, k, pair) ==
-            GPU_PAIR_NOT_FINITE) /* whose values nothing is promised of */
+        if (check_pair_draw(&rng, k, pair) ==
+            CHECK_PAIR_NOT_FINITE) /* whose values nothing is promised of */
             memcpy(pair, (const float[6]){0.0f, 0.6f, 0.8f, 0.6f, 0.0f, 0.8f}, sizeof pair);
         memcpy(pairs + 6 * k, pair, sizeof pair);
     }

@@ -4,8 +4,8 @@
 
 #include "core/frame.h"
 #include "core/model.h"
-#include "gpu/bounds.h"
-#include "gpu/pairs.h"
+#include "check/bounds.h"
+#include "check/pairs.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -18,8 +18,8 @@
 
 enum { PAIRS = 4096 };
 
-static const gpu_arithmetic NOTHING_EXACT = {0};
-static const gpu_arithmetic ALL_EXACT = {
+static const check_arithmetic NOTHING_EXACT = {0};
+static const check_arithmetic ALL_EXACT = {
     .exact_basic = 1, .exact_divide = 1, .exact_sqrt = 1, .keeps_denormals = 1};
 
 /* ---- The same formulas in double, from the same float inputs --------------------------------- */
@@ -116,12 +116,12 @@ static const scene_shape SHAPE = {.encoding = HNBRDF_ENCODING_HALF_DIFFERENCE,
                                   .shift = 0.5f,
                                   .floor = 0.003f};
 
-static int is_usual(gpu_pair_class class_of_pair)
+static int is_usual(check_pair_class class_of_pair)
 {
-    return class_of_pair != GPU_PAIR_EXTREME && class_of_pair != GPU_PAIR_NOT_FINITE;
+    return class_of_pair != CHECK_PAIR_EXTREME && class_of_pair != CHECK_PAIR_NOT_FINITE;
 }
 
-static void covered(const char *what, const gpu_tracked *bound, const double *exact, int count)
+static void covered(const char *what, const check_tracked *bound, const double *exact, int count)
 {
     for (int i = 0; i < count; i++)
         if (!(fabs(exact[i] - (double)bound[i].v) <= bound[i].e))
@@ -135,16 +135,17 @@ static void bounds_cover_a_device_without_rounding(void **state)
 {
     (void)state;
     hnbrdf_model *model = scene_model(&SHAPE);
-    gpu_rules rules = gpu_rules_fast(&NOTHING_EXACT, (VkDriverId)0);
+    check_rules rules = check_rules_fast(&NOTHING_EXACT, 0);
     hnbrdf_rng rng;
     hnbrdf_rng_seed(&rng, 11, 0);
     float pair[6] = {0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 1.0f};
     for (size_t k = 0; k < PAIRS; k++) {
         const hnbrdf_material *material = hnbrdf_model_material(model, (int)(k % SCENE_MATERIALS));
-        gpu_bounds bounds;
-        if (!is_usual(gpu_pair_draw(&rng, k, pair)))
+        check_bounds bounds;
+        if (!is_usual(check_pair_draw(&rng, k, pair)))
             continue;
-        gpu_bounds_make(&rules, &model->desc, HNBRDF_GLSL_FLOAT, material, pair, pair + 3, &bounds);
+        check_bounds_make(&rules, &model->desc, HNBRDF_GLSL_FLOAT, material, pair, pair + 3,
+                          &bounds);
         exact_result exact = evaluate(&model->desc, material, pair);
         covered("encoding", bounds.encoding, exact.encoding, 6);
         covered("analytic", bounds.analytic, exact.analytic, 3);
@@ -158,17 +159,18 @@ static void bounds_reproduce_the_bits_of_c(void **state)
 {
     (void)state;
     hnbrdf_model *model = scene_model(&SHAPE);
-    gpu_rules rules = gpu_rules_fast(&NOTHING_EXACT, (VkDriverId)0);
+    check_rules rules = check_rules_fast(&NOTHING_EXACT, 0);
     hnbrdf_rng rng;
     hnbrdf_rng_seed(&rng, 12, 0);
     float pair[6] = {0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 1.0f}, value[3], analytic[3];
     for (size_t k = 0; k < PAIRS; k++) {
         const hnbrdf_material *material = hnbrdf_model_material(model, (int)(k % SCENE_MATERIALS));
-        gpu_bounds bounds;
-        gpu_pair_class drawn = gpu_pair_draw(&rng, k, pair);
-        if (drawn == GPU_PAIR_NOT_FINITE || !(pair[2] > 0.0f && pair[5] > 0.0f))
+        check_bounds bounds;
+        check_pair_class drawn = check_pair_draw(&rng, k, pair);
+        if (drawn == CHECK_PAIR_NOT_FINITE || !(pair[2] > 0.0f && pair[5] > 0.0f))
             continue;
-        gpu_bounds_make(&rules, &model->desc, HNBRDF_GLSL_FLOAT, material, pair, pair + 3, &bounds);
+        check_bounds_make(&rules, &model->desc, HNBRDF_GLSL_FLOAT, material, pair, pair + 3,
+                          &bounds);
         hnbrdf_eval(model, material, pair, pair + 3, value);
         hnbrdf_eval_analytic(model, material, pair, pair + 3, analytic);
         for (int c = 0; c < 3; c++) {
@@ -184,16 +186,16 @@ static void bounds_are_zero_where_every_operation_is_exact(void **state)
 {
     (void)state;
     hnbrdf_model *model = scene_model(&SHAPE);
-    gpu_rules rules = gpu_rules_exact(&ALL_EXACT);
+    check_rules rules = check_rules_exact(&ALL_EXACT);
     hnbrdf_rng rng;
     hnbrdf_rng_seed(&rng, 13, 0);
     float pair[6] = {0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 1.0f};
     for (size_t k = 0; k < PAIRS; k++) {
-        gpu_bounds bounds;
-        if (!is_usual(gpu_pair_draw(&rng, k, pair)))
+        check_bounds bounds;
+        if (!is_usual(check_pair_draw(&rng, k, pair)))
             continue;
-        gpu_bounds_make(&rules, &model->desc, HNBRDF_GLSL_FLOAT, hnbrdf_model_material(model, 0),
-                        pair, pair + 3, &bounds);
+        check_bounds_make(&rules, &model->desc, HNBRDF_GLSL_FLOAT, hnbrdf_model_material(model, 0),
+                          pair, pair + 3, &bounds);
         for (int c = 0; c < 3; c++)
             assert_true(bounds.value[c].e == 0.0 && bounds.analytic[c].e == 0.0);
         for (int c = 0; c < 6; c++)
@@ -207,12 +209,12 @@ static void the_network_alone_is_exact_without_division(void **state)
 {
     (void)state;
     hnbrdf_model *model = scene_model(&SHAPE);
-    const gpu_arithmetic usual_gpu = {.exact_basic = 1, .keeps_denormals = 1};
-    gpu_rules rules = gpu_rules_exact(&usual_gpu);
+    const check_arithmetic usual_gpu = {.exact_basic = 1, .keeps_denormals = 1};
+    check_rules rules = check_rules_exact(&usual_gpu);
     const float wi[3] = {0.6f, 0.0f, 0.8f}, wo[3] = {-0.36f, 0.48f, 0.8f};
-    gpu_bounds bounds;
-    gpu_bounds_make(&rules, &model->desc, HNBRDF_GLSL_FLOAT, hnbrdf_model_material(model, 0), wi,
-                    wo, &bounds);
+    check_bounds bounds;
+    check_bounds_make(&rules, &model->desc, HNBRDF_GLSL_FLOAT, hnbrdf_model_material(model, 0), wi,
+                      wo, &bounds);
     for (int c = 0; c < 6; c++)
         assert_true(bounds.fed[c].e == 0.0);
     for (int c = 0; c < 3; c++)
@@ -226,16 +228,16 @@ static void bounds_say_something(void **state)
 {
     (void)state;
     hnbrdf_model *model = scene_model(&SHAPE);
-    gpu_rules rules = gpu_rules_fast(&NOTHING_EXACT, (VkDriverId)0);
+    check_rules rules = check_rules_fast(&NOTHING_EXACT, 0);
     hnbrdf_rng rng;
     hnbrdf_rng_seed(&rng, 14, 0);
     int tight_values = 0, tight_analytic = 0, total = 1000;
     for (int k = 0; k < total; k++) {
         float wi[3], wo[3];
-        gpu_bounds bounds;
+        check_bounds bounds;
         hnbrdf_sampler_draw(HNBRDF_SAMPLER_UNIFORM, &rng, wi, wo);
-        gpu_bounds_make(&rules, &model->desc, HNBRDF_GLSL_FLOAT, hnbrdf_model_material(model, 0),
-                        wi, wo, &bounds);
+        check_bounds_make(&rules, &model->desc, HNBRDF_GLSL_FLOAT, hnbrdf_model_material(model, 0),
+                          wi, wo, &bounds);
         tight_values += bounds.value[0].e <= 0.02 * (double)bounds.value[0].v;
         tight_analytic += bounds.analytic[0].e <= 1e-4 * (double)bounds.analytic[0].v;
     }

@@ -3,11 +3,11 @@
 #include "gpu_support.h"
 
 #include "core/network.h"
-#include "gpu/half.h"
-#include "gpu/pairs.h"
+#include "check/half.h"
+#include "check/pairs.h"
 #include "hnbrdf/fit.h"
 #include "hnbrdf/metrics.h"
-#include "model/half.h"
+#include "glsl/half.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -92,8 +92,8 @@ static void every_value_is_finite_whatever_weights_and_directions(void **state)
         hnbrdf_rng_seed(&rng, 5, k);
         for (size_t i = 0; i < 4096; i++) {
             material.latent[i % 4] = i % 3 == 0 ? 1e30f : i % 3 == 1 ? NAN : -2.0f;
-            gpu_pair_draw(&rng, i, pair);
-            gpu_half_eval(large, &material, pair, pair + 3, f);
+            check_pair_draw(&rng, i, pair);
+            check_half_eval(large, &material, pair, pair + 3, f);
             for (int c = 0; c < 3; c++)
                 assert_true(f[c] >= 0.0f && f[c] <= HNBRDF_MAX_VALUE);
         }
@@ -131,16 +131,16 @@ static void bounds_hold_for_a_device_that_rounds_otherwise(void **state)
     (void)state;
     hnbrdf_model *model = scene_model(&SHAPE);
     const hnbrdf_material *material = hnbrdf_model_material(model, 0);
-    const gpu_arithmetic nothing = {0};
-    gpu_rules rules = gpu_rules_fast(&nothing, (VkDriverId)0);
+    const check_arithmetic nothing = {0};
+    check_rules rules = check_rules_fast(&nothing, 0);
     hnbrdf_rng rng;
     hnbrdf_rng_seed(&rng, 9, 0);
     int differ = 0;
     for (int k = 0; k < 500; k++) {
         float wi[3], wo[3], x[6], out[6];
-        gpu_bounds bounds;
+        check_bounds bounds;
         hnbrdf_sampler_draw(HNBRDF_SAMPLER_UNIFORM, &rng, wi, wo);
-        gpu_bounds_make(&rules, &model->desc, HNBRDF_GLSL_HALF, material, wi, wo, &bounds);
+        check_bounds_make(&rules, &model->desc, HNBRDF_GLSL_HALF, material, wi, wo, &bounds);
         for (int i = 0; i < 6; i++)
             x[i] = bounds.encoding[i].v;
         other_device(&model->desc, material->latent, x, out);
@@ -193,16 +193,16 @@ static void bounds_hold_where_every_rounding_pushes_one_way(void **state)
     hnbrdf_model *model = scene_model(&shape);
     const hnbrdf_model_desc *desc = &model->desc;
     const hnbrdf_material *material = hnbrdf_model_material(model, 0);
-    const gpu_arithmetic nothing = {0};
-    gpu_rules rules = gpu_rules_fast(&nothing, (VkDriverId)0);
+    const check_arithmetic nothing = {0};
+    check_rules rules = check_rules_fast(&nothing, 0);
     hnbrdf_rng rng;
     hnbrdf_rng_seed(&rng, 10, 0);
     double share = 0.0;
     for (int k = 0; k < 500; k++) {
         float wi[3], wo[3], x[6];
-        gpu_bounds bounds;
+        check_bounds bounds;
         hnbrdf_sampler_draw(HNBRDF_SAMPLER_UNIFORM, &rng, wi, wo);
-        gpu_bounds_make(&rules, desc, HNBRDF_GLSL_HALF, material, wi, wo, &bounds);
+        check_bounds_make(&rules, desc, HNBRDF_GLSL_HALF, material, wi, wo, &bounds);
         for (int i = 0; i < 6; i++)
             x[i] = bounds.encoding[i].v;
         for (int row = 0; row < hnbrdf_layer_outputs(desc, 1); row++) {
@@ -237,7 +237,7 @@ static double cost(const hnbrdf_model *model, const hnbrdf_measured *measured, i
         if (!hnbrdf_measured_eval(measured, wi, wo, truth))
             continue;
         hnbrdf_eval(model, material, wi, wo, single);
-        gpu_half_eval(model, material, wi, wo, half);
+        check_half_eval(model, material, wi, wo, half);
         for (int c = 0; c < 3; c++)
             sum += hnbrdf_smape(half[c], truth[c]) - hnbrdf_smape(single[c], truth[c]);
         k++;

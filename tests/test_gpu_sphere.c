@@ -3,7 +3,7 @@
 #include "gpu_run.h"
 #include "gpu_support.h"
 
-#include "gpu/bounds.h"
+#include "check/bounds.h"
 #include "gpu/sphere.h"
 #include "hnbrdf/measured.h"
 
@@ -140,15 +140,15 @@ static void compare_values(const hnbrdf_model *model, int material, int exact,
                            const gpu_sphere_draw *draws)
 {
     const hnbrdf_material *m = hnbrdf_model_material(model, material);
-    const gpu_rules rules = gpu_run_rules(exact);
+    const check_rules rules = gpu_run_rules(exact);
     hnbrdf_model_desc desc;
     hnbrdf_model_describe(model, &desc);
     for (int i = 0; i < DRAWS; i++) {
-        gpu_bounds bounds;
+        check_bounds bounds;
         if (!(draws[i].counts > 0.0f))
             continue;
         assert_true(draws[i].wi[2] > 0.0f && draws[i].wo[2] > 0.0f);
-        gpu_bounds_make(&rules, &desc, HNBRDF_GLSL_FLOAT, m, draws[i].wi, draws[i].wo, &bounds);
+        check_bounds_make(&rules, &desc, HNBRDF_GLSL_FLOAT, m, draws[i].wi, draws[i].wo, &bounds);
         for (int k = 0; k < 3; k++)
             if (!(fabs((double)draws[i].f[k] - (double)bounds.value[k].v) <= bounds.value[k].e))
                 fail_msg("draw %d, channel %d: %.9g on the device, %.9g in C, bound %g", i, k,

@@ -58,15 +58,15 @@ static gpu_report verify(const hnbrdf_model *model, const char *scene)
 }
 
 /* Over all materials. */
-static gpu_comparison all_of(const gpu_report *report, int build, int stage)
+static check_comparison all_of(const gpu_report *report, int build, int stage)
 {
-    gpu_comparison sum = {0};
+    check_comparison sum = {0};
     for (int m = 0; m < report->material_count; m++)
-        gpu_comparison_add(&sum, &report->comparisons[m][build][stage]);
+        check_comparison_add(&sum, &report->comparisons[m][build][stage]);
     return sum;
 }
 
-static int exact_device(const gpu_arithmetic *a)
+static int exact_device(const check_arithmetic *a)
 {
     return (!a->has_half || (a->exact_half && a->keeps_half_denormals)) && a->exact_basic &&
            a->exact_divide && a->exact_sqrt && a->keeps_denormals;
@@ -74,22 +74,23 @@ static int exact_device(const gpu_arithmetic *a)
 
 /* ---- What must hold -------------------------------------------------------------------------- */
 
-static void check_stage(const gpu_report *report, int build, int stage)
+static void check_one_stage(const gpu_report *report, int build, int stage)
 {
-    gpu_comparison sum = all_of(report, build, stage);
-    const gpu_place *at = &sum.worst;
+    check_comparison sum = all_of(report, build, stage);
+    const check_place *at = &sum.worst;
     if (!sum.applies)
         return;
     if (sum.outside)
         fail_msg(
             "%s %s: %zu of %zu outside: %.9g, C %.9g, bound %g, %s pair (%.9g %.9g %.9g) (%.9g "
             "%.9g %.9g)",
-            gpu_build_name((gpu_build)build), gpu_stage_name((gpu_stage)stage), sum.outside,
+            gpu_build_name((gpu_build)build), check_stage_name((check_stage)stage), sum.outside,
             sum.values, (double)at->device, (double)at->reference, at->bound,
-            gpu_pair_class_name(at->class_of_pair), (double)at->pair[0], (double)at->pair[1],
+            check_pair_class_name(at->class_of_pair), (double)at->pair[0], (double)at->pair[1],
             (double)at->pair[2], (double)at->pair[3], (double)at->pair[4], (double)at->pair[5]);
-    if (build == GPU_BUILD_EXACT && stage == GPU_STAGE_NETWORK && report->arithmetic.exact_basic &&
-        report->arithmetic.keeps_denormals && !report->arithmetic.has_half)
+    if (build == GPU_BUILD_EXACT && stage == CHECK_STAGE_NETWORK &&
+        report->arithmetic.exact_basic && report->arithmetic.keeps_denormals &&
+        !report->arithmetic.has_half)
         assert_int_equal(sum.identical, sum.values);
     if (build == GPU_BUILD_EXACT && exact_device(&report->arithmetic))
         assert_int_equal(sum.identical, sum.values);
@@ -113,8 +114,8 @@ static void model_holds_as(const hnbrdf_model *model, hnbrdf_glsl_weights weight
     exported.weights = block;
     gpu_report report = verify_styled(model, &exported, precision);
     for (int build = 0; build < GPU_BUILDS; build++)
-        for (int stage = 0; stage < GPU_STAGES; stage++)
-            check_stage(&report, build, stage);
+        for (int stage = 0; stage < CHECK_STAGES; stage++)
+            check_one_stage(&report, build, stage);
     assert_true(report.within);
     gpu_report_free(&report);
     free(block);
@@ -343,10 +344,10 @@ static void is_found(const char *marker, int one_ulp, int stage)
         &(scene_shape){.encoding = HALF, .hidden = 16, .layers = 2, .latent = 4, .floor = 0.003f});
     char *scene = scene_text(model, 0), *changed = plant(scene, marker, one_ulp);
     gpu_report report = verify(model, changed);
-    gpu_comparison found = all_of(&report, GPU_BUILD_EXACT, stage);
+    check_comparison found = all_of(&report, GPU_BUILD_EXACT, stage);
     /* A device that divides inexactly may hide an ulp of the analytic part; the network never
      * does. */
-    if (exact_device(&report.arithmetic) || stage == GPU_STAGE_NETWORK) {
+    if (exact_device(&report.arithmetic) || stage == CHECK_STAGE_NETWORK) {
         assert_false(report.within);
         assert_true(found.outside > 0);
         assert_true(found.worst.ulp > 0.0);
@@ -360,15 +361,15 @@ static void is_found(const char *marker, int one_ulp, int stage)
 static void a_changed_weight_is_found(void **state)
 {
     (void)state;
-    is_found("a3 = hnbrdf_hard_gelu(", 0, GPU_STAGE_NETWORK);
-    is_found(" * a1 ", 0, GPU_STAGE_NETWORK);
+    is_found("a3 = hnbrdf_hard_gelu(", 0, CHECK_STAGE_NETWORK);
+    is_found(" * a1 ", 0, CHECK_STAGE_NETWORK);
 }
 
 static void one_ulp_of_one_number_is_found(void **state)
 {
     (void)state;
-    is_found("float out4 = ", 1, GPU_STAGE_NETWORK);
-    is_found("hnbrdf_material(vec3(", 1, GPU_STAGE_ANALYTIC);
+    is_found("float out4 = ", 1, CHECK_STAGE_NETWORK);
+    is_found("hnbrdf_material(vec3(", 1, CHECK_STAGE_ANALYTIC);
 }
 
 static void a_shader_that_does_not_compile_is_an_error(void **state)

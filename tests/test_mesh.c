@@ -1,5 +1,5 @@
 /* test_mesh.c: OBJ files of any origin, polygons, shapes from formulas, transforms. */
-#include "render/shapes.h"
+#include "scene/shapes.h"
 
 #include <math.h>
 #include <setjmp.h>

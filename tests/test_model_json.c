@@ -2,7 +2,7 @@
  * survive being escaped. */
 #include "core_support.h"
 
-#include "model/json.h"
+#include "base/json.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

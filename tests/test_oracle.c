@@ -1,6 +1,6 @@
 /* test_oracle.c: is the oracle right? Against facts that do not come from its formulas:
  * normalisation, Fresnel's amplitudes, closed forms, a network small enough to write out. */
-#include "oracle/oracle.h"
+#include "check/oracle.h"
 
 #include "core_support.h"
 

@@ -1,6 +1,6 @@
 /* test_render_draw.c: the colour scale, resizing, and difference pages. */
-#include "render/difference.h"
-#include "render/draw.h"
+#include "image/difference.h"
+#include "image/draw.h"
 
 #include <math.h>
 #include <setjmp.h>

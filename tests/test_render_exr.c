@@ -1,6 +1,6 @@
 /* test_render_exr.c: OpenEXR there and back, every compression and tiles; hostile bytes give one
  * line. */
-#include "render/image.h"
+#include "image/image.h"
 
 #include "hnbrdf/measured.h"
 

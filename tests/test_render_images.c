@@ -1,6 +1,6 @@
 /* test_render_images.c: PNG and Radiance, memory and files; hostile bytes give one line and no
  * crash. */
-#include "render/image.h"
+#include "image/image.h"
 
 #include <math.h>
 #include <setjmp.h>

@@ -1,6 +1,6 @@
 /* test_render_sheet.c: lettering and the layout of contact sheets. */
-#include "render/label.h"
-#include "render/sheet.h"
+#include "image/label.h"
+#include "image/sheet.h"
 
 #include <math.h>
 #include <setjmp.h>

@@ -2,7 +2,7 @@
  * itself. */
 #include "scene_support.h"
 
-#include "core/error.h"
+#include "base/error.h"
 
 #include <math.h>
 #include <stdlib.h>

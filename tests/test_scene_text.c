@@ -1,5 +1,5 @@
 /* test_scene_text.c: scenes as text: what each statement means, and messages with file and line. */
-#include "render/describe.h"
+#include "scene/describe.h"
 
 #include <math.h>
 #include <setjmp.h>

@@ -1,7 +1,7 @@
 /* test_stability.c: would `hnbrdf stability` notice? Implementations that are wrong on purpose,
  * in the ways such code has been wrong, against the same cases, and the library itself in the
  * short form. */
-#include "stability/stability.h"
+#include "check/stability.h"
 
 #include "core/math.h"
 #include "core_support.h"

@@ -2,7 +2,7 @@
  * back. */
 #include "core_support.h"
 
-#include "model/text.h"
+#include "base/text.h"
 
 #include <float.h>
 #include <locale.h>

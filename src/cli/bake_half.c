@@ -1,7 +1,7 @@
 /* bake_half.c: what becomes of a baked network whose weights are rounded as an export in half
  * precision rounds them. */
 #include "cli/bake.h"
-#include "model/half.h"
+#include "glsl/half.h"
 
 #include <stdlib.h>
 

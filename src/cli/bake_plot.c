@@ -1,6 +1,6 @@
 /* bake_plot.c: error against run time of everything `bake` tried, both axes logarithmic. */
 #include "cli/bake.h"
-#include "cli/svg.h"
+#include "plot/svg.h"
 
 #include <math.h>
 #include <string.h>

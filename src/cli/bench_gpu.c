@@ -3,7 +3,7 @@
 #include "cli/bench.h"
 
 #ifdef HNBRDF_WITH_VULKAN
-#include "cli/text_buffer.h"
+#include "base/text_buffer.h"
 #include "gpu/compile.h"
 #include "gpu/timed.h"
 

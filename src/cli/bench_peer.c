@@ -2,7 +2,7 @@
  * benchmark: mat4 times vec4 chains, literals of three decimals, the microfacet formulas written
  * out as they stand. */
 #include "cli/bench.h"
-#include "cli/text_buffer.h"
+#include "base/text_buffer.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 /* bench_plot.c: error against run time: a pair of panels (SMAPE, PSNR) for each backend, with
  * Pareto fronts. */
 #include "cli/bench.h"
-#include "cli/svg.h"
+#include "plot/svg.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -5,7 +5,7 @@
 #include "fit/workers.h"
 #include "hnbrdf/metrics.h"
 #ifdef HNBRDF_WITH_VULKAN
-#include "gpu/half.h"
+#include "check/half.h"
 #endif
 
 #include <math.h>
@@ -34,7 +34,7 @@ typedef struct quality {
 
 #ifdef HNBRDF_WITH_VULKAN
 static const int has_half = 1;
-#define EVAL_HALF gpu_half_eval
+#define EVAL_HALF check_half_eval
 #else
 static const int has_half = 0;
 #define EVAL_HALF hnbrdf_eval

@@ -1,7 +1,7 @@
 /* cli.c: how a command describes itself once (cli.h) becomes parsing, --help and messages. */
 #include "cli/cli.h"
 
-#include "model/text.h"
+#include "base/text.h"
 
 #include <limits.h>
 #include <math.h>

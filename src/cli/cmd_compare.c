@@ -3,7 +3,7 @@
 #include "cli/csv.h"
 #include "cli/picture.h"
 #include "hnbrdf/metrics.h"
-#include "model/text.h"
+#include "base/text.h"
 
 #include <pthread.h>
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 /* cmd_edit.c: `hnbrdf edit`: change a material of a model by hand: colour, refraction, roughness,
  * angle. */
-#include "cli/palette.h"
-#include "model/text.h"
+#include "edit/palette.h"
+#include "base/text.h"
 
 #include <stddef.h>
 #include <string.h>

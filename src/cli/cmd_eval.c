@@ -1,7 +1,7 @@
 /* cmd_eval.c: `hnbrdf eval`: pairs of directions in, BRDF values out, one CSV line for each. */
 #include "cli/cli.h"
 #include "cli/csv.h"
-#include "model/text.h"
+#include "base/text.h"
 
 #include <errno.h>
 #include <math.h>

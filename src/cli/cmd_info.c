@@ -1,7 +1,7 @@
 /* cmd_info.c: `hnbrdf info`: what a model, a measured file or a collection of them holds. */
 #include "cli/cli.h"
 #include "cli/info_physics.h"
-#include "model/text.h"
+#include "base/text.h"
 
 #include <string.h>
 #include <sys/stat.h>

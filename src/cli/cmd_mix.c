@@ -1,6 +1,6 @@
 /* cmd_mix.c: `hnbrdf mix`: materials between two of a model. */
-#include "cli/palette.h"
-#include "model/text.h"
+#include "edit/palette.h"
+#include "base/text.h"
 
 #include <math.h>
 #include <string.h>

@@ -3,7 +3,7 @@
  * stays. */
 #include "cli/csv.h"
 #include "cli/report.h"
-#include "model/text.h"
+#include "base/text.h"
 
 #include <stdlib.h>
 #include <string.h>

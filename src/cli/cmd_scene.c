@@ -1,7 +1,7 @@
 /* cmd_scene.c: `hnbrdf scene`: path tracing of a scene told in a text file. */
 #include "cli/scene_compare.h"
 
-#include "render/describe.h"
+#include "scene/describe.h"
 
 #include <string.h>
 

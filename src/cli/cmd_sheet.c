@@ -1,7 +1,7 @@
 /* cmd_sheet.c: `hnbrdf sheet`: spheres of measured materials beside their models, on one page. */
 #include "cli/picture.h"
 #include "hnbrdf/metrics.h"
-#include "render/sheet.h"
+#include "image/sheet.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -4,7 +4,7 @@
 #include "cli/stability_gpu.h"
 #include "cli/stability_plot.h"
 #include "cli/stability_report.h"
-#include "render/image.h"
+#include "image/image.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -4,8 +4,8 @@
 
 #include "cli/csv.h"
 #include "cli/picture.h"
-#include "model/text.h"
-#include "render/difference.h"
+#include "base/text.h"
+#include "image/difference.h"
 
 #include <stdlib.h>
 #include <string.h>

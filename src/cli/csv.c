@@ -3,7 +3,7 @@
 #include "cli/csv.h"
 
 #include "cli/cli.h"
-#include "model/text.h"
+#include "base/text.h"
 
 #include <errno.h>
 #include <string.h>

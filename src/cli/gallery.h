@@ -4,7 +4,7 @@
 #define HNBRDF_CLI_GALLERY_H
 
 #include "cli/picture.h"
-#include "render/sheet.h"
+#include "image/sheet.h"
 
 enum { GALLERY_EDITS = 7, GALLERY_PAIRS = 32, GALLERY_MATERIALS = 32 };
 

@@ -2,7 +2,7 @@
 #include "cli/loss_plot.h"
 
 #include "cli/cli.h"
-#include "cli/svg.h"
+#include "plot/svg.h"
 
 #include <math.h>
 #include <stdlib.h>

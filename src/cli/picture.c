@@ -1,7 +1,7 @@
 /* picture.c: light, exposure and files of the commands that make pictures. */
 #include "cli/picture.h"
 
-#include "render/difference.h"
+#include "image/difference.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -110,7 +110,7 @@ static hnbrdf_result render(const render_gpu *job, const gpu_device *device, ren
 static int run_on(const render_gpu *job, const gpu_device *device, render_image *image)
 {
     hnbrdf_error error;
-    gpu_arithmetic a;
+    check_arithmetic a;
     render_image rendered;
     double ns;
     if (gpu_probe(device, &a, &error) || render(job, device, &rendered, &ns, &error))

@@ -2,7 +2,7 @@
  * a bad local minimum, and where their parameters lie. */
 #include "cli/csv.h"
 #include "cli/report.h"
-#include "cli/svg.h"
+#include "plot/svg.h"
 
 #include <math.h>
 #include <stdlib.h>

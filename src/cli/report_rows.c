@@ -1,8 +1,8 @@
 /* report_rows.c: the picture rows of `report images`: measurement, models and where they differ. */
 #include "cli/report.h"
-#include "render/difference.h"
-#include "render/draw.h"
-#include "render/sheet.h"
+#include "image/difference.h"
+#include "image/draw.h"
+#include "image/sheet.h"
 
 #include <stdlib.h>
 #include <string.h>

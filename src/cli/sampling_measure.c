@@ -2,7 +2,7 @@
  * against a converged one. */
 #include "cli/sampling.h"
 
-#include "render/difference.h"
+#include "image/difference.h"
 #include "render/tabulated.h"
 
 #include <string.h>

@@ -2,8 +2,8 @@
  * samples. */
 #include "cli/sampling.h"
 
-#include "render/draw.h"
-#include "render/sheet.h"
+#include "image/draw.h"
+#include "image/sheet.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -2,7 +2,7 @@
  * people, a plot. */
 #include "cli/csv.h"
 #include "cli/sampling.h"
-#include "cli/svg.h"
+#include "plot/svg.h"
 
 #include <stdlib.h>
 #include <string.h>

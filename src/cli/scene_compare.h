@@ -4,7 +4,7 @@
 #define HNBRDF_CLI_SCENE_COMPARE_H
 
 #include "cli/scene_job.h"
-#include "render/describe.h"
+#include "scene/describe.h"
 
 typedef struct scene_files {
     const char *path, *csv, *json; /* csv, json: of the table, or NULL */

@@ -4,7 +4,7 @@
 #define HNBRDF_CLI_SCENE_JOB_H
 
 #include "cli/picture.h"
-#include "render/film.h"
+#include "scene/film.h"
 
 typedef struct scene_job {
     const char *output;

@@ -55,7 +55,7 @@ static hnbrdf_result run(stability_backend *backend, stability_stage stage,
                              block->u[0], STABILITY_BLOCK, values, error);
 }
 
-static void add(stability_gpus *gpus, const gpu_device *device, const gpu_arithmetic *arithmetic,
+static void add(stability_gpus *gpus, const gpu_device *device, const check_arithmetic *arithmetic,
                 gpu_style style, stability_backend *backends)
 {
     if (gpus->shader_count == STABILITY_GPU_BACKENDS)
@@ -91,7 +91,7 @@ static hnbrdf_result add_device(stability_gpus *gpus, int index, int styles,
                                 stability_backend *backends, hnbrdf_error *error)
 {
     gpu_device *device = &gpus->devices[gpus->device_count];
-    gpu_arithmetic arithmetic;
+    check_arithmetic arithmetic;
     hnbrdf_result result = gpu_device_open(&gpus->instance, index, device, error);
     if (result)
         return result;

@@ -2,7 +2,7 @@
 #ifndef HNBRDF_CLI_STABILITY_GPU_H
 #define HNBRDF_CLI_STABILITY_GPU_H
 
-#include "stability/stability.h"
+#include "check/stability.h"
 
 enum { STABILITY_GPU_BACKENDS = 64 };
 

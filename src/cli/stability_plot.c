@@ -3,9 +3,9 @@
 #include "cli/stability_plot.h"
 
 #include "cli/cli.h"
-#include "render/draw.h"
-#include "render/label.h"
-#include "stability/maps.h"
+#include "image/draw.h"
+#include "image/label.h"
+#include "check/maps.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -2,7 +2,7 @@
 #ifndef HNBRDF_CLI_STABILITY_PLOT_H
 #define HNBRDF_CLI_STABILITY_PLOT_H
 
-#include "stability/stability.h"
+#include "check/stability.h"
 
 /* Writes FILE.png: two maps (see maps.h) of each of: plain C, the first fast shader, the first half
  * one. CLI_OK, or CLI_FAILURE after a message. */

@@ -3,7 +3,7 @@
 
 #include "cli/cli.h"
 #include "cli/csv.h"
-#include "oracle/oracle.h"
+#include "check/oracle.h"
 
 #include <math.h>
 

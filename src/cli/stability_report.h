@@ -2,7 +2,7 @@
 #ifndef HNBRDF_CLI_STABILITY_REPORT_H
 #define HNBRDF_CLI_STABILITY_REPORT_H
 
-#include "stability/stability.h"
+#include "check/stability.h"
 
 #include <stdio.h>
 

@@ -3,7 +3,7 @@
 
 #include "cli/cli.h"
 #include "cli/csv.h"
-#include "model/text.h"
+#include "base/text.h"
 
 #include <math.h>
 
@@ -27,7 +27,7 @@ static double mean(double sum, size_t count)
 
 /* ---- For people ------------------------------------------------------------------------------ */
 
-static void print_arithmetic(const gpu_arithmetic *a, FILE *file)
+static void print_arithmetic(const check_arithmetic *a, FILE *file)
 {
     fprintf(file, "  arithmetic  + - * %s, / ", a->exact_basic ? "exact" : "NOT EXACT");
     fprintf(file, a->exact_divide ? "exact" : "within %.2g ulp", a->divide_ulp);
@@ -45,7 +45,7 @@ static void print_arithmetic(const gpu_arithmetic *a, FILE *file)
                 a->exp_share, a->log_share);
 }
 
-static void print_half(const gpu_arithmetic *a, FILE *file)
+static void print_half(const check_arithmetic *a, FILE *file)
 {
     if (!a->has_half) {
         fputs(
@@ -57,12 +57,12 @@ static void print_half(const gpu_arithmetic *a, FILE *file)
             a->exact_half ? "exact" : "NOT EXACT", a->keeps_half_denormals ? "kept" : "flushed");
 }
 
-static void print_place(const gpu_place *place, const char *material, FILE *file)
+static void print_place(const check_place *place, const char *material, FILE *file)
 {
     fprintf(file,
             "      worst at %s[%d], %s pair wi (%.9g %.9g %.9g) wo (%.9g %.9g %.9g): %.9g, C %.9g, "
             "bound %.3g\n",
-            material, place->component, gpu_pair_class_name(place->class_of_pair),
+            material, place->component, check_pair_class_name(place->class_of_pair),
             (double)place->pair[0], (double)place->pair[1], (double)place->pair[2],
             (double)place->pair[3], (double)place->pair[4], (double)place->pair[5],
             (double)place->device, (double)place->reference, place->bound);
@@ -70,21 +70,21 @@ static void print_place(const gpu_place *place, const char *material, FILE *file
 
 /* A stage over all materials; the material of the worst place is told. */
 static void print_stage(const verification *v, const gpu_report *report, gpu_build build,
-                        gpu_stage stage, FILE *file)
+                        check_stage stage, FILE *file)
 {
-    gpu_comparison all = {0};
+    check_comparison all = {0};
     int worst = 0;
     for (int k = 0; k < report->material_count; k++) {
-        const gpu_comparison *here = &report->comparisons[k][build][stage];
+        const check_comparison *here = &report->comparisons[k][build][stage];
         if ((here->outside > 0 && all.outside == 0) ||
             (all.outside == 0 && here->worst_ulp > all.worst_ulp))
             worst = k;
-        gpu_comparison_add(&all, here);
+        check_comparison_add(&all, here);
     }
     if (!all.applies)
         return;
     fprintf(file, "    %-6s %-9s %10zu %9.4f%% %10.3g %10.3g %10.2g %10.2g %9.3g  %s\n",
-            gpu_build_name(build), gpu_stage_name(stage), all.values,
+            gpu_build_name(build), check_stage_name(stage), all.values,
             100.0 * mean((double)all.identical, all.values), mean(all.sum_ulp, all.values),
             all.worst_ulp, mean(all.sum_relative, all.values), all.worst_relative, all.worst_share,
             all.outside ? "OUTSIDE" : "ok");
@@ -131,8 +131,8 @@ static void print_device(const verification *v, const verified_device *device, F
     fprintf(file, "    %-6s %-9s %10s %10s %10s %10s %10s %10s %9s\n", "build", "stage", "values",
             "same bits", "mean ulp", "worst ulp", "mean rel.", "worst rel.", "of bound");
     for (int build = 0; build < GPU_BUILDS; build++)
-        for (int stage = 0; stage < GPU_STAGES; stage++)
-            print_stage(v, report, (gpu_build)build, (gpu_stage)stage, file);
+        for (int stage = 0; stage < CHECK_STAGES; stage++)
+            print_stage(v, report, (gpu_build)build, (check_stage)stage, file);
     print_timing(&report->timing, file);
     fprintf(file, "  %s\n\n", report->within ? "within the bounds" : "NOT WITHIN THE BOUNDS");
 }
@@ -166,9 +166,9 @@ static void write_number(FILE *file, double value)
 }
 
 static void write_row(const verification *v, const verified_device *device, int k, gpu_build build,
-                      gpu_stage stage, FILE *file)
+                      check_stage stage, FILE *file)
 {
-    const gpu_comparison *here = &device->report.comparisons[k][build][stage];
+    const check_comparison *here = &device->report.comparisons[k][build][stage];
     const double numbers[] = {mean(here->sum_ulp, here->values), here->worst_ulp,
                               mean(here->sum_relative, here->values), here->worst_relative,
                               here->worst_share};
@@ -177,14 +177,14 @@ static void write_row(const verification *v, const verified_device *device, int 
     csv_write_text(file, device->name);
     putc(',', file);
     csv_write_text(file, material_name(v, k));
-    fprintf(file, ",%s,%s,%zu,%zu,%zu,%zu", gpu_build_name(build), gpu_stage_name(stage),
+    fprintf(file, ",%s,%s,%zu,%zu,%zu,%zu", gpu_build_name(build), check_stage_name(stage),
             here->values, here->identical, here->unbounded, here->outside);
     for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++) {
         putc(',', file);
         write_number(file, numbers[i]);
     }
     int found = here->worst_ulp > 0.0;
-    fprintf(file, ",%s", found ? gpu_pair_class_name(here->worst.class_of_pair) : "");
+    fprintf(file, ",%s", found ? check_pair_class_name(here->worst.class_of_pair) : "");
     for (int i = 0; i < 6; i++) {
         putc(',', file);
         if (found)
@@ -202,8 +202,8 @@ void verification_write_csv(const verification *v, FILE *file)
     for (int d = 0; d < v->device_count; d++)
         for (int k = 0; k < v->devices[d].report.material_count; k++)
             for (int build = 0; build < GPU_BUILDS; build++)
-                for (int stage = 0; stage < GPU_STAGES; stage++)
-                    write_row(v, &v->devices[d], k, (gpu_build)build, (gpu_stage)stage, file);
+                for (int stage = 0; stage < CHECK_STAGES; stage++)
+                    write_row(v, &v->devices[d], k, (gpu_build)build, (check_stage)stage, file);
 }
 
 /* JSON has no number for what is not finite. */
@@ -217,9 +217,9 @@ static void write_member(FILE *file, const char *before, double value)
 }
 
 static void write_json_comparison(const verification *v, const verified_device *device, int k,
-                                  gpu_build build, gpu_stage stage, int *first, FILE *file)
+                                  gpu_build build, check_stage stage, int *first, FILE *file)
 {
-    const gpu_comparison *here = &device->report.comparisons[k][build][stage];
+    const check_comparison *here = &device->report.comparisons[k][build][stage];
     if (!here->applies)
         return;
     fprintf(file, "%s\n        {\"material\": ", *first ? "" : ",");
@@ -229,7 +229,7 @@ static void write_json_comparison(const verification *v, const verified_device *
             ", \"build\": \"%s\", \"stage\": \"%s\", \"values\": %zu, \"identical\": %zu, "
             "\"unbounded\": %zu,"
             " \"outside\": %zu",
-            gpu_build_name(build), gpu_stage_name(stage), here->values, here->identical,
+            gpu_build_name(build), check_stage_name(stage), here->values, here->identical,
             here->unbounded, here->outside);
     write_member(file, ", \"mean_ulp\": ", mean(here->sum_ulp, here->values));
     write_member(file, ", \"worst_ulp\": ", here->worst_ulp);
@@ -242,7 +242,7 @@ static void write_json_comparison(const verification *v, const verified_device *
 static void write_json_report(const verification *v, const verified_device *device, FILE *file)
 {
     const gpu_report *report = &device->report;
-    const gpu_arithmetic *a = &report->arithmetic;
+    const check_arithmetic *a = &report->arithmetic;
     fprintf(
         file,
         ",\n      \"arithmetic\": {\"exact_basic\": %s, \"exact_divide\": %s, \"exact_sqrt\": %s, "
@@ -260,8 +260,8 @@ static void write_json_report(const verification *v, const verified_device *devi
     int first = 1;
     for (int k = 0; k < report->material_count; k++)
         for (int build = 0; build < GPU_BUILDS; build++)
-            for (int stage = 0; stage < GPU_STAGES; stage++)
-                write_json_comparison(v, device, k, (gpu_build)build, (gpu_stage)stage, &first,
+            for (int stage = 0; stage < CHECK_STAGES; stage++)
+                write_json_comparison(v, device, k, (gpu_build)build, (check_stage)stage, &first,
                                       file);
     write_member(file, "],\n      \"ns_per_evaluation\": ",
                  report->timing.value_ns - report->timing.copy_ns);

@@ -1,5 +1,5 @@
 /* material.c: make, check and interpolate a material. */
-#include "core/error.h"
+#include "base/error.h"
 #include "core/math.h"
 
 #include <math.h>

@@ -2,7 +2,7 @@
  * The curves are those that cost least on fitted models: see hnbrdf_packing in hnbrdf.h. */
 #include "core/pack.h"
 
-#include "core/error.h"
+#include "base/error.h"
 #include "core/half.h"
 
 #include <math.h>

@@ -4,7 +4,7 @@
  * of data names, options and layout that must match. */
 #include "fit/trainer.h"
 
-#include "core/error.h"
+#include "base/error.h"
 
 #include <float.h>
 #include <limits.h>

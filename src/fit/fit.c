@@ -3,7 +3,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "fit/trainer.h"
 
-#include "core/error.h"
+#include "base/error.h"
 #include "fit/ggx.h"
 
 #include <float.h>

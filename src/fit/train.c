@@ -1,7 +1,7 @@
 /* train.c: the network stage: Adam on the shared network and the latent codes, in fixed chunks. */
 #include "fit/trainer.h"
 
-#include "core/error.h"
+#include "base/error.h"
 #include "fit/adam.h"
 #include "fit/ggx.h"
 

@@ -1,7 +1,7 @@
 /* compile.c: GLSL to SPIR-V by glslangValidator, in a private directory that is gone afterwards. */
 #include "gpu/compile.h"
 
-#include "core/error.h"
+#include "base/error.h"
 
 #include <errno.h>
 #include <fcntl.h>

@@ -1,7 +1,7 @@
 /* compute.c: buffers, pipelines and dispatches on one device. */
 #include "gpu/compute.h"
 
-#include "core/error.h"
+#include "base/error.h"
 
 #include <math.h>
 #include <string.h>

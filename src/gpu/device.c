@@ -1,7 +1,7 @@
 /* device.c: Vulkan instance and devices for compute. */
 #include "gpu/device.h"
 
-#include "core/error.h"
+#include "base/error.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -2,7 +2,7 @@
  * directions. */
 #include "gpu/evaluate.h"
 
-#include "core/error.h"
+#include "base/error.h"
 #include "gpu/compile.h"
 
 #include <stdio.h>

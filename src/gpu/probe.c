@@ -1,7 +1,7 @@
 /* probe.c: runs shaders/probe.comp and compares every operation with C. */
 #include "gpu/probe.h"
 
-#include "core/error.h"
+#include "base/error.h"
 #include "core/math.h"
 #include "gpu/compile.h"
 #include "gpu/compute.h"
@@ -15,93 +15,6 @@
 extern const char hnbrdf_probe_comp[];
 
 enum { PROBE_VALUES = 1 << 17, OPERANDS = 4, RESULTS = 8 };
-
-static const double ULP = 0x1p-23; /* of 1: the largest that one ulp is in relative terms */
-
-/* ---- Rules -----------------------------------------------------------------------------------
- * Vulkan 1.3, "Precision of core SPIR-V instructions", 32 bits: + - * correctly rounded; division
- * 2.5 ulp for |b| in [2^-126, 2^126]; inversesqrt 2 ulp, sqrt as 1/inversesqrt; exp 3 + 2|x| ulp;
- * log 3 ulp, 2^-21 absolute for x in [0.5, 2]; subnormal numbers may be flushed. 16 bits: + * and
- * conversions correctly rounded, which without a stated mode means to either neighbour. */
-
-static gpu_rules vulkan_rules(void)
-{
-    return (gpu_rules){.basic = 0.5 * ULP,
-                       .divide = 2.5 * ULP,
-                       .sqrt = 4.5 * ULP,
-                       .exp = 3 * ULP,
-                       .exp_slope = 2 * ULP,
-                       .log = 3 * ULP,
-                       .log_near_1 = 0x1p-21,
-                       .tiny = (double)FLT_MIN,
-                       .half = 0x1p-10,
-                       .half_tiny = 0x1p-14};
-}
-
-/* Operations that the probe saw to be exact. */
-static void apply_probe(const gpu_arithmetic *arithmetic, gpu_rules *rules)
-{
-    rules->repeats_basic = arithmetic->exact_basic;
-    rules->repeats_divide = arithmetic->exact_divide;
-    rules->repeats_sqrt = arithmetic->exact_sqrt;
-    if (arithmetic->exact_divide)
-        rules->divide = 0.5 * ULP;
-    if (arithmetic->exact_sqrt)
-        rules->sqrt = 0.5 * ULP;
-    if (arithmetic->keeps_denormals)
-        rules->tiny = 0;
-    rules->repeats_half = arithmetic->exact_half && arithmetic->keeps_half_denormals;
-    if (arithmetic->exact_half)
-        rules->half = 0x1p-11;
-    if (arithmetic->keeps_half_denormals)
-        rules->half_tiny = 0x1p-24;
-}
-
-gpu_rules gpu_rules_exact(const gpu_arithmetic *arithmetic)
-{
-    gpu_rules rules = vulkan_rules();
-    apply_probe(arithmetic, &rules);
-    rules.repeats_functions = 1;
-    /* hnbrdf_exp: 1.1 ulp. hnbrdf_log: 1.05 ulp + 5e-8; s = f/(2 + f), |s| <= 0.172, enters as
-     * 2.06 s. */
-    rules.exp = 1.1 * ULP;
-    rules.exp_slope = 0;
-    rules.log = 1.05 * ULP;
-    rules.log_is_sum = 1;
-    rules.log_near_1 = 5e-8 + 2.06 * 0.172 * rules.divide;
-    return rules;
-}
-
-gpu_rules gpu_rules_fast(const gpu_arithmetic *arithmetic, VkDriverId driver)
-{
-    gpu_rules rules = vulkan_rules();
-    if (driver == VK_DRIVER_ID_MESA_LLVMPIPE) {
-        /* Each of its operations rounds as the probe saw, but without `precise` its compiler may
-         * order sums anew and divide by a constant through its reciprocal (1.5 ulp), as it does
-         * when a shader holds one material: C's bits are not repeated. And it keeps to neither
-         * limit of exp and log: measured with Mesa 22.3, exp errs by 16 ulp where Vulkan allows
-         * 3, log by 5.7e-7 near 1. */
-        apply_probe(arithmetic, &rules);
-        rules.repeats_basic = rules.repeats_divide = rules.repeats_sqrt = rules.repeats_half = 0;
-        rules.divide = fmax(rules.divide, 1.5 * ULP);
-        rules.exp = 16 * ULP;
-        rules.log_near_1 = 6e-7;
-    }
-    return rules;
-}
-
-double gpu_exp_error(const gpu_rules *rules, double x, double exponential)
-{
-    return (rules->exp + rules->exp_slope * fabs(x)) * exponential;
-}
-
-double gpu_log_error(const gpu_rules *rules, double x, double logarithm)
-{
-    double relative = rules->log * fabs(logarithm);
-    return rules->log_is_sum      ? relative + rules->log_near_1
-           : x >= 0.5 && x <= 2.0 ? rules->log_near_1
-                                  : relative;
-}
 
 /* ---- Operands -------------------------------------------------------------------------------- */
 
@@ -183,22 +96,22 @@ static double error_in_ulp(double truth, float device)
     return fabs((double)device - truth) / spacing;
 }
 
-static void compare_functions(const gpu_rules *rules, const float operands[OPERANDS],
-                              const float *device, gpu_arithmetic *seen)
+static void compare_functions(const check_rules *rules, const float operands[OPERANDS],
+                              const float *device, check_arithmetic *seen)
 {
     double x = (double)operands[2], y = (double)operands[3], exponential = exp(x),
            logarithm = log(y);
     double exp_error = fabs((double)device[6] - exponential),
            log_error = fabs((double)device[7] - logarithm);
     seen->exp_ulp = larger(seen->exp_ulp, error_in_ulp(exponential, device[6]));
-    seen->exp_share = larger(seen->exp_share, exp_error / gpu_exp_error(rules, x, exponential));
+    seen->exp_share = larger(seen->exp_share, exp_error / check_exp_error(rules, x, exponential));
     if (y >= 0.5 && y <= 2.0)
         seen->log_error = larger(seen->log_error, log_error);
-    seen->log_share = larger(seen->log_share, log_error / gpu_log_error(rules, y, logarithm));
+    seen->log_share = larger(seen->log_share, log_error / check_log_error(rules, y, logarithm));
 }
 
-static void compare_all(const gpu_rules *rules, const float (*operands)[OPERANDS],
-                        const float (*results)[RESULTS], gpu_arithmetic *seen)
+static void compare_all(const check_rules *rules, const float (*operands)[OPERANDS],
+                        const float (*results)[RESULTS], check_arithmetic *seen)
 {
     seen->exact_basic = seen->exact_divide = seen->exact_sqrt = seen->keeps_denormals = 1;
     seen->flushes_denormals = 1;
@@ -273,7 +186,7 @@ static hnbrdf_result probe_with(const gpu_device *device, const uint32_t *spirv,
     return result;
 }
 
-hnbrdf_result gpu_probe(const gpu_device *device, gpu_arithmetic *arithmetic, hnbrdf_error *error)
+hnbrdf_result gpu_probe(const gpu_device *device, check_arithmetic *arithmetic, hnbrdf_error *error)
 {
     uint32_t *spirv = NULL;
     size_t spirv_size = 0;
@@ -288,8 +201,9 @@ hnbrdf_result gpu_probe(const gpu_device *device, gpu_arithmetic *arithmetic, hn
     else
         result = hnbrdf_fail(error, HNBRDF_ERROR_MEMORY, "probe: no memory");
     if (!result) {
-        gpu_arithmetic seen = {.values = PROBE_VALUES};
-        gpu_rules rules = gpu_rules_fast(&seen, device->driver_id);
+        check_arithmetic seen = {.values = PROBE_VALUES};
+        check_rules rules =
+            check_rules_fast(&seen, device->driver_id == VK_DRIVER_ID_MESA_LLVMPIPE);
         compare_all(&rules, (const float(*)[OPERANDS])operands, (const float(*)[RESULTS])results,
                     &seen);
         *arithmetic = seen;

@@ -1,11 +1,11 @@
 /* probe_half.c: runs shaders/probe_half.comp and compares every operation with C. */
 #include "gpu/probe_half.h"
 
-#include "core/error.h"
+#include "base/error.h"
 #include "gpu/compile.h"
 #include "gpu/compute.h"
 #include "hnbrdf/measured.h"
-#include "model/half.h"
+#include "glsl/half.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -42,7 +42,7 @@ static void draw_operands(hnbrdf_rng *rng, int k, float operands[4])
     operands[3] = k % 4 == 2 ? hnbrdf_round_to_half(free) + ldexpf(1.0f, ilogbf(free) - 11) : free;
 }
 
-static void compare(float reference, float device, gpu_arithmetic *seen)
+static void compare(float reference, float device, check_arithmetic *seen)
 {
     float rounded = hnbrdf_round_to_half(reference);
     if (rounded == device)
@@ -54,7 +54,7 @@ static void compare(float reference, float device, gpu_arithmetic *seen)
 }
 
 /* Results of subnormal operands say nothing about what normal ones give. */
-static void compare_all(const probe *p, gpu_arithmetic *seen)
+static void compare_all(const probe *p, check_arithmetic *seen)
 {
     seen->has_half = seen->exact_half = seen->keeps_half_denormals = 1;
     for (int k = 0; k < VALUES; k++) {
@@ -63,7 +63,7 @@ static void compare_all(const probe *p, gpu_arithmetic *seen)
         for (int i = 0; i < 3; i++)
             subnormal |= fabsf(o[i]) < 0x1p-14f;
         float product = hnbrdf_round_to_half(o[0] * o[1]);
-        gpu_arithmetic here = {.exact_half = 1, .keeps_half_denormals = 1};
+        check_arithmetic here = {.exact_half = 1, .keeps_half_denormals = 1};
         compare(o[3], device[0], &here);
         seen->exact_half &= here.exact_half;
         compare(o[0] + o[1], device[1], &here);
@@ -101,7 +101,7 @@ static hnbrdf_result run(const gpu_device *device, const uint32_t *spirv, size_t
     return result;
 }
 
-hnbrdf_result gpu_probe_half(const gpu_device *device, gpu_arithmetic *arithmetic,
+hnbrdf_result gpu_probe_half(const gpu_device *device, check_arithmetic *arithmetic,
                              hnbrdf_error *error)
 {
     uint32_t *spirv = NULL;

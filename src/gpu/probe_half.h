@@ -5,7 +5,7 @@
 #include "gpu/probe.h"
 
 /* Fills has_half, exact_half and keeps_half_denormals. */
-hnbrdf_result gpu_probe_half(const gpu_device *device, gpu_arithmetic *arithmetic,
+hnbrdf_result gpu_probe_half(const gpu_device *device, check_arithmetic *arithmetic,
                              hnbrdf_error *error);
 
 #endif

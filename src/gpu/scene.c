@@ -1,7 +1,7 @@
 /* scene.c: one exported scene on one Vulkan device: compiled, run, timed. */
 #include "gpu/scene.h"
 
-#include "core/error.h"
+#include "base/error.h"
 #include "gpu/compile.h"
 #include "hnbrdf/measured.h"
 
@@ -138,7 +138,7 @@ static hnbrdf_result open_timed_pipeline(timer *t, double *first_ms)
 {
     double started = milliseconds();
     hnbrdf_result result =
-        gpu_pipeline_open(t->device, &t->program, GPU_STAGE_VALUE, &t->value, t->error);
+        gpu_pipeline_open(t->device, &t->program, CHECK_STAGE_VALUE, &t->value, t->error);
     if (!result)
         result = gpu_scene_run(t->device, &t->program, t->value, 0, 1, 1, NULL, t->error);
     *first_ms = milliseconds() - started;
@@ -155,7 +155,7 @@ static hnbrdf_result run_timer(timer *t, const gpu_scene *scene, uint64_t seed, 
     if (!result)
         result = open_timed_pipeline(t, &timing->first_ms);
     if (!result)
-        result = gpu_pipeline_open(t->device, &t->program, GPU_STAGE_COPY, &t->copy, t->error);
+        result = gpu_pipeline_open(t->device, &t->program, CHECK_STAGE_COPY, &t->copy, t->error);
     if (!result)
         result = upload_pairs(t, seed);
     if (!result)

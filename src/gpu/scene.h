@@ -2,6 +2,7 @@
 #ifndef HNBRDF_GPU_SCENE_H
 #define HNBRDF_GPU_SCENE_H
 
+#include "check/reference.h"
 #include "gpu/compute.h"
 
 /* What is exported; the caller keeps it. */
@@ -11,17 +12,7 @@ typedef struct gpu_scene {
     size_t weights_size;
 } gpu_scene;
 
-/* What a pipeline of a scene runs. Also the values of STAGE in shaders/verify.comp. */
-typedef enum gpu_stage {
-    GPU_STAGE_ENCODING = 0,
-    GPU_STAGE_NETWORK, /* alone: its inputs are those that C encoded */
-    GPU_STAGE_ANALYTIC,
-    GPU_STAGE_VALUE,
-    GPU_STAGES,
-    GPU_STAGE_COPY = GPU_STAGES /* reads and writes as VALUE does and nothing else */
-} gpu_stage;
-
-enum { GPU_PIPELINES = GPU_STAGES + 1 };
+enum { GPU_PIPELINES = CHECK_STAGES + 1 };
 
 typedef enum gpu_build {
     GPU_BUILD_EXACT = 0, /* HNBRDF_EXACT 1 */

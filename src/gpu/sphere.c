@@ -2,7 +2,7 @@
  * second. */
 #include "gpu/sphere.h"
 
-#include "core/error.h"
+#include "base/error.h"
 #include "gpu/compile.h"
 
 #include <math.h>

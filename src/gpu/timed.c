@@ -1,7 +1,7 @@
 /* timed.c: exported scenes on one Vulkan device, compiled and ready to be timed again and again. */
 #include "gpu/timed.h"
 
-#include "core/error.h"
+#include "base/error.h"
 #include "gpu/compile.h"
 #include "hnbrdf/measured.h"
 

@@ -2,7 +2,7 @@
  * builtin_materials.c. */
 #include "measured/builtin_terms.h"
 #include "measured/format.h"
-#include "core/error.h"
+#include "base/error.h"
 
 #include <stdlib.h>
 

@@ -1,5 +1,5 @@
 /* custom.c: a BRDF that the caller evaluates, behind the same interface as measurements. */
-#include "core/error.h"
+#include "base/error.h"
 #include "measured/format.h"
 
 #include <math.h>

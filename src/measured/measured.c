@@ -3,7 +3,7 @@
  * formats. */
 #include "measured/format.h"
 #include "measured/merl_known.h"
-#include "core/error.h"
+#include "base/error.h"
 
 #include <math.h>
 #include <stdio.h>

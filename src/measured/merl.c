@@ -2,8 +2,8 @@
  * difference angles of Rusinkiewicz 1998. Nearest bin, as the database's own code looks up, or
  * trilinear. */
 #include "measured/format.h"
-#include "measured/bytes.h"
-#include "core/error.h"
+#include "base/bytes.h"
+#include "base/error.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,11 +1,11 @@
 /* rgl.c: read RGL .bsdf files (Dupuy and Jakob 2018), RGB and spectral: check every field, and
  * build the tables that rgl_eval.c looks up. */
 #include "measured/rgl.h"
-#include "measured/bytes.h"
+#include "base/bytes.h"
 #include "measured/cie.h"
 #include "measured/format.h"
 #include "measured/tensor_file.h"
-#include "core/error.h"
+#include "base/error.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,8 +1,8 @@
 /* tensor_file.c: parse the container of RGL .bsdf files with one bounds-checked cursor. No size
  * in the file is believed before it was compared with the bytes that are there. */
 #include "measured/tensor_file.h"
-#include "measured/bytes.h"
-#include "core/error.h"
+#include "base/bytes.h"
+#include "base/error.h"
 
 #include <stdlib.h>
 

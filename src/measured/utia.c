@@ -2,8 +2,8 @@
  * 5-D grids of doubles without a header, and the three readings of their numbers that public
  * readers have. */
 #include "measured/format.h"
-#include "measured/bytes.h"
-#include "core/error.h"
+#include "base/bytes.h"
+#include "base/error.h"
 
 #include <math.h>
 #include <stdlib.h>

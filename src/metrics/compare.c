@@ -2,7 +2,7 @@
  * (De Oliveira et al. 2026; the samplers are those of measured.h). */
 #include "hnbrdf/metrics.h"
 
-#include "core/error.h"
+#include "base/error.h"
 
 #include <math.h>
 

@@ -1,7 +1,7 @@
 /* environment.c: importance sampling of latitude-longitude maps by luminance (2-D inverse CDF). */
 #include "render/environment.h"
 
-#include "core/error.h"
+#include "base/error.h"
 #include "core/math.h"
 #include "render/turn.h"
 

@@ -11,7 +11,7 @@
 #ifndef HNBRDF_RENDER_ENVIRONMENT_H
 #define HNBRDF_RENDER_ENVIRONMENT_H
 
-#include "render/image.h"
+#include "image/image.h"
 
 #include <stdint.h>
 

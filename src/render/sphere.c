@@ -1,7 +1,7 @@
 /* sphere.c: the camera, the unit sphere and its shading frame, and the pixels of the picture. */
 #include "render/render.h"
 
-#include "core/error.h"
+#include "base/error.h"
 #include "render/tiles.h"
 
 #include <math.h>

@@ -1,7 +1,7 @@
 /* tabulated.c: importance sampling of a whole tabulated BRDF (Lawrence et al. 2004). */
 #include "render/tabulated.h"
 
-#include "core/error.h"
+#include "base/error.h"
 
 #include <math.h>
 #include <stdlib.h>

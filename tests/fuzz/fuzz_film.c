@@ -2,7 +2,7 @@
  * which would else refuse them all. What is taken is a film that can be developed. */
 #include "fuzz.h"
 
-#include "render/film.h"
+#include "scene/film.h"
 
 enum { WIDTH = 17, HEIGHT = 2, START = 24 };
 

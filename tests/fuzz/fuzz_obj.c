@@ -2,7 +2,7 @@
  * finite coordinates and unit normals. */
 #include "fuzz.h"
 
-#include "render/mesh.h"
+#include "scene/mesh.h"
 
 static void check_corners(const uint32_t corners[3], size_t count, int may_lack)
 {

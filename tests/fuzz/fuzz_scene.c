@@ -2,7 +2,7 @@
  * opened. */
 #include "fuzz.h"
 
-#include "render/describe.h"
+#include "scene/describe.h"
 
 static void check_shape(const render_description *d, const render_text_shape *shape)
 {

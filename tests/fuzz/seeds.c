@@ -4,7 +4,7 @@
 #include "fuzz.h"
 
 #include "measured_support.h"
-#include "render/image.h"
+#include "image/image.h"
 
 #include <sys/stat.h>
 

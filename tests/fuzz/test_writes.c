@@ -4,7 +4,7 @@
  * be had at every byte. */
 #include "model_support.h"
 
-#include "render/image.h"
+#include "image/image.h"
 
 #include <setjmp.h>
 #include <signal.h>

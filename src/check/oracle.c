@@ -1,0 +1,246 @@
+/* oracle.c: DESIGN section 2 line by line, in real numbers of many digits. Slow, and meant to be
+ * read. */
+#include "check/oracle.h"
+
+#include "check/real.h"
+
+#include <string.h>
+
+const char *oracle_arithmetic(void)
+{
+    return REAL_NAME;
+}
+
+/* The first 161 bits, in three doubles. */
+static real pi(void)
+{
+    return (real)0x1.921fb54442d18p+1 + (real)0x1.1a62633145c07p-53 + (real)-0x1.f1976b7ed8fbcp-109;
+}
+
+typedef struct vec {
+    real x, y, z;
+} vec;
+
+static real dot(vec a, vec b)
+{
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+static vec sum(vec a, vec b)
+{
+    return (vec){a.x + b.x, a.y + b.y, a.z + b.z};
+}
+
+static vec minus(vec a, vec b)
+{
+    return (vec){a.x - b.x, a.y - b.y, a.z - b.z};
+}
+
+static vec in_tangent_frame(const float w[3], real rotation)
+{
+    real cosine = real_cos(rotation), sine = real_sin(rotation);
+    return (vec){cosine * w[0] + sine * w[1], cosine * w[1] - sine * w[0], w[2]};
+}
+
+static real limited(real x, real low, real high)
+{
+    return x < low ? low : x > high ? high : x;
+}
+
+/* ---- The analytic part ----------------------------------------------------------------------- */
+
+static real D(vec h, real ax, real ay)
+{
+    real t = (h.x / ax) * (h.x / ax) + (h.y / ay) * (h.y / ay) + h.z * h.z;
+    return 1 / (pi() * ax * ay * t * t);
+}
+
+static real G1(vec w, real ax, real ay)
+{
+    return 2 * w.z / (w.z + real_sqrt(w.z * w.z + ax * ax * w.x * w.x + ay * ay * w.y * w.y));
+}
+
+static real F(real eta, real c)
+{
+    real g = real_sqrt(eta * eta - 1 + c * c);
+    real a = (g - c) / (g + c), b = (c * (g + c) - 1) / (c * (g - c) + 1);
+    return a * a * (1 + b * b) / 2;
+}
+
+/* ---- Encodings ------------------------------------------------------------------------------- */
+
+typedef struct angles {
+    vec h;
+    real c, one_minus_c, tan2, sine;
+} angles;
+
+static angles angles_of(vec wi, vec wo)
+{
+    angles a;
+    vec s = sum(wi, wo), d = minus(wi, wo);
+    real length = real_sqrt(dot(s, s));
+    a.h = (vec){s.x / length, s.y / length, s.z / length};
+    a.c = length / 2;
+    a.one_minus_c = dot(d, d) / (4 * (1 + a.c));
+    a.sine = real_sqrt(a.h.x * a.h.x + a.h.y * a.h.y);
+    a.tan2 = (a.h.x * a.h.x + a.h.y * a.h.y) / (a.h.z * a.h.z);
+    return a;
+}
+
+static void encode(hnbrdf_encoding encoding, vec wi, vec wo, const angles *a, real x[6])
+{
+    real low = wi.z < wo.z ? wi.z : wo.z, high = wi.z < wo.z ? wo.z : wi.z;
+    real narrow = (real)1 / 100000, flat = (real)1 / 1000;
+    switch (encoding) {
+    case HNBRDF_ENCODING_DIRECTIONS:
+        memcpy(x, &(real[6]){wi.x, wi.y, wi.z, wo.x, wo.y, wo.z}, 6 * sizeof *x);
+        return;
+    case HNBRDF_ENCODING_HALF_DIFFERENCE:
+        x[0] = 1 + real_log(narrow + a->tan2) / 4;
+        x[1] = real_sqrt(a->sine);
+        x[2] = a->c;
+        x[3] = real_sqrt(a->one_minus_c);
+        x[4] = wi.z * wo.z;
+        x[5] = wi.z + wo.z;
+        return;
+    case HNBRDF_ENCODING_ANGLES_DIRECTED:
+    case HNBRDF_ENCODING_ANGLES:
+    case HNBRDF_ENCODING_ANGLES_ANISOTROPIC:
+        x[0] = 1 + real_log(narrow + a->tan2) / 4;
+        x[1] = encoding == HNBRDF_ENCODING_ANGLES_ANISOTROPIC ? real_abs(a->h.x) : a->sine;
+        x[2] = real_log(flat + a->one_minus_c) / 4;
+        x[3] = encoding == HNBRDF_ENCODING_ANGLES_ANISOTROPIC ? real_abs(a->h.y) : a->one_minus_c;
+        x[4] = encoding == HNBRDF_ENCODING_ANGLES_DIRECTED ? wi.z : low;
+        x[5] = encoding == HNBRDF_ENCODING_ANGLES_DIRECTED ? wo.z : high;
+        return;
+    }
+}
+
+/* ---- The network ----------------------------------------------------------------------------- */
+
+static real hard_gelu(real x)
+{
+    return x * limited(x / 3 + (real)1 / 2, 0, 1);
+}
+
+static void network(const hnbrdf_model_desc *desc, const float *latent, const real x[6],
+                    real out[6])
+{
+    real from[HNBRDF_MAX_HIDDEN + 6 + HNBRDF_MAX_LATENT], to[HNBRDF_MAX_HIDDEN];
+    int columns = 6 + desc->latent;
+    for (int i = 0; i < 6; i++)
+        from[i] = x[i];
+    for (int i = 0; i < desc->latent; i++)
+        from[6 + i] = latent[i];
+    for (int k = 0; k <= desc->layers; k++) {
+        int rows = k < desc->layers ? desc->hidden : desc->kind == HNBRDF_KIND_HYBRID ? 6 : 3;
+        for (int r = 0; r < rows; r++) {
+            to[r] = desc->biases[k][r];
+            for (int i = 0; i < columns; i++)
+                to[r] += (real)desc->weights[k][r * columns + i] * from[i];
+        }
+        for (int r = 0; r < rows; r++)
+            from[r] = k < desc->layers ? hard_gelu(to[r]) : to[r];
+        columns = rows;
+    }
+    memcpy(out, from, (size_t)columns * sizeof *out);
+}
+
+/* ---- All of it ------------------------------------------------------------------------------- */
+
+static real specular_share(const hnbrdf_material *material)
+{
+    real specular = (real)5 / 100, diffuse = 0;
+    for (int k = 0; k < 3; k++) {
+        real r = ((real)material->eta[k] - 1) / ((real)material->eta[k] + 1);
+        specular += r * r / 3;
+        diffuse += (real)material->kd[k] / 3;
+    }
+    return limited(specular / (specular + diffuse), (real)2 / 10, (real)9 / 10);
+}
+
+/* The share of lobe k at this view: linear between knots at wo.z = (j/3)^2. */
+static real share_at(const hnbrdf_lobes *lobes, int k, real z)
+{
+    real x = limited(3 * real_sqrt(z), 0, 3);
+    int j = x < 1 ? 0 : x < 2 ? 1 : 2;
+    return (1 - (x - j)) * lobes->share[k][j] + (x - j) * lobes->share[k][j + 1];
+}
+
+/* Density of reflections about normals drawn from D h.n, or about visible ones: D / (2 (k z +
+ * |(ax x, ay y, z)|)) with the bound k of Eto and Tokuyoshi 2023. */
+static real lobe_density(vec i, vec o, real scale, real ax, real ay)
+{
+    vec h = angles_of(i, o).h;
+    real wo_h = angles_of(i, o).c, d = D(h, ax, ay);
+    if (scale < 0)
+        return d * h.z / (4 * wo_h);
+    real a = ax < ay ? ax : ay, s = 1 + real_sqrt(o.x * o.x + o.y * o.y);
+    real bound = (1 - a * a) * s * s / (s * s + a * a * o.z * o.z);
+    real length = real_sqrt(ax * ax * o.x * o.x + ay * ay * o.y * o.y + o.z * o.z);
+    return d / (2 * (bound * o.z + length));
+}
+
+double oracle_pdf(hnbrdf_kind kind, const hnbrdf_material *material, const float wi[3],
+                  const float wo[3])
+{
+    if (!(wi[2] > 0.0f && wo[2] > 0.0f))
+        return 0.0;
+    vec i = in_tangent_frame(wi, material->rotation), o = in_tangent_frame(wo, material->rotation);
+    const hnbrdf_lobes *lobes = &material->lobes;
+    int neural = kind == HNBRDF_KIND_NEURAL, fitted = lobes->scale[0] != 0.0f;
+    real sum = 0, rest = 1;
+    for (int k = 0; k < HNBRDF_LOBES; k++) {
+        real scale = fitted ? (real)lobes->scale[k] : k == 0 ? 1 : 0;
+        real share = fitted              ? share_at(lobes, k, o.z)
+                     : k == 0 && !neural ? specular_share(material)
+                                         : 0;
+        real least = (real)HNBRDF_MIN_ALPHA, size = real_abs(scale);
+        if (scale == 0 || share == 0)
+            continue;
+        sum +=
+            share * lobe_density(i, o, scale,
+                                 limited(size * (neural ? 1 : (real)material->alpha[0]), least, 1),
+                                 limited(size * (neural ? 1 : (real)material->alpha[1]), least, 1));
+        rest -= share;
+    }
+    return (double)limited(sum + limited(rest, 0, 1) * i.z / pi(), 0, HNBRDF_MAX_VALUE);
+}
+
+void oracle_evaluate(const hnbrdf_model_desc *desc, const hnbrdf_material *material,
+                     const float wi[3], const float wo[3], oracle_point *point)
+{
+    memset(point, 0, sizeof *point);
+    if (!(wi[2] > 0.0f && wo[2] > 0.0f))
+        return;
+    int hybrid = desc->kind == HNBRDF_KIND_HYBRID, neural = desc->kind == HNBRDF_KIND_NEURAL;
+    vec i = in_tangent_frame(wi, material->rotation), o = in_tangent_frame(wo, material->rotation);
+    real ax = material->alpha[0], ay = material->alpha[1], limit = HNBRDF_MAX_EXPONENT;
+    angles a = angles_of(i, o);
+    point->pdf = oracle_pdf(desc->kind, material, wi, wo);
+
+    real x[6] = {0}, out[6] = {0};
+    if (desc->kind != HNBRDF_KIND_GGX) {
+        encode(desc->encoding, i, o, &a, x);
+        network(desc, material->latent, x, out);
+    }
+    for (int k = 0; k < 6; k++) {
+        point->encoded[k] = (double)x[k];
+        point->outputs[k] = (double)out[k];
+    }
+    real gg = G1(i, ax, ay) * G1(o, ax, ay) / (4 * i.z * o.z), d = D(a.h, ax, ay);
+    for (int k = 0; k < 3; k++) {
+        real f_a = neural ? 0 : (real)material->kd[k] / pi() + F(material->eta[k], a.c) * d * gg;
+        real f = f_a;
+        if (hybrid || neural) {
+            real scale = desc->scale == 0.0f ? 1 : (real)desc->scale;
+            f = real_exp(limited(scale * out[k] + desc->shift, -limit, limit));
+            if (hybrid)
+                f += f_a / (1 + real_exp(limited(-out[3 + k], -limit, limit)));
+        }
+        real floor = hybrid || neural ? (real)desc->floor : 0;
+        point->analytic[k] = (double)limited(f_a, 0, HNBRDF_MAX_VALUE);
+        point->scale[k] = (double)limited(f, 0, HNBRDF_MAX_VALUE);
+        point->value[k] = (double)limited(f - floor, 0, HNBRDF_MAX_VALUE);
+    }
+}

@@ -1,0 +1,147 @@
+/* export_glsl.c: writes a model and the materials of a scene as one GLSL include.
+ * What the scene does not need is not written: anisotropy, rotation, what the kind does not use. */
+#include "base/error.h"
+#include "glsl/export_evaluate.h"
+#include "glsl/export_library.h"
+#include "glsl/export_material.h"
+#include "glsl/export_network.h"
+#include "glsl/export_unpack.h"
+#include "glsl/export_weights.h"
+
+#include <stdio.h>
+
+/* ---- Sections -------------------------------------------------------------------------------- */
+
+/* What the weights take in the shader or in its uniform block, which holds single precision
+ * alone. */
+static size_t weight_bytes(const hnbrdf_scene *s)
+{
+    const hnbrdf_model_desc *desc = s->desc;
+    if (s->style == HNBRDF_GLSL_UNIFORM)
+        return (size_t)hnbrdf_layer_start(desc, desc->layers + 1) * 4 * sizeof(float);
+    size_t single = (size_t)hnbrdf_layer_outputs(desc, desc->layers) * ((size_t)desc->hidden + 1);
+    return s->precision == HNBRDF_GLSL_HALF ? 2 * (s->weights + single)
+                                            : s->weights * sizeof(float);
+}
+
+/* "name, " for each of a list of which some are there; the last without comma. */
+typedef struct listed {
+    const char *name;
+    int there;
+} listed;
+
+static void put_list(hnbrdf_printer *out, const char *title, const listed *list, int count)
+{
+    int written = 0;
+    for (int i = 0; i < count; i++)
+        if (list[i].there)
+            hnbrdf_put(out, "%s%s", written++ > 0 ? ", " : title, list[i].name);
+    if (written > 0)
+        hnbrdf_put(out, "\n");
+}
+
+static void put_contents(hnbrdf_printer *out, const hnbrdf_scene *s)
+{
+    int analytic = hnbrdf_scene_has_analytic(s), everything = s->only == HNBRDF_GLSL_EVERYTHING;
+    const listed contents[] = {{"hnbrdf_eval", 1},
+                               {"hnbrdf_eval_NAME", s->fixed},
+                               {"hnbrdf_eval_analytic", everything},
+                               {"hnbrdf_sample", hnbrdf_scene_has_sampling(s)},
+                               {"hnbrdf_sample_direction", hnbrdf_scene_has_sampling(s)},
+                               {"hnbrdf_pdf", hnbrdf_scene_has_sampling(s)},
+                               {"hnbrdf_material_unpack", s->packing != NULL}};
+    const listed left_out[] = {{"anisotropy", analytic && !s->anisotropic},
+                               {"rotation", !s->rotated},
+                               {"materials that change", s->fixed},
+                               {"latent code (in the first bias)", s->folded},
+                               {"the analytic part alone", analytic && !everything},
+                               {"sampling", !hnbrdf_scene_has_sampling(s)}};
+    put_list(out, "//   contains   ", contents, 7);
+    put_list(out, "//   left out   ", left_out, 6);
+}
+
+static void put_heading(hnbrdf_printer *out, const hnbrdf_scene *s)
+{
+    const hnbrdf_model_desc *desc = s->desc;
+    hnbrdf_put(out, "// Written by hnbrdf " HNBRDF_VERSION_STRING
+                    "; export again rather than edit.\n//\n");
+    hnbrdf_put(out, "//   kind       %s\n", hnbrdf_kind_name(desc->kind));
+    if (hnbrdf_scene_has_network(s)) {
+        hnbrdf_put(out, "//   network    %d", HNBRDF_ENCODING_SIZE + desc->latent);
+        for (int k = 0; k < desc->layers; k++)
+            hnbrdf_put(out, " -> %d", desc->hidden);
+        hnbrdf_put(out, " -> %d (%dx%d)\n", desc->kind == HNBRDF_KIND_HYBRID ? 6 : 3, desc->hidden,
+                   desc->layers);
+        hnbrdf_put(out, "//   encoding   %s, then %d latent\n",
+                   hnbrdf_encoding_name(desc->encoding), desc->latent);
+        hnbrdf_put(out, "//   weights    %zu, %zu bytes, %s\n", s->weights, weight_bytes(s),
+                   s->style == HNBRDF_GLSL_UNIFORM   ? "in a uniform block"
+                   : s->style == HNBRDF_GLSL_COLUMNS ? "as constants in columns"
+                                                     : "as constants");
+        hnbrdf_put(out, "//   precision  %s\n",
+                   s->precision == HNBRDF_GLSL_HALF ? "half in hidden layers, else single"
+                                                    : "single");
+        hnbrdf_put(out, "//   cost       %zu multiplications per evaluation\n", s->multiplications);
+    }
+    hnbrdf_put(out, "//   materials  %d%s%s\n", s->count,
+               s->anisotropic ? ", anisotropic" : ", isotropic", s->rotated ? ", rotated" : "");
+    if (s->packing)
+        hnbrdf_put_texel_summary(out, s->packing);
+    put_contents(out, s);
+    hnbrdf_put(
+        out,
+        "//\n// f = hnbrdf_eval(hnbrdf_scene_material(HNBRDF_MATERIAL_%s), wi, wo), without the "
+        "cosine.\n",
+        s->names[0]);
+    hnbrdf_put(out,
+               "#ifndef HNBRDF_HYBRID_BRDF_GLSL\n#error \"include hybrid_brdf.glsl before this "
+               "file\"\n#endif\n\n");
+}
+
+/* For code that serves scenes of every kind. */
+static void put_switches(hnbrdf_printer *out, const hnbrdf_scene *s)
+{
+    static const char *const kinds[] = {"HYBRID", "NEURAL", "GGX"};
+    hnbrdf_put(out, "#define HNBRDF_SCENE_%s\n", kinds[s->desc->kind]);
+    if (hnbrdf_scene_has_network(s)) {
+        char function[32];
+        snprintf(function, sizeof function, "%s", hnbrdf_encoding_name(s->desc->encoding));
+        for (char *c = function; *c; c++)
+            *c = *c == '-' ? '_' : *c;
+        hnbrdf_put(out, "#define HNBRDF_SCENE_ENCODE hnbrdf_encode_%s\n", function);
+    }
+    hnbrdf_put(out, "\n");
+}
+
+static void put_scene(hnbrdf_printer *out, const hnbrdf_scene *s)
+{
+    put_heading(out, s);
+    put_switches(out, s);
+    hnbrdf_put_material_struct(out, s);
+    hnbrdf_put_materials(out, s);
+    if (s->packing)
+        hnbrdf_put_unpack(out, s);
+    if (hnbrdf_scene_has_network(s))
+        hnbrdf_put_network(out, s);
+    hnbrdf_put_evaluate(out, s);
+}
+
+hnbrdf_result hnbrdf_export_glsl(const hnbrdf_model *model, const hnbrdf_glsl_options *options,
+                                 hnbrdf_write_fn write, void *user, hnbrdf_error *error)
+{
+    hnbrdf_scene s;
+    hnbrdf_result result = hnbrdf_scene_make(model, options, &s, error);
+    if (result)
+        return result;
+    hnbrdf_printer out = {.write = write, .user = user};
+    if (options && options->standalone) {
+        hnbrdf_put_library(&out, &s, put_scene);
+        hnbrdf_put(&out, "\n");
+    }
+    put_scene(&out, &s);
+    hnbrdf_put_flush(&out);
+    model->allocator.release(model->allocator.user, s.names);
+    if (out.failed)
+        return hnbrdf_fail(error, HNBRDF_ERROR_IO, "export: writing the shader failed");
+    return HNBRDF_OK;
+}

@@ -1,0 +1,14 @@
+/* export_library.h: the text of shaders/hybrid_brdf.glsl, whole or as far as a scene needs it. */
+#ifndef HNBRDF_GLSL_EXPORT_LIBRARY_H
+#define HNBRDF_GLSL_EXPORT_LIBRARY_H
+
+#include "glsl/export_scene.h"
+#include "glsl/printer.h"
+
+typedef void (*hnbrdf_put_scene_fn)(hnbrdf_printer *out, const hnbrdf_scene *s);
+
+/* The whole of it for a scene that leaves nothing out; else what the text written by put_scene
+ * calls, directly or not, and the preprocessor's lines. */
+void hnbrdf_put_library(hnbrdf_printer *out, const hnbrdf_scene *s, hnbrdf_put_scene_fn put_scene);
+
+#endif

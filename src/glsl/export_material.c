@@ -1,0 +1,121 @@
+/* export_material.c: the material of a scene as a GLSL struct, and the scene's materials as
+ * constants. */
+#include "glsl/export_material.h"
+
+void hnbrdf_put_material_struct(hnbrdf_printer *out, const hnbrdf_scene *s)
+{
+    hnbrdf_put(out, "struct hnbrdf_material {\n");
+    if (hnbrdf_scene_has_analytic(s)) {
+        hnbrdf_put(out, s->fixed ? "    vec3 diffuse;  // kd / pi\n"
+                                   "    vec3 e;        // eta^2 - 1\n"
+                                 : "    vec3 kd;       // diffuse albedo\n"
+                                   "    vec3 eta;      // index of refraction, above 1\n");
+        hnbrdf_put(out, s->anisotropic
+                            ? "    vec2 alpha;    // GGX roughness along x and y, at least 1e-4\n"
+                            : "    float alpha;   // GGX roughness, at least 1e-4\n");
+        if (s->fixed)
+            hnbrdf_put(out, "    float area;    // pi alpha alpha\n");
+    }
+    if (hnbrdf_scene_has_rotation(s))
+        hnbrdf_put(out, "    vec2 rotation; // cosine and sine of the tangent frame's angle\n");
+    for (int v = 0; v < hnbrdf_scene_latent_vectors(s); v++)
+        hnbrdf_put(out, "    vec4 latent%d;\n", v);
+    for (int v = 0; v < hnbrdf_scene_bias_vectors(s); v++)
+        hnbrdf_put(out, "    vec4 bias%d;%s\n", v,
+                   v == 0 ? "    // of the first layer, the latent code folded in" : "");
+    if (hnbrdf_scene_has_sampling(s))
+        hnbrdf_put(out, "    hnbrdf_lobes lobes; // for sampling alone\n");
+    if (s->energy)
+        hnbrdf_put(
+            out,
+            "    float energy;  // factor on f: 1, or what brings an albedo above 1 down to it\n");
+    hnbrdf_put(out, "};\n\n");
+}
+
+/* The separator of a list that begins with put_next(out, 0). */
+static void put_next(hnbrdf_printer *out, int *fields)
+{
+    if ((*fields)++ > 0)
+        hnbrdf_put(out, ", ");
+}
+
+static void put_analytic_fields(hnbrdf_printer *out, const hnbrdf_scene *s,
+                                const hnbrdf_material *material, const hnbrdf_prepared *prepared,
+                                int *fields)
+{
+    put_next(out, fields);
+    hnbrdf_put_vector(out, 3, s->fixed ? prepared->diffuse : material->kd, 3);
+    put_next(out, fields);
+    hnbrdf_put_vector(out, 3, s->fixed ? prepared->e : material->eta, 3);
+    put_next(out, fields);
+    if (s->anisotropic)
+        hnbrdf_put_vector(out, 2, material->alpha, 2);
+    else
+        hnbrdf_put_float(out, material->alpha[0]);
+    if (s->fixed) {
+        put_next(out, fields);
+        hnbrdf_put_float(out, prepared->area);
+    }
+}
+
+static void put_lobes(hnbrdf_printer *out, const hnbrdf_lobes *lobes)
+{
+    hnbrdf_put(out, "hnbrdf_lobes(");
+    hnbrdf_put_vector(out, 2, lobes->scale, HNBRDF_LOBES);
+    for (int k = 0; k < HNBRDF_LOBES; k++) {
+        hnbrdf_put(out, ", ");
+        hnbrdf_put_vector(out, 4, lobes->share[k], HNBRDF_LOBE_KNOTS);
+    }
+    hnbrdf_put(out, ")");
+}
+
+void hnbrdf_put_material(hnbrdf_printer *out, const hnbrdf_scene *s, int k)
+{
+    const hnbrdf_material *material = hnbrdf_scene_material(s, k);
+    hnbrdf_prepared prepared;
+    int fields = 0;
+    hnbrdf_prepare(s->model, material, &prepared);
+    hnbrdf_put(out, "hnbrdf_material(");
+    if (hnbrdf_scene_has_analytic(s))
+        put_analytic_fields(out, s, material, &prepared, &fields);
+    if (hnbrdf_scene_has_rotation(s)) {
+        put_next(out, &fields);
+        hnbrdf_put_vector(out, 2, (const float[2]){prepared.cosine, prepared.sine}, 2);
+    }
+    for (int v = 0; v < hnbrdf_scene_latent_vectors(s); v++) {
+        put_next(out, &fields);
+        hnbrdf_put_vector(out, 4, material->latent + 4 * v, s->desc->latent - 4 * v);
+    }
+    for (int v = 0; v < hnbrdf_scene_bias_vectors(s); v++) {
+        put_next(out, &fields);
+        hnbrdf_put_vector(out, 4, prepared.first + 4 * v, s->desc->hidden - 4 * v);
+    }
+    if (hnbrdf_scene_has_sampling(s)) {
+        put_next(out, &fields);
+        put_lobes(out, &prepared.lobes);
+    }
+    if (s->energy) {
+        put_next(out, &fields);
+        hnbrdf_put_float(out, s->energy[k]);
+    }
+    hnbrdf_put(out, ")");
+}
+
+void hnbrdf_put_materials(hnbrdf_printer *out, const hnbrdf_scene *s)
+{
+    for (int k = 0; k < s->count; k++)
+        hnbrdf_put(out, "#define HNBRDF_MATERIAL_%s %d // \"%s\"\n", s->names[k], k,
+                   s->desc->names[hnbrdf_scene_index(s, k)]);
+    hnbrdf_put(out, "#define HNBRDF_MATERIAL_COUNT %d\n\n", s->count);
+    hnbrdf_put(out,
+               "// Any number outside of [0, HNBRDF_MATERIAL_COUNT) stands for the last one.\n");
+    hnbrdf_put(out, "hnbrdf_material hnbrdf_scene_material(int index)\n{\n");
+    for (int k = 0; k < s->count; k++) {
+        if (k + 1 < s->count)
+            hnbrdf_put(out, "    if (index == %d)\n    ", k);
+        hnbrdf_put(out, "    return ");
+        hnbrdf_put_material(out, s, k);
+        hnbrdf_put(out, ";\n");
+    }
+    hnbrdf_put(out, "}\n\n");
+}

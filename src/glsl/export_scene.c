@@ -1,0 +1,204 @@
+/* export_scene.c: which materials of a model are written, what they need, and what they are
+ * called in GLSL. */
+#include "glsl/export_scene.h"
+
+#include "base/error.h"
+
+#include <stdint.h>
+#include <string.h>
+
+int hnbrdf_scene_index(const hnbrdf_scene *s, int k)
+{
+    return s->indices ? s->indices[k] : k;
+}
+
+const hnbrdf_material *hnbrdf_scene_material(const hnbrdf_scene *s, int k)
+{
+    return &s->desc->materials[hnbrdf_scene_index(s, k)];
+}
+
+int hnbrdf_scene_has_analytic(const hnbrdf_scene *s)
+{
+    return s->desc->kind != HNBRDF_KIND_NEURAL;
+}
+
+int hnbrdf_scene_has_network(const hnbrdf_scene *s)
+{
+    return s->desc->kind != HNBRDF_KIND_GGX;
+}
+
+int hnbrdf_scene_has_sampling(const hnbrdf_scene *s)
+{
+    return s->only != HNBRDF_GLSL_EVAL;
+}
+
+int hnbrdf_scene_latent_vectors(const hnbrdf_scene *s)
+{
+    return hnbrdf_scene_has_network(s) && !s->folded ? (s->desc->latent + 3) / 4 : 0;
+}
+
+int hnbrdf_scene_bias_vectors(const hnbrdf_scene *s)
+{
+    return s->folded && s->count > 1 ? (s->desc->hidden + 3) / 4 : 0;
+}
+
+int hnbrdf_scene_has_rotation(const hnbrdf_scene *s)
+{
+    int fields = hnbrdf_scene_has_analytic(s) + hnbrdf_scene_latent_vectors(s) +
+                 hnbrdf_scene_bias_vectors(s);
+    return s->rotated || fields == 0;
+}
+
+/* Letters, digits and single underscores, which GLSL does not reserve; at least one character. */
+static void sanitise(const char *name, hnbrdf_macro_name text)
+{
+    size_t length = 0;
+    for (; *name; name++) {
+        unsigned char c = (unsigned char)*name;
+        if ((c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9'))
+            text[length++] = (char)(c >= 'a' && c <= 'z' ? c - 'a' + 'A' : c);
+        else if (length > 0 && text[length - 1] != '_')
+            text[length++] = '_';
+    }
+    while (length > 0 && text[length - 1] == '_')
+        length--;
+    if (length == 0)
+        text[length++] = 'X';
+    text[length] = '\0';
+}
+
+/* A hash set of names by their numbers; free slots hold -1, `slots` is a power of two. */
+static int claim(const hnbrdf_scene *s, int *table, size_t slots, int k)
+{
+    uint32_t hash = 2166136261u; /* FNV-1a */
+    for (const char *c = s->names[k]; *c; c++)
+        hash = (hash ^ (uint32_t)(unsigned char)*c) * 16777619u;
+    size_t at = hash & (slots - 1);
+    for (; table[at] >= 0; at = (at + 1) & (slots - 1))
+        if (strcmp(s->names[table[at]], s->names[k]) == 0)
+            return 0;
+    table[at] = k;
+    return 1;
+}
+
+/* Names of their own for all materials, and none for the last, which HNBRDF_MATERIAL_COUNT takes.
+ * */
+static void name_materials(const hnbrdf_scene *s, int *table, size_t slots)
+{
+    for (size_t i = 0; i < slots; i++)
+        table[i] = -1;
+    strcpy(s->names[s->count], "COUNT");
+    claim(s, table, slots, s->count);
+    for (int k = 0; k < s->count; k++) {
+        sanitise(s->desc->names[hnbrdf_scene_index(s, k)], s->names[k]);
+        size_t length = strlen(s->names[k]);
+        for (int attempt = 0; !claim(s, table, slots, k); attempt++)
+            snprintf(s->names[k] + length, HNBRDF_MACRO_NAME_SIZE - length,
+                     attempt > 0 ? "_%d_%d" : "_%d", k, attempt);
+    }
+}
+
+static hnbrdf_result use_packing(hnbrdf_scene *s, const hnbrdf_packing *packing,
+                                 hnbrdf_error *error)
+{
+    int latent = hnbrdf_scene_has_network(s) ? s->desc->latent : 0;
+    if (!packing)
+        return HNBRDF_OK;
+    if (packing->latent != latent || packing->analytic != hnbrdf_scene_has_analytic(s))
+        return hnbrdf_fail(
+            error, HNBRDF_ERROR_ARGUMENT,
+            "export: the packing stores %d latent numbers and %s analytic part, the model "
+            "has %d and %s",
+            packing->latent, packing->analytic ? "an" : "no", latent,
+            hnbrdf_scene_has_analytic(s) ? "one" : "none");
+    s->packing = packing;
+    s->anisotropic = packing->anisotropic;
+    s->rotated = packing->rotated;
+    return hnbrdf_packing_check(packing, error);
+}
+
+static void set_first_bias(hnbrdf_scene *s)
+{
+    hnbrdf_prepared prepared;
+    if (!hnbrdf_scene_has_network(s))
+        return;
+    hnbrdf_prepare(s->model, hnbrdf_scene_material(s, 0), &prepared);
+    memcpy(s->first, s->folded && s->count == 1 ? prepared.first : s->desc->biases[0],
+           (size_t)s->desc->hidden * sizeof *s->first);
+}
+
+hnbrdf_result hnbrdf_scene_make(const hnbrdf_model *model, const hnbrdf_glsl_options *options,
+                                hnbrdf_scene *s, hnbrdf_error *error)
+{
+    memset(s, 0, sizeof *s);
+    s->model = model;
+    s->desc = &model->desc;
+    s->style = options ? options->weights : HNBRDF_GLSL_CONSTANTS;
+    s->precision = options ? options->precision : HNBRDF_GLSL_FLOAT;
+    if (!hnbrdf_glsl_weights_name(s->style) || !hnbrdf_glsl_precision_name(s->precision))
+        return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT,
+                           "export: weights %d, precision %d, expected 0 to 2 and 0 to 1",
+                           (int)s->style, (int)s->precision);
+    s->only = options ? options->only : HNBRDF_GLSL_EVERYTHING;
+    s->fixed = options && options->fixed;
+    s->folded = s->fixed && hnbrdf_scene_has_network(s) && s->style != HNBRDF_GLSL_UNIFORM &&
+                s->precision == HNBRDF_GLSL_FLOAT;
+    if (s->only < HNBRDF_GLSL_EVERYTHING || s->only > HNBRDF_GLSL_EVAL_SAMPLE)
+        return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT, "export: only is %d, expected 0 to %d",
+                           (int)s->only, (int)HNBRDF_GLSL_EVAL_SAMPLE);
+    if (s->fixed && options->packing)
+        return hnbrdf_fail(
+            error, HNBRDF_ERROR_ARGUMENT,
+            "export: materials from textures change, a fixed scene's do not: found both");
+    hnbrdf_result result = use_packing(s, options ? options->packing : NULL, error);
+    if (result)
+        return result;
+    s->indices = options ? options->materials : NULL;
+    s->count = s->indices ? options->material_count : s->desc->material_count;
+    if (s->count < 1 || s->count > HNBRDF_MAX_MATERIALS)
+        return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT, "export: %d materials, expected 1 to %d",
+                           s->count, HNBRDF_MAX_MATERIALS);
+    for (int k = 0; k < s->count; k++) {
+        int index = hnbrdf_scene_index(s, k);
+        if (index < 0 || index >= s->desc->material_count)
+            return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT,
+                               "export: materials[%d] is %d, expected 0 to %d", k, index,
+                               s->desc->material_count - 1);
+        const hnbrdf_material *material = hnbrdf_scene_material(s, k);
+        s->anisotropic |= material->alpha[0] != material->alpha[1];
+        s->rotated |= material->rotation != 0.0f;
+    }
+    s->energy = options ? options->energy : NULL;
+    if (s->energy && s->packing)
+        return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT,
+                           "export: factors are of the exported materials, not of those from "
+                           "textures: found both");
+    for (int k = 0; k < s->count && s->energy; k++)
+        if (!(s->energy[k] > 0.0f && s->energy[k] <= 1.0f))
+            return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT,
+                               "export: energy[%d] is %s, expected above 0, at most 1", k,
+                               HNBRDF_NUMBER(s->energy[k]));
+    s->weights = hnbrdf_model_weight_count(model);
+    s->multiplications = hnbrdf_model_multiplications(model);
+    if (s->folded) {
+        s->weights -= (size_t)s->desc->hidden * (size_t)s->desc->latent;
+        s->multiplications -= (size_t)s->desc->hidden * (size_t)s->desc->latent;
+    }
+    set_first_bias(s);
+    size_t slots = 4;
+    while (slots < 2 * ((size_t)s->count + 1))
+        slots *= 2;
+    const hnbrdf_allocator *memory = &model->allocator;
+    s->names = memory->allocate(memory->user, ((size_t)s->count + 1) * sizeof(hnbrdf_macro_name));
+    int *table = memory->allocate(memory->user, slots * sizeof *table);
+    if (s->names && table)
+        name_materials(s, table, slots);
+    else if (s->names)
+        memory->release(memory->user, s->names);
+    if (!s->names || !table)
+        result =
+            hnbrdf_fail(error, HNBRDF_ERROR_MEMORY, "export: no memory for %d names", s->count);
+    if (table)
+        memory->release(memory->user, table);
+    return result;
+}

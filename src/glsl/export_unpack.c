@@ -1,0 +1,162 @@
+/* export_unpack.c: the GLSL function that makes a material from texels: src/core/pack.c's
+ * decoding, in the same order of operations, with the layout and the ranges as constants. */
+#include "glsl/export_unpack.h"
+
+#include "core/pack.h"
+
+#include <stdio.h>
+
+static const char *format_name(const hnbrdf_packing *packing)
+{
+    return packing->format == HNBRDF_TEXEL_RGBA16F ? "RGBA16F" : "RGBA8";
+}
+
+void hnbrdf_put_texel_summary(hnbrdf_printer *out, const hnbrdf_packing *packing)
+{
+    int texels = hnbrdf_packing_texels(packing);
+    hnbrdf_put(out, "//   texels     %d of %s a material, %d bytes\n", texels, format_name(packing),
+               texels * (int)hnbrdf_texel_bytes(packing->format));
+}
+
+/* `count` channels from number `first` on: t0.xyz, or vec3(t0.w, t1.xy) where they lie in two
+ * texels. */
+static void put_channels(hnbrdf_printer *out, int first, int count)
+{
+    int split = first / 4 != (first + count - 1) / 4;
+    if (split)
+        hnbrdf_put(out, "vec%d(", count);
+    while (count > 0) {
+        int part = 4 - first % 4 < count ? 4 - first % 4 : count;
+        hnbrdf_put(out, "t%d.%.*s%s", first / 4, part, &"xyzw"[first % 4],
+                   part < count ? ", " : "");
+        first += part;
+        count -= part;
+    }
+    if (split)
+        hnbrdf_put(out, ")");
+}
+
+/* Declares `name`, decoded up to its curve: a float or a vector of field->count. */
+static void put_decoded(hnbrdf_printer *out, const char *name, const hnbrdf_field *field)
+{
+    static const char *const types[] = {"", "float", "vec2", "vec3"};
+    hnbrdf_put(out, "    HNBRDF_PRECISE %s %s = ", types[field->count], name);
+    if (field->offset != 0.0f || field->scale != 1.0f) {
+        hnbrdf_put_float(out, field->offset);
+        hnbrdf_put(out, " + ");
+        hnbrdf_put_float(out, field->scale);
+        hnbrdf_put(out, " * ");
+    }
+    put_channels(out, field->first, field->count);
+    hnbrdf_put(out, ";\n");
+    if (field->curve == HNBRDF_CURVE_SQUARE)
+        hnbrdf_put(out, "    %s = %s * %s;\n", name, name, name);
+}
+
+/* hnbrdf_clamp(expression, low, high) of a float or vec3. */
+static void put_clamped(hnbrdf_printer *out, const char *expression, const hnbrdf_field *field)
+{
+    hnbrdf_put(out, "hnbrdf_clamp(%s, ", expression);
+    hnbrdf_put_float(out, field->low);
+    hnbrdf_put(out, ", ");
+    hnbrdf_put_float(out, field->high);
+    hnbrdf_put(out, ")");
+}
+
+static void put_analytic_fields(hnbrdf_printer *out, const hnbrdf_texel_layout *layout, int vector)
+{
+    int isotropic = layout->alpha.count == 1;
+    put_decoded(out, "kd", &layout->kd);
+    hnbrdf_put(out, "    m.kd = ");
+    put_clamped(out, "kd", &layout->kd);
+    hnbrdf_put(out, ";\n");
+    put_decoded(out, "r", &layout->r); /* the amplitude (eta - 1)/(eta + 1) */
+    hnbrdf_put(out, "    r = ");
+    put_clamped(out, "r", &layout->r);
+    hnbrdf_put(out, ";\n    HNBRDF_PRECISE vec3 eta = (1.0 + r) / (1.0 - r);\n    m.eta = eta;\n");
+    put_decoded(out, "alpha", &layout->alpha);
+    if (layout->alpha.curve == HNBRDF_CURVE_EXP) {
+        hnbrdf_put(
+            out,
+            "    alpha = HNBRDF_EXP(hnbrdf_clamp(vec3(alpha%s), -HNBRDF_MAX_EXPONENT, 0.0)).%s;\n",
+            isotropic ? "" : ", 0.0", isotropic ? "x" : "xy");
+    }
+    hnbrdf_put(out, vector ? "    m.alpha = vec2(" : "    m.alpha = ");
+    put_clamped(out, isotropic ? "alpha" : "alpha.x", &layout->alpha);
+    if (!isotropic) {
+        hnbrdf_put(out, ", ");
+        put_clamped(out, "alpha.y", &layout->alpha);
+    }
+    hnbrdf_put(out, vector ? ");\n" : ";\n");
+}
+
+static void put_rotation(hnbrdf_printer *out, const hnbrdf_texel_layout *layout)
+{
+    put_decoded(out, "turn", &layout->rotation);
+    hnbrdf_put(out, "    turn = vec2(");
+    put_clamped(out, "turn.x", &layout->rotation);
+    hnbrdf_put(out, ", ");
+    put_clamped(out, "turn.y", &layout->rotation);
+    hnbrdf_put(out, ");\n    HNBRDF_PRECISE float length2 = turn.x * turn.x + turn.y * turn.y;\n"
+                    "    m.rotation = length2 > ");
+    hnbrdf_put_float(out, layout->shortest2);
+    hnbrdf_put(out, " ? turn / sqrt(length2) : vec2(1.0, 0.0);\n");
+}
+
+/* Number i of the latent code, as an expression of its own. */
+static void put_latent_number(hnbrdf_printer *out, const hnbrdf_field *field, int i)
+{
+    char name[16];
+    snprintf(name, sizeof name, "z%d", i);
+    put_clamped(out, name, field);
+}
+
+static void put_latent(hnbrdf_printer *out, const hnbrdf_packing *packing,
+                       const hnbrdf_texel_layout *layout)
+{
+    for (int i = 0; i < packing->latent; i++) {
+        char name[16];
+        snprintf(name, sizeof name, "z%d", i);
+        put_decoded(out, name, &layout->latent[i]);
+    }
+    for (int v = 0; v < (packing->latent + 3) / 4; v++) {
+        hnbrdf_put(out, "    m.latent%d = vec4(", v);
+        for (int i = 4 * v; i < 4 * v + 4; i++) {
+            hnbrdf_put(out, i > 4 * v ? ", " : "");
+            if (i < packing->latent)
+                put_latent_number(out, &layout->latent[i], i);
+            else
+                hnbrdf_put(out, "0.0");
+        }
+        hnbrdf_put(out, ");\n");
+    }
+}
+
+void hnbrdf_put_unpack(hnbrdf_printer *out, const hnbrdf_scene *s)
+{
+    const hnbrdf_packing *packing = s->packing;
+    hnbrdf_texel_layout layout;
+    int texels = hnbrdf_packing_texels(packing);
+    hnbrdf_texel_layout_make(packing, &layout);
+    hnbrdf_put(out,
+               "// A material from its %d texel%s of %s, as hnbrdf_material_pack() wrote them, "
+               "filtered or not.\n",
+               texels, texels == 1 ? "" : "s", format_name(packing));
+    hnbrdf_put(out, "#define HNBRDF_TEXELS %d\nhnbrdf_material hnbrdf_material_unpack(", texels);
+    for (int t = 0; t < texels; t++)
+        hnbrdf_put(out, "%svec4 t%d", t > 0 ? ", " : "", t);
+    hnbrdf_put(out, ")\n{\n    hnbrdf_material m;\n");
+    if (packing->analytic)
+        put_analytic_fields(out, &layout, s->anisotropic);
+    if (packing->rotated)
+        put_rotation(out, &layout);
+    else if (hnbrdf_scene_has_rotation(s))
+        hnbrdf_put(out, "    m.rotation = vec2(1.0, 0.0);\n");
+    put_latent(out, packing, &layout);
+    if (hnbrdf_scene_has_sampling(s))
+        hnbrdf_put(out,
+                   packing->analytic
+                       ? "    m.lobes = hnbrdf_lobes_guess(m.kd, m.eta);\n"
+                       : "    m.lobes = hnbrdf_lobes(vec2(1.0, 0.0), vec4(0.0), vec4(0.0));\n");
+    hnbrdf_put(out, "    return m;\n}\n\n");
+}

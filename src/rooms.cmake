@@ -1,0 +1,60 @@
+# rooms.cmake: which files each room of src/ holds. src/README.md says what the rooms are for.
+# hnbrdf_room(NAME files...) sets HNBRDF_ROOM_NAME to their paths.
+function(hnbrdf_room name)
+  list(TRANSFORM ARGN PREPEND src/${name}/)
+  set(HNBRDF_ROOM_${name} ${ARGN} PARENT_SCOPE)
+endfunction()
+
+hnbrdf_room(base
+  json.c text.c)
+hnbrdf_room(core
+  choose_kernel.c create.c eval.c kernel_plain.c material.c network.c pack.c sample.c
+  strerror.c variant.c)
+hnbrdf_room(file
+  decode.c load.c safetensors.c save.c)
+hnbrdf_room(import
+  brdf_network.c brdf_text.c import_brdf.c)
+hnbrdf_room(glsl
+  export_evaluate.c export_glsl.c export_library.c export_loops.c export_material.c
+  export_network.c export_scene.c export_unpack.c export_weights.c half.c printer.c)
+hnbrdf_room(lobes
+  fit_lobes.c)
+hnbrdf_room(measured
+  builtin.c builtin_film.c builtin_materials.c cie.c custom.c measured.c merl.c
+  merl_known.c pairs.c rgl.c rgl_eval.c sha256.c tensor_file.c utia.c)
+hnbrdf_room(metrics
+  compare.c image.c physics.c)
+hnbrdf_room(fit
+  kernel_avx2.c kernel_avx512.c adam.c checkpoint.c fit.c ggx.c judge.c kernel.c kernel_double.c pool.c train.c
+  workers.c)
+hnbrdf_room(check
+  backends.c bounds.c cases.c half.c maps.c oracle.c pairs.c reference.c rounding.c
+  rules.c run.c)
+hnbrdf_room(image
+  difference.c draw.c exr.c glyphs.c image.c label.c png.c radiance.c sheet.c)
+hnbrdf_room(render
+  backdrop.c environment.c guide.c sequence.c shade.c sky.c sphere.c surface.c
+  tabulated.c tiles.c)
+hnbrdf_room(scene
+  describe.c describe_shape.c film.c hit.c lights.c load.c mesh.c obj.c passes.c path.c
+  polygon.c portals.c scene.c shapes.c teapot.c trace.c words.c)
+hnbrdf_room(plot
+  svg.c)
+hnbrdf_room(gpu
+  compile.c compute.c device.c evaluate.c probe.c probe_half.c scene.c sphere.c timed.c
+  verify.c)
+hnbrdf_room(edit
+)
+hnbrdf_room(cli
+  bake_fit.c bake_half.c bake_plot.c bake_search.c bake_sizes.c bake_tables.c
+  bake_teacher.c bench_cpu.c bench_gpu.c bench_peer.c bench_plot.c bench_probe.c
+  bench_quality.c bench_write.c cli.c cmd_bake.c cmd_bench.c cmd_compare.c cmd_edit.c
+  cmd_eval.c cmd_export.c cmd_fit.c cmd_gallery.c cmd_import.c cmd_info.c cmd_lobes.c
+  cmd_mix.c cmd_render.c cmd_report.c cmd_report_images.c cmd_report_sampling.c
+  cmd_scene.c cmd_sheet.c cmd_stability.c cmd_verify.c compare_images.c csv.c fit_log.c
+  fit_speed.c gallery_choose.c gallery_pages.c gallery_strips.c info_physics.c lobes.c
+  loss_plot.c main.c output.c peak.c picture.c progress.c render_gpu.c render_mesh.c
+  report_fit.c report_ggx.c report_grid.c report_image_tables.c report_images.c
+  report_options.c report_plot.c report_rows.c report_tables.c sampling_measure.c
+  sampling_strips.c sampling_write.c scene_compare.c scene_job.c sources.c
+  stability_gpu.c stability_plot.c stability_report.c texels.c verify_report.c)

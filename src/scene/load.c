@@ -1,0 +1,338 @@
+/* load.c: from a described scene to one that can be rendered: reads the files, fits guides,
+ * builds. */
+#include "scene/describe.h"
+
+#include "base/error.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+typedef struct loader {
+    const render_description *d;
+    render_show show;
+    const char *folder;
+    const hnbrdf_measured_options *options;
+    render_loaded *out;
+    const char **model_files; /* of out->models */
+    hnbrdf_error *error;
+} loader;
+
+/* Puts "FILE:LINE: " before the message that there is. */
+static hnbrdf_result at_line(const loader *l, long line, hnbrdf_result result)
+{
+    if (result != HNBRDF_OK && l->error) {
+        hnbrdf_error cause = *l->error;
+        hnbrdf_fail(l->error, result, "%s:%ld: %s", l->d->name, line, cause.text);
+    }
+    return result;
+}
+
+/* A file beside the scene, unless its path is absolute. */
+static void beside(const loader *l, const char *file, char path[2 * RENDER_MAX_PATH])
+{
+    const char *slash = strrchr(l->d->name, '/');
+    int folder = slash && file[0] != '/' ? (int)(slash - l->d->name) + 1 : 0;
+    snprintf(path, (size_t)2 * RENDER_MAX_PATH, "%.*s%s", folder, l->d->name, file);
+}
+
+/* ---- Materials ------------------------------------------------------------------------------- */
+
+static hnbrdf_result find_model(loader *l, const char *file, hnbrdf_model **model)
+{
+    for (int i = 0; i < l->out->model_count; i++)
+        if (l->model_files[i] && strcmp(l->model_files[i], file) == 0) {
+            *model = l->out->models[i];
+            return HNBRDF_OK;
+        }
+    char path[2 * RENDER_MAX_PATH];
+    beside(l, file, path);
+    hnbrdf_result result = hnbrdf_model_load(path, NULL, model, l->error);
+    if (result == HNBRDF_OK) {
+        l->model_files[l->out->model_count] = file;
+        l->out->models[l->out->model_count++] = *model;
+    }
+    return result;
+}
+
+static hnbrdf_model *plain(const loader *l)
+{
+    return l->out->models[0]; /* made first */
+}
+
+static void measured_surface(loader *l, hnbrdf_measured *measured, render_surface *surface)
+{
+    l->out->measured[l->out->measured_count++] = measured;
+    *surface = render_surface_measured(measured);
+    const render_surface *one = surface;
+    render_guide guide = render_guide_fit(&one, 1, plain(l));
+    render_surface_guide(surface, &guide);
+}
+
+/* The measurement of a model's material. */
+static hnbrdf_result open_counterpart(loader *l, const char *name, hnbrdf_measured **measured)
+{
+    static const char *const endings[] = {"_rgb.bsdf", ".bsdf", ".binary", ".bin"};
+    char path[2 * RENDER_MAX_PATH];
+    for (size_t i = 0; i < sizeof endings / sizeof *endings; i++) {
+        snprintf(path, sizeof path, "%s/%s%s", l->folder, name, endings[i]);
+        if (access(path, F_OK) == 0)
+            return hnbrdf_measured_open(path, l->options, measured, l->error);
+    }
+    return hnbrdf_fail(
+        l->error, HNBRDF_ERROR_IO,
+        "%s: no measurement of '%s' there: expected %s_rgb.bsdf, .bsdf, .binary or .bin", l->folder,
+        name, name);
+}
+
+static hnbrdf_result from_model(loader *l, const render_text_material *m, render_surface *surface)
+{
+    hnbrdf_model *model = NULL;
+    hnbrdf_measured *measured = NULL;
+    hnbrdf_result result = find_model(l, m->file, &model);
+    if (result != HNBRDF_OK)
+        return result;
+    int count = hnbrdf_model_material_count(model), index = m->which[0]
+                                                                ? hnbrdf_model_find(model, m->which)
+                                                            : count == 1 ? 0
+                                                                         : -1;
+    if (index < 0 && !m->which[0])
+        return hnbrdf_fail(l->error, HNBRDF_ERROR_ARGUMENT, "%s holds %d materials: name one",
+                           m->file, count);
+    if (index < 0)
+        return hnbrdf_fail(l->error, HNBRDF_ERROR_ARGUMENT, "%s has no material '%s'", m->file,
+                           m->which);
+    const hnbrdf_material *material = hnbrdf_model_material(model, index);
+    hnbrdf_model_desc desc;
+    hnbrdf_model_describe(model, &desc);
+    switch (l->show) {
+    case RENDER_SHOW_MODEL:
+        *surface = render_surface_model(model, material);
+        break;
+    case RENDER_SHOW_ANALYTIC:
+        if (desc.kind == HNBRDF_KIND_NEURAL)
+            return hnbrdf_fail(l->error, HNBRDF_ERROR_ARGUMENT,
+                               "%s is a neural model: it has no GGX part to show", m->file);
+        *surface = render_surface_model(plain(l), material);
+        break;
+    case RENDER_SHOW_MEASURED:
+        result = open_counterpart(l, hnbrdf_model_material_name(model, index), &measured);
+        if (result == HNBRDF_OK)
+            measured_surface(l, measured, surface);
+        break;
+    }
+    return result;
+}
+
+static hnbrdf_result open_builtin(const loader *l, const char *name, hnbrdf_measured **measured)
+{
+    for (int i = 0; i < hnbrdf_measured_builtin_count(); i++)
+        if (strcmp(hnbrdf_measured_builtin_name(i), name) == 0)
+            return hnbrdf_measured_open_builtin(i, measured, l->error);
+    return hnbrdf_fail(l->error, HNBRDF_ERROR_ARGUMENT,
+                       "no built-in material '%s': `hnbrdf info builtin` lists them", name);
+}
+
+static hnbrdf_result load_material(loader *l, const render_text_material *m,
+                                   render_surface *surface)
+{
+    hnbrdf_measured *measured = NULL;
+    hnbrdf_result result = HNBRDF_OK;
+    char path[2 * RENDER_MAX_PATH];
+    switch (m->source) {
+    case RENDER_FROM_MODEL:
+        return from_model(l, m, surface);
+    case RENDER_FROM_GGX:
+        result = hnbrdf_material_check(&m->ggx, l->error);
+        *surface = render_surface_model(plain(l), &m->ggx);
+        return result;
+    case RENDER_FROM_MEASURED:
+        beside(l, m->file, path);
+        result = hnbrdf_measured_open(path, l->options, &measured, l->error);
+        break;
+    case RENDER_FROM_BUILTIN:
+        result = open_builtin(l, m->which, &measured);
+        break;
+    }
+    if (result == HNBRDF_OK)
+        measured_surface(l, measured, surface);
+    return result;
+}
+
+static hnbrdf_result load_materials(loader *l)
+{
+    const render_description *d = l->d;
+    size_t room = (size_t)d->material_count + 1;
+    l->out->models = calloc(room, sizeof *l->out->models);
+    l->out->measured = calloc(room, sizeof *l->out->measured);
+    l->out->scene.surfaces = calloc(room, sizeof *l->out->scene.surfaces);
+    l->model_files = calloc(room, sizeof *l->model_files);
+    if (!l->out->models || !l->out->measured || !l->out->scene.surfaces || !l->model_files)
+        return hnbrdf_fail(l->error, HNBRDF_ERROR_MEMORY, "%s: no memory for its materials",
+                           d->name);
+    hnbrdf_result result = render_guide_model(&l->out->models[0], l->error);
+    l->out->model_count = result == HNBRDF_OK;
+    for (int i = 0; i < d->material_count && result == HNBRDF_OK; i++) {
+        result = at_line(l, d->materials[i].line,
+                         load_material(l, &d->materials[i], &l->out->scene.surfaces[i].surface));
+        l->out->scene.surface_count += result == HNBRDF_OK;
+    }
+    return result;
+}
+
+/* ---- Shapes ---------------------------------------------------------------------------------- */
+
+static hnbrdf_result place_sphere(const loader *l, const render_text_shape *t, render_shape *shape)
+{
+    double lengths[3], across = 0.0;
+    for (int j = 0; j < 3; j++) {
+        double sum = 0.0;
+        for (int i = 0; i < 3; i++) {
+            sum += t->place.m[i][j] * t->place.m[i][j];
+            across += t->place.m[i][j] * t->place.m[i][(j + 1) % 3];
+        }
+        lengths[j] = sqrt(sum);
+        shape->centre[j] = (float)t->place.m[j][3];
+    }
+    if (fabs(lengths[0] - lengths[1]) > 1e-6 * lengths[0] ||
+        fabs(lengths[0] - lengths[2]) > 1e-6 * lengths[0] ||
+        fabs(across) > 1e-5 * lengths[0] * lengths[0])
+        return hnbrdf_fail(l->error, HNBRDF_ERROR_ARGUMENT,
+                           "a stretched sphere: use superellipsoid, which is a mesh");
+    shape->radius = (float)lengths[0];
+    for (int j = 0; j < 3; j++)
+        for (int i = 0; i < 3; i++)
+            shape->axes[j][i] = (float)(t->place.m[i][j] / lengths[j]);
+    return HNBRDF_OK;
+}
+
+static hnbrdf_result read_mesh(const loader *l, const render_text_shape *t, render_mesh *mesh)
+{
+    char path[2 * RENDER_MAX_PATH];
+    beside(l, t->file, path);
+    hnbrdf_result result = render_obj_read(path, NULL, mesh, l->error);
+    if (result == HNBRDF_OK && t->smooth && render_mesh_smooth(mesh))
+        result = hnbrdf_fail(l->error, HNBRDF_ERROR_MEMORY, "%s: no memory for its normals", path);
+    return result;
+}
+
+/* Materials of the parts. A name that no part has is a slip. */
+static hnbrdf_result bind_parts(const loader *l, const render_text_shape *t, render_shape *shape)
+{
+    size_t parts = shape->mesh.part_count ? shape->mesh.part_count : 1;
+    shape->surfaces = malloc(parts * sizeof *shape->surfaces);
+    if (!shape->surfaces)
+        return hnbrdf_fail(l->error, HNBRDF_ERROR_MEMORY, "no memory for %zu parts", parts);
+    for (size_t p = 0; p < parts; p++)
+        shape->surfaces[p] = t->material;
+    for (int u = 0; u < t->use_count; u++) {
+        size_t p = 0;
+        while (p < shape->mesh.part_count &&
+               strcmp(shape->mesh.parts[p].name, t->uses[u].part) != 0)
+            p++;
+        if (p == shape->mesh.part_count)
+            return hnbrdf_fail(l->error, HNBRDF_ERROR_ARGUMENT,
+                               "%s has no part '%s': parts are named by usemtl, or g and o",
+                               t->file, t->uses[u].part);
+        shape->surfaces[p] = t->uses[u].material;
+    }
+    return HNBRDF_OK;
+}
+
+static hnbrdf_result load_shape(const loader *l, const render_text_shape *t, render_shape *shape)
+{
+    hnbrdf_result result = HNBRDF_OK;
+    if (t->kind == RENDER_SPHERE) {
+        result = place_sphere(l, t, shape);
+    } else {
+        if (t->kind == RENDER_OBJ)
+            result = read_mesh(l, t, &shape->mesh);
+        else if (render_shape_mesh(t->kind, &t->options, &shape->mesh))
+            result = hnbrdf_fail(l->error, HNBRDF_ERROR_MEMORY, "no memory for this shape");
+        if (result == HNBRDF_OK && shape->mesh.triangle_count == 0)
+            result = hnbrdf_fail(l->error, HNBRDF_ERROR_ARGUMENT, "a shape without a surface");
+        if (result == HNBRDF_OK)
+            render_mesh_transform(&shape->mesh, &t->place);
+    }
+    memcpy(shape->emission, t->emission, sizeof shape->emission);
+    return result == HNBRDF_OK ? bind_parts(l, t, shape) : result;
+}
+
+static hnbrdf_result load_shapes(const loader *l)
+{
+    render_scene *scene = &l->out->scene;
+    scene->shapes = calloc((size_t)l->d->shape_count, sizeof *scene->shapes);
+    if (!scene->shapes)
+        return hnbrdf_fail(l->error, HNBRDF_ERROR_MEMORY, "%s: no memory for its shapes",
+                           l->d->name);
+    scene->shape_count = l->d->shape_count;
+    hnbrdf_result result = HNBRDF_OK;
+    for (int i = 0; i < l->d->shape_count && result == HNBRDF_OK; i++)
+        result =
+            at_line(l, l->d->shapes[i].line, load_shape(l, &l->d->shapes[i], &scene->shapes[i]));
+    return result;
+}
+
+/* ---- The scene ------------------------------------------------------------------------------- */
+
+static hnbrdf_result load_environment(const loader *l)
+{
+    const render_description *d = l->d;
+    const char *source = d->environment;
+    char path[2 * RENDER_MAX_PATH];
+    if (!source[0])
+        return HNBRDF_OK;
+    if (strcmp(source, "sky") != 0 && strcmp(source, "furnace") != 0) {
+        beside(l, d->environment, path);
+        source = path;
+    }
+    hnbrdf_result result = render_environment_open(
+        source, d->rotate * 3.14159265358979323846 / 180.0, &l->out->environment, l->error);
+    if (result != HNBRDF_OK)
+        return at_line(l, d->environment_line, result);
+    render_environment_scale(&l->out->environment, d->gain);
+    l->out->scene.environment = &l->out->environment;
+    return HNBRDF_OK;
+}
+
+hnbrdf_result render_description_load(const render_description *description, render_show show,
+                                      const char *folder, const hnbrdf_measured_options *options,
+                                      render_loaded *loaded, hnbrdf_error *error)
+{
+    loader l = {.d = description,
+                .show = show,
+                .folder = folder,
+                .options = options,
+                .out = loaded,
+                .error = error};
+    memset(loaded, 0, sizeof *loaded);
+    hnbrdf_result result = load_materials(&l);
+    free(l.model_files);
+    if (result == HNBRDF_OK)
+        result = load_shapes(&l);
+    if (result == HNBRDF_OK)
+        result = load_environment(&l);
+    if (result == HNBRDF_OK) {
+        loaded->scene.camera = description->camera;
+        loaded->scene.portal_count = description->portal_count;
+        memcpy(loaded->scene.portals, description->portals, sizeof loaded->scene.portals);
+        result = render_scene_build(&loaded->scene, error);
+    }
+    if (result != HNBRDF_OK)
+        render_loaded_free(loaded);
+    return result;
+}
+
+void render_loaded_free(render_loaded *loaded)
+{
+    render_scene_free(&loaded->scene);
+    render_environment_free(&loaded->environment);
+    for (int i = 0; i < loaded->model_count; i++)
+        hnbrdf_model_free(loaded->models[i]);
+    for (int i = 0; i < loaded->measured_count; i++)
+        hnbrdf_measured_close(loaded->measured[i]);
+    free(loaded->models);
+    free(loaded->measured);
+    memset(loaded, 0, sizeof *loaded);
+}
