@@ -8,8 +8,9 @@ endfunction()
 hnbrdf_room(base
   json.c text.c)
 hnbrdf_room(core
-  choose_kernel.c create.c eval.c kernel_plain.c material.c network.c pack.c sample.c
+  eval.c kernel_plain.c material.c network.c pack.c sample.c
   strerror.c variant.c)
+hnbrdf_room(model choose_kernel.c create.c)
 hnbrdf_room(file
   decode.c load.c safetensors.c save.c)
 hnbrdf_room(import

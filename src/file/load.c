@@ -2,7 +2,7 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "file/safetensors.h"
-#include "core/choose_kernel.h"
+#include "model/choose_kernel.h"
 
 #include <stdio.h>
 #include <string.h>

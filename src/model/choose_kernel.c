@@ -1,6 +1,6 @@
 /* choose_kernel.c: which kernel a model will use: as asked, as the environment says, or the
  * fastest. */
-#include "core/choose_kernel.h"
+#include "model/choose_kernel.h"
 
 #include "base/error.h"
 

@@ -1,6 +1,6 @@
 /* choose_kernel.h: which kernel a model will use. */
-#ifndef HNBRDF_CORE_CHOOSE_KERNEL_H
-#define HNBRDF_CORE_CHOOSE_KERNEL_H
+#ifndef HNBRDF_MODEL_CHOOSE_KERNEL_H
+#define HNBRDF_MODEL_CHOOSE_KERNEL_H
 
 #include "core/kernel.h"
 

@@ -5,7 +5,7 @@
 #include "base/memory.h"
 #include "base/sort.h"
 #include "base/text.h"
-#include "core/choose_kernel.h"
+#include "model/choose_kernel.h"
 
 #include <math.h>
 #include <stdint.h>
