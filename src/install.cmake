@@ -4,13 +4,18 @@ include(CMakePackageConfigHelpers)
 get_property(HNBRDF_PARTS GLOBAL PROPERTY HNBRDF_PARTS)
 set(_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/hnbrdf)
 
+set(_headers_hnbrdf hnbrdf edit)
+set(_headers_hnbrdf_measured measured)
+set(_headers_hnbrdf_metrics metrics)
+set(_headers_hnbrdf_fit fit)
 foreach(part ${HNBRDF_PARTS})
   install(TARGETS ${part}_static ${part}_shared EXPORT hnbrdfTargets
     ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
     LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
     RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-  string(REPLACE hnbrdf_ "" header ${part})
-  install(FILES include/hnbrdf/${header}.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/hnbrdf)
+  foreach(header ${_headers_${part}})
+    install(FILES include/hnbrdf/${header}.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/hnbrdf)
+  endforeach()
 endforeach()
 install(FILES shaders/hybrid_brdf.glsl DESTINATION ${CMAKE_INSTALL_DATADIR}/hnbrdf)
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})

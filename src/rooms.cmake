@@ -10,7 +10,7 @@ hnbrdf_room(base
 hnbrdf_room(core
   eval.c kernel_plain.c material.c network.c pack.c sample.c
   strerror.c variant.c)
-hnbrdf_room(model choose_kernel.c create.c)
+hnbrdf_room(model check_name.c choose_kernel.c create.c)
 hnbrdf_room(file
   decode.c load.c safetensors.c save.c)
 hnbrdf_room(import
@@ -45,7 +45,7 @@ hnbrdf_room(gpu
   compile.c compute.c device.c evaluate.c probe.c probe_half.c scene.c sphere.c timed.c
   verify.c)
 hnbrdf_room(edit
-)
+  materials.c)
 hnbrdf_room(cli
   bake_fit.c bake_half.c bake_plot.c bake_search.c bake_sizes.c bake_tables.c
   bake_teacher.c bench_cpu.c bench_gpu.c bench_peer.c bench_plot.c bench_probe.c
@@ -53,7 +53,7 @@ hnbrdf_room(cli
   cmd_eval.c cmd_export.c cmd_fit.c cmd_gallery.c cmd_import.c cmd_info.c cmd_lobes.c
   cmd_mix.c cmd_render.c cmd_report.c cmd_report_images.c cmd_report_sampling.c
   cmd_scene.c cmd_sheet.c cmd_stability.c cmd_verify.c compare_images.c csv.c fit_log.c
-  fit_speed.c gallery_choose.c gallery_pages.c gallery_strips.c info_physics.c lobes.c
+  fit_speed.c gallery_choose.c gallery_pages.c gallery_strips.c info_physics.c
   loss_plot.c main.c output.c peak.c picture.c progress.c render_gpu.c render_mesh.c
   report_fit.c report_ggx.c report_grid.c report_image_tables.c report_images.c
   report_options.c report_plot.c report_rows.c report_tables.c sampling_measure.c

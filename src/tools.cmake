@@ -34,7 +34,7 @@ if(HNBRDF_HAS_QUADMATH)
   target_link_libraries(hnbrdf_check PRIVATE quadmath)
 endif()
 
-add_executable(hnbrdf_cli ${HNBRDF_ROOM_cli} src/edit/palette.c src/base/text_buffer.c)
+add_executable(hnbrdf_cli ${HNBRDF_ROOM_cli} src/base/text_buffer.c)
 set_target_properties(hnbrdf_cli PROPERTIES OUTPUT_NAME hnbrdf RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR})
 target_link_libraries(hnbrdf_cli PRIVATE hnbrdf_flags hnbrdf_scene hnbrdf_plot hnbrdf_check
   hnbrdf_fit_static hnbrdf_metrics_static)

@@ -28,6 +28,15 @@ awk -F, 'NR == 1 && $0 != "material,single_ns,batch_ns" { exit 1 }
 awk 'NR > 2 { n++; for (c = 2; c <= 4; c++) if (!($c > 0 && $c < 1.2)) exit 1 } END { exit n != 7 }' \
     "$scratch/albedo" || fail "sample prints $(cat "$scratch/albedo")"
 
+"$examples/edit" "$model" gold-two-lobe velvet-crimson "$scratch/edited.safetensors" > "$scratch/names"
+printf 'gold-two-lobe\nhalfway\ngold-two-lobe-rough\n' | cmp -s - "$scratch/names" || fail "edit prints $(cat "$scratch/names")"
+"$hnbrdf" mix "$model" gold-two-lobe velvet-crimson --t 0.5 --as p -o "$scratch/mixed.safetensors" > /dev/null
+for file in edited:halfway mixed:p-0.5; do # edit makes what `hnbrdf mix` makes
+    echo 0,0.6,0.8,0,0,1 | "$hnbrdf" eval "$scratch/${file%:*}.safetensors" --material "${file#*:}" > "$scratch/${file%:*}.csv"
+done
+cmp "$scratch/edited.csv" "$scratch/mixed.csv" || fail "edit mixes otherwise than the command"
+! "$examples/edit" "$model" gold-two-lobe nobody "$scratch/x" 2> "$scratch/message" || fail "edit knows nobody"
+
 for file in "$source"/examples/*.c "$source"/examples/*.frag; do
     [ "$(wc -l < "$file")" -le 100 ] || fail "$file is longer than 100 lines"
 done

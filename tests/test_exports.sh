@@ -17,20 +17,30 @@ for need in $(objdump -p "$build/libhnbrdf.so" | sed -n 's/ *NEEDED *//p'); do
     esac
 done
 
-# Every shared library shows exactly what its header declares; no symbol of a static one can collide.
-declared() {
-    sed 's|/\*.*\*/||' "$source/include/hnbrdf/$1.h" | tr '\n' ' ' | grep -o 'HNBRDF_API [^;(]*(' |
-        grep -o 'hnbrdf_[a-z0-9_]*($' | tr -d '(' | sort
+# headers PART: those that declare it; libhnbrdf has all that no other part has.
+headers() {
+    [ "$1" = hnbrdf ] || { echo "${1#hnbrdf_}"; return; }
+    for header in "$source"/include/hnbrdf/*.h; do
+        name=$(basename "$header" .h)
+        case " $parts " in *" hnbrdf_$name "*) ;; *) echo "$name" ;; esac
+    done
 }
+# Every shared library shows exactly what its headers declare; no symbol of a static one can collide.
+declared() {
+    for name in $(headers "$1"); do
+        sed 's|/\*.*\*/||; /^ *# *define/d' "$source/include/hnbrdf/$name.h"
+    done | tr '\n' ' ' | grep -oE 'HNBRDF_(API|EXPERIMENTAL) [^;(]*\(' |
+        grep -o 'hnbrdf_[a-z0-9_]*($' | tr -d '(' | sort -u
+}
+parts=$*
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 for part in "$@"; do
-    header=${part#hnbrdf_}
     nm -D --defined-only "$build/lib$part.so" | awk '{ print $3 }' | sed 's/@.*//' | sort > "$scratch/shown"
-    declared "$header" > "$scratch/declared"
-    [ -s "$scratch/declared" ] || fail "no declarations found in $header.h"
+    declared "$part" > "$scratch/declared"
+    [ -s "$scratch/declared" ] || fail "no declarations of $part found"
     diff "$scratch/declared" "$scratch/shown" >&2 ||
-        fail "lib$part.so does not show what $header.h declares (<: declared, >: shown)"
+        fail "lib$part.so does not show what its headers declare (<: declared, >: shown)"
     foreign=$(nm --defined-only -g "$build/lib$part.a" | awk 'NF == 3 { print $3 }' | grep -v '^hnbrdf_' || true)
     [ -z "$foreign" ] || fail "lib$part.a has global symbols without the prefix hnbrdf_:" $foreign
 done

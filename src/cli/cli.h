@@ -2,6 +2,7 @@
 #ifndef HNBRDF_CLI_CLI_H
 #define HNBRDF_CLI_CLI_H
 
+#include "hnbrdf/edit.h"
 #include "hnbrdf/hnbrdf.h"
 #include "hnbrdf/measured.h"
 
@@ -153,6 +154,14 @@ void cli_close_source(cli_source *source);
  * whose name must then be `name` or name NULL. -1 after a message. */
 int cli_choose_source_material(const cli_source *source, const char *name);
 
+/* A model file and nothing else. Returns 0, or CLI_FAILURE after a message. */
+int cli_open_model(const char *path, hnbrdf_model **model);
+/* The message for a new name that a material of the model has; returns CLI_FAILURE. */
+int cli_fail_name_taken(const char *path, const char *name);
+/* Puts a model whose materials have lobes of this scheme in the place of *model, which is freed;
+ * on failure it stays. Shows progress. Returns 0, or CLI_FAILURE after a message. */
+int cli_set_lobes(hnbrdf_model **model, hnbrdf_lobes_scheme scheme);
+
 /* Index of the material to use: by name; with name NULL the only one (several: a message listing
  * them). -1 after a message. */
 int cli_choose_material(const hnbrdf_model *model, const char *name);
@@ -188,6 +197,8 @@ typedef struct cli_progress {
 void cli_progress_begin(cli_progress *progress, const char *what);
 void cli_progress_update(cli_progress *progress, double share, const char *detail);
 void cli_progress_end(cli_progress *progress);
+/* cli_progress_update() as a callback of the library: never stops it. */
+int cli_progress_show(void *progress, double share, const char *detail);
 /* Monotonic seconds. */
 double cli_seconds(void);
 

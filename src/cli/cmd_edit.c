@@ -1,6 +1,7 @@
 /* cmd_edit.c: `hnbrdf edit`: change a material of a model by hand: colour, refraction, roughness,
  * angle. */
-#include "edit/palette.h"
+#include "cli/cli.h"
+#include "hnbrdf/edit.h"
 #include "base/text.h"
 
 #include <stddef.h>
@@ -179,51 +180,68 @@ static void print_changes(const hnbrdf_material *before, const hnbrdf_material *
     }
 }
 
-static int run(const char *path, const char *output, const char *material, const char *as,
-               int replace, const edit *edits, int edit_count)
+/* What --as asks for: the material itself, or one under another name. */
+typedef struct edit_job {
+    const char *path, *output, *material, *as;
+    int replace; /* a material of the name `as` may be overwritten */
+    edit edits[MAX_EDITS];
+    int edit_count;
+} edit_job;
+
+static int edit_material(const edit_job *job, const hnbrdf_model *model, int index)
 {
-    palette p;
-    if (palette_open(&p, path) != CLI_OK)
-        return CLI_FAILURE;
-    int result = CLI_FAILURE, index = cli_choose_material(p.model, material);
-    if (index >= 0) {
-        const char *from = hnbrdf_model_material_name(p.model, index);
-        const hnbrdf_material *before = hnbrdf_model_material(p.model, index);
-        hnbrdf_material after = *before;
-        hnbrdf_model_desc desc;
-        hnbrdf_model_describe(p.model, &desc);
-        if (desc.kind == HNBRDF_KIND_NEURAL)
-            cli_warn("%s: a neural model has no analytic part; kd, eta and alpha do not show",
-                     path);
-        for (int k = 0; k < edit_count; k++)
-            apply(&edits[k], &after);
-        result = palette_put(&p, as ? as : from, &after, replace || !as || strcmp(as, from) == 0);
-        if (result == CLI_OK)
-            result = palette_save(&p, output);
-        if (result == CLI_OK) {
-            printf("%s: %s%s%s\n", output, as ? as : from, as ? " from " : " changed",
-                   as ? from : "");
-            print_changes(before, &after);
-        }
+    const char *from = hnbrdf_model_material_name(model, index), *to = job->as ? job->as : from;
+    const hnbrdf_material *before = hnbrdf_model_material(model, index);
+    hnbrdf_material after = *before;
+    hnbrdf_model_desc desc;
+    hnbrdf_model *made = NULL;
+    hnbrdf_error error;
+    hnbrdf_model_describe(model, &desc);
+    if (desc.kind == HNBRDF_KIND_NEURAL)
+        cli_warn("%s: a neural model has no analytic part; kd, eta and alpha do not show",
+                 job->path);
+    for (int k = 0; k < job->edit_count; k++)
+        apply(&job->edits[k], &after);
+    const hnbrdf_material_change change = {
+        .name = to, .material = &after, .lobes = HNBRDF_LOBES_FIT};
+    if (!job->replace && strcmp(to, from) != 0 && hnbrdf_model_find(model, to) >= 0)
+        return cli_fail_name_taken(job->path, to);
+    if (hnbrdf_model_with_materials(model, &change, 1, NULL, &made, &error) != HNBRDF_OK ||
+        hnbrdf_model_save(made, job->output, &error) != HNBRDF_OK) {
+        hnbrdf_model_free(made);
+        return cli_fail("%s", error.text);
     }
-    palette_close(&p);
+    hnbrdf_model_free(made);
+    printf("%s: %s%s%s\n", job->output, to, job->as ? " from " : " changed", job->as ? from : "");
+    print_changes(before, &after);
+    return CLI_OK;
+}
+
+static int run(const edit_job *job)
+{
+    hnbrdf_model *model;
+    if (cli_open_model(job->path, &model) != CLI_OK)
+        return CLI_FAILURE;
+    int index = cli_choose_material(model, job->material);
+    int result = index < 0 ? CLI_FAILURE : edit_material(job, model, index);
+    hnbrdf_model_free(model);
     return result;
 }
 
 int cmd_edit(int argc, char **argv)
 {
-    const char *material = NULL, *set = NULL, *as = NULL, *output = NULL;
-    int replace = 0, count, edit_count;
-    edit edits[MAX_EDITS];
+    edit_job job = {.path = NULL};
+    const char *set = NULL;
+    int count;
     const cli_option options[] = {
-        {"material", 'm', CLI_TEXT, &material, 0, 0, "NAME",
+        {"material", 'm', CLI_TEXT, &job.material, 0, 0, "NAME",
          "the material to start from; needed when the model has several"},
         {"set", 's', CLI_TEXT, &set, 0, 0, "LIST", "what to change (required)"},
-        {"as", 0, CLI_TEXT, &as, 0, 0, "NAME",
+        {"as", 0, CLI_TEXT, &job.as, 0, 0, "NAME",
          "keep the material, add the edited one under this name"},
-        {"replace", 0, CLI_FLAG, &replace, 0, 0, NULL,
+        {"replace", 0, CLI_FLAG, &job.replace, 0, 0, NULL,
          "--as may overwrite a material of that name"},
-        {"output", 'o', CLI_TEXT, &output, 0, 0, "OUT",
+        {"output", 'o', CLI_TEXT, &job.output, 0, 0, "OUT",
          "the model file to write (default: MODEL, rewritten)"},
         {0},
     };
@@ -234,8 +252,8 @@ int cmd_edit(int argc, char **argv)
         return cli_usage(&command, count ? "more than one MODEL" : "no MODEL");
     if (!set)
         return cli_usage(&command, "nothing to change, expected --set FIELD=VALUE");
-    result = read_edits(set, edits, &edit_count);
-    return result >= 0
-               ? result
-               : run(argv[1], output ? output : argv[1], material, as, replace, edits, edit_count);
+    result = read_edits(set, job.edits, &job.edit_count);
+    job.path = argv[1];
+    job.output = job.output ? job.output : job.path;
+    return result >= 0 ? result : run(&job);
 }

@@ -1,5 +1,5 @@
 /* cmd_import.c: `hnbrdf import`: published .brdf shaders of one data set become one model file. */
-#include "cli/lobes.h"
+#include "cli/cli.h"
 
 #include <errno.h>
 #include <stdlib.h>
@@ -90,7 +90,7 @@ static int import_and_save(const brdf_texts *texts, const char *out)
                                                     NULL, &model, &error);
     if (result != HNBRDF_OK)
         return cli_fail("%s", error.text);
-    int failed = lobes_set_all(&model, LOBES_FITTED);
+    int failed = cli_set_lobes(&model, HNBRDF_LOBES_FIT);
     if (!failed && hnbrdf_model_save(model, out, &error) != HNBRDF_OK)
         failed = cli_fail("%s", error.text);
     hnbrdf_model_free(model);

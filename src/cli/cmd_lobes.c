@@ -1,7 +1,8 @@
 /* cmd_lobes.c: `hnbrdf lobes`: fit the lobes with which the materials of a model are sampled, and
  * show them. */
+#include "cli/cli.h"
 #include "cli/csv.h"
-#include "cli/lobes.h"
+#include "hnbrdf/edit.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -73,17 +74,33 @@ static int write_csv(const char *path, const hnbrdf_model_desc *desc)
     return cli_output_close(&output);
 }
 
-static int run(hnbrdf_model **model, const char *path, lobes_scheme scheme, int show,
-               const char *csv, const char *output)
+int cli_set_lobes(hnbrdf_model **model, hnbrdf_lobes_scheme scheme)
+{
+    const hnbrdf_material_change change = {.kind = HNBRDF_CHANGE_LOBES, .lobes = scheme};
+    cli_progress line;
+    const hnbrdf_edit_options options = {.progress = cli_progress_show, .progress_user = &line};
+    hnbrdf_model *made;
+    hnbrdf_error error;
+    cli_progress_begin(&line, "lobes");
+    hnbrdf_result result = hnbrdf_model_with_materials(*model, &change, 1, &options, &made, &error);
+    cli_progress_end(&line);
+    if (result != HNBRDF_OK)
+        return cli_fail("%s", error.text);
+    hnbrdf_model_free(*model);
+    *model = made;
+    return CLI_OK;
+}
+
+static int run(hnbrdf_model **model, hnbrdf_lobes_scheme scheme, int show, const char *csv,
+               const char *output)
 {
     hnbrdf_model_desc desc;
     hnbrdf_error error;
     int to_stdout = csv && csv[0] == '-' && !csv[1];
-    if (!show && (cli_output_check(output ? output : path) != CLI_OK ||
-                  lobes_set_all(model, scheme) != CLI_OK))
+    if (!show && (cli_output_check(output) != CLI_OK || cli_set_lobes(model, scheme) != CLI_OK))
         return CLI_FAILURE;
     hnbrdf_model_describe(*model, &desc);
-    if (!show && hnbrdf_model_save(*model, output ? output : path, &error) != HNBRDF_OK)
+    if (!show && hnbrdf_model_save(*model, output, &error) != HNBRDF_OK)
         return cli_fail("%s", error.text);
     if (!to_stdout)
         print_table(&desc);
@@ -93,7 +110,9 @@ static int run(hnbrdf_model **model, const char *path, lobes_scheme scheme, int 
 int cmd_lobes(int argc, char **argv)
 {
     const char *output = NULL, *csv = NULL;
-    int scheme = LOBES_FITTED, show = 0, count;
+    static const hnbrdf_lobes_scheme schemes[] = {HNBRDF_LOBES_FIT, HNBRDF_LOBES_PAPER,
+                                                  HNBRDF_LOBES_GUESS};
+    int scheme = 0, show = 0, count;
     const cli_option options[] = {
         {"scheme", 0, CLI_CHOICE, &scheme, 0, 0, "fitted|paper|guess",
          "least variance (default); half cosine, half all normals; none"},
@@ -115,7 +134,7 @@ int cmd_lobes(int argc, char **argv)
     hnbrdf_error error;
     if (hnbrdf_model_load(argv[1], NULL, &model, &error) != HNBRDF_OK)
         return cli_fail("%s", error.text);
-    result = run(&model, argv[1], (lobes_scheme)scheme, show, csv, output);
+    result = run(&model, schemes[scheme], show, csv, output ? output : argv[1]);
     hnbrdf_model_free(model);
     return result;
 }

@@ -1,8 +1,10 @@
 /* cmd_mix.c: `hnbrdf mix`: materials between two of a model. */
-#include "edit/palette.h"
+#include "cli/cli.h"
 #include "base/text.h"
+#include "hnbrdf/edit.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 static const cli_command command = {
@@ -71,56 +73,92 @@ static int make_name(char *name, size_t size, const char *const ends[2], const c
     return 0;
 }
 
-static int put_all(palette *p, const sweep *s, const char *const ends[2], const char *prefix,
-                   int replace)
+/* What the command is asked for. */
+typedef struct mix_job {
+    const char *path, *output, *prefix, *ends[2];
+    int replace; /* materials of the new names may be overwritten */
+    sweep sweep;
+} mix_job;
+
+/* One step of the sweep. */
+typedef struct mixed {
+    char name[HNBRDF_MAX_NAME + 1];
+    hnbrdf_material material;
+} mixed;
+
+static int mix_all(const mix_job *job, const hnbrdf_model *model, mixed *steps,
+                   hnbrdf_material_change *changes)
 {
-    int a = cli_choose_material(p->model, ends[0]),
-        b = a < 0 ? -1 : cli_choose_material(p->model, ends[1]);
+    int a = cli_choose_material(model, job->ends[0]),
+        b = a < 0 ? -1 : cli_choose_material(model, job->ends[1]);
     if (a < 0 || b < 0)
         return CLI_FAILURE;
-    for (int k = 0; k < s->count; k++) {
-        char name[HNBRDF_MAX_NAME + 1];
-        hnbrdf_material mixed;
-        double t = fmin(s->first + k * s->step, 1.0);
-        hnbrdf_material_mix(hnbrdf_model_material(p->model, a), hnbrdf_model_material(p->model, b),
-                            (float)t, &mixed);
-        if (!make_name(name, sizeof name, ends, prefix, t) ||
-            palette_put(p, name, &mixed, replace) != CLI_OK)
+    for (int k = 0; k < job->sweep.count; k++) {
+        mixed *step = &steps[k];
+        double t = fmin(job->sweep.first + k * job->sweep.step, 1.0);
+        hnbrdf_material_mix(hnbrdf_model_material(model, a), hnbrdf_model_material(model, b),
+                            (float)t, &step->material);
+        if (!make_name(step->name, sizeof step->name, job->ends, job->prefix, t))
             return CLI_FAILURE;
+        if (!job->replace && hnbrdf_model_find(model, step->name) >= 0)
+            return cli_fail_name_taken(job->path, step->name);
+        changes[k] =
+            (hnbrdf_material_change){.kind = job->replace ? HNBRDF_CHANGE_PUT : HNBRDF_CHANGE_ADD,
+                                     .name = step->name,
+                                     .material = &step->material,
+                                     .lobes = HNBRDF_LOBES_FIT};
     }
     return CLI_OK;
 }
 
-static int run(const char *path, const char *output, const sweep *s, const char *const ends[2],
-               const char *prefix, int replace)
+static int write_mixed(const mix_job *job, const hnbrdf_model *model,
+                       const hnbrdf_material_change *changes)
 {
-    palette p;
-    if (palette_open(&p, path) != CLI_OK)
-        return CLI_FAILURE;
-    int before = p.count, result = put_all(&p, s, ends, prefix, replace);
-    if (result == CLI_OK)
-        result = palette_save(&p, output);
-    if (result == CLI_OK) {
-        printf("%s: %d material%s from %s to %s, %d new\n", output, s->count,
-               s->count == 1 ? "" : "s", ends[0], ends[1], p.count - before);
-        for (int k = before; k < p.count; k++)
-            printf("  %s\n", p.names[k]);
+    hnbrdf_model *made = NULL;
+    hnbrdf_error error;
+    int count = job->sweep.count, before = hnbrdf_model_material_count(model);
+    if (hnbrdf_model_with_materials(model, changes, count, NULL, &made, &error) != HNBRDF_OK ||
+        hnbrdf_model_save(made, job->output, &error) != HNBRDF_OK) {
+        hnbrdf_model_free(made);
+        return cli_fail("%s", error.text);
     }
-    palette_close(&p);
+    int after = hnbrdf_model_material_count(made);
+    printf("%s: %d material%s from %s to %s, %d new\n", job->output, count, count == 1 ? "" : "s",
+           job->ends[0], job->ends[1], after - before);
+    for (int k = before; k < after; k++)
+        printf("  %s\n", hnbrdf_model_material_name(made, k));
+    hnbrdf_model_free(made);
+    return CLI_OK;
+}
+
+static int run(const mix_job *job)
+{
+    hnbrdf_model *model;
+    if (cli_open_model(job->path, &model) != CLI_OK)
+        return CLI_FAILURE;
+    size_t count = (size_t)job->sweep.count;
+    mixed *steps = malloc(count * sizeof *steps);
+    hnbrdf_material_change *changes = malloc(count * sizeof *changes);
+    int result = steps && changes ? mix_all(job, model, steps, changes) : cli_fail("out of memory");
+    if (result == CLI_OK)
+        result = write_mixed(job, model, changes);
+    free(steps);
+    free(changes);
+    hnbrdf_model_free(model);
     return result;
 }
 
 int cmd_mix(int argc, char **argv)
 {
-    const char *t = NULL, *as = NULL, *output = NULL;
-    int replace = 0, count;
-    sweep s;
+    mix_job job = {.path = NULL};
+    const char *t = NULL;
+    int count;
     const cli_option options[] = {
         {"t", 't', CLI_TEXT, &t, 0, 0, "T",
          "0 is A, 1 is B; FIRST:LAST:STEP for several (required)"},
-        {"as", 0, CLI_TEXT, &as, 0, 0, "PREFIX", "what the names begin with (default A-B)"},
-        {"replace", 0, CLI_FLAG, &replace, 0, 0, NULL, "overwrite materials of these names"},
-        {"output", 'o', CLI_TEXT, &output, 0, 0, "OUT",
+        {"as", 0, CLI_TEXT, &job.prefix, 0, 0, "PREFIX", "what the names begin with (default A-B)"},
+        {"replace", 0, CLI_FLAG, &job.replace, 0, 0, NULL, "overwrite materials of these names"},
+        {"output", 'o', CLI_TEXT, &job.output, 0, 0, "OUT",
          "the model file to write (default: MODEL, rewritten)"},
         {0},
     };
@@ -132,9 +170,12 @@ int cmd_mix(int argc, char **argv)
             &command, "found %d arguments, expected MODEL and the names of two materials", count);
     if (!t)
         return cli_usage(&command, "no --t T");
-    result = read_sweep(t, &s);
+    result = read_sweep(t, &job.sweep);
     if (result >= 0)
         return result;
-    const char *const ends[2] = {argv[2], argv[3]};
-    return run(argv[1], output ? output : argv[1], &s, ends, as, replace);
+    job.path = argv[1];
+    job.ends[0] = argv[2];
+    job.ends[1] = argv[3];
+    job.output = job.output ? job.output : job.path;
+    return run(&job);
 }

@@ -59,6 +59,12 @@ void cli_progress_update(cli_progress *progress, double share, const char *detai
     fflush(stderr);
 }
 
+int cli_progress_show(void *progress, double share, const char *detail)
+{
+    cli_progress_update(progress, share, detail);
+    return 0;
+}
+
 void cli_progress_end(cli_progress *progress)
 {
     if (progress->shown > 0.0 && isatty(STDERR_FILENO)) {

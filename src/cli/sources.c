@@ -371,6 +371,24 @@ void cli_close_source(cli_source *source)
     source->measured = NULL;
 }
 
+int cli_open_model(const char *path, hnbrdf_model **model)
+{
+    cli_source source;
+    if (cli_open_source(path, &source) != CLI_OK)
+        return CLI_FAILURE;
+    if (!source.model) {
+        cli_close_source(&source);
+        return cli_fail("%s: measured data, expected a model file", path);
+    }
+    *model = source.model;
+    return CLI_OK;
+}
+
+int cli_fail_name_taken(const char *path, const char *name)
+{
+    return cli_fail("%s: there is a material %s already (--replace overwrites it)", path, name);
+}
+
 /* ---- Materials of a source ------------------------------------------------------------------- */
 
 int cli_choose_material(const hnbrdf_model *model, const char *name)

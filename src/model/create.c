@@ -4,7 +4,7 @@
 #include "core/kernel.h"
 #include "base/memory.h"
 #include "base/sort.h"
-#include "base/text.h"
+#include "model/check_name.h"
 #include "model/choose_kernel.h"
 
 #include <math.h>
@@ -109,36 +109,6 @@ static hnbrdf_result check_network(const hnbrdf_model_desc *desc, hnbrdf_error *
     return HNBRDF_OK;
 }
 
-static hnbrdf_result check_name(const char *name, int index, hnbrdf_error *error)
-{
-    const char *end = name ? memchr(name, '\0', HNBRDF_MAX_NAME + 1) : NULL;
-    if (!name || !end || end == name) {
-        return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT,
-                           "the name of material %d is %s, expected 1 to %d bytes", index,
-                           !name ? "NULL"
-                           : end ? "empty"
-                                 : "longer",
-                           HNBRDF_MAX_NAME);
-    }
-    for (const char *at = name; at < end;) {
-        const size_t length = hnbrdf_utf8_length(at, end);
-        const unsigned char first = (unsigned char)at[0];
-        if (length == 0) {
-            return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT,
-                               "the name of material %d has byte 0x%02x at %d, expected UTF-8",
-                               index, (unsigned)first, (int)(at - name));
-        }
-        if (first < 0x20 || first == 0x7f || (first == 0xc2 && (unsigned char)at[1] < 0xa0)) {
-            return hnbrdf_fail(
-                error, HNBRDF_ERROR_ARGUMENT,
-                "the name of material %d has a control character at byte %d, expected none", index,
-                (int)(at - name));
-        }
-        at += length;
-    }
-    return HNBRDF_OK;
-}
-
 static hnbrdf_result check_materials(const hnbrdf_model_desc *desc, hnbrdf_error *error)
 {
     hnbrdf_result result =
@@ -151,8 +121,8 @@ static hnbrdf_result check_materials(const hnbrdf_model_desc *desc, hnbrdf_error
     }
     for (int i = 0; i < desc->material_count; ++i) {
         hnbrdf_error inner;
-        if ((result = check_name(desc->names[i], i, error)))
-            return result;
+        if ((result = hnbrdf_check_name(desc->names[i], &inner)))
+            return hnbrdf_fail(error, result, "the name of material %d %s", i, inner.text);
         if ((result = hnbrdf_material_check(&desc->materials[i], &inner))) {
             return hnbrdf_fail(error, result, "material %d (%s): %s", i, desc->names[i],
                                inner.text);

@@ -4,6 +4,7 @@
 #include "failing_malloc.h"
 #include "measured_support.h"
 
+#include "hnbrdf/edit.h"
 #include "hnbrdf/fit.h"
 #include "hnbrdf/metrics.h"
 #include "render/environment.h"
@@ -91,6 +92,30 @@ static void models_survive(void **state)
     close(descriptor);
     survive(use_model, path, 6);
     remove(path);
+}
+
+/* A model with a material more, its lobes fitted. */
+static hnbrdf_result edit_model(const void *with, hnbrdf_error *error)
+{
+    const hnbrdf_model *model = with;
+    hnbrdf_material material = *hnbrdf_model_material(model, 0);
+    const hnbrdf_material_change change = {
+        .name = "new", .material = &material, .lobes = HNBRDF_LOBES_FIT};
+    hnbrdf_model *made = NULL;
+    material.alpha[0] = 0.5f;
+    const hnbrdf_result result = hnbrdf_model_with_materials(model, &change, 1, NULL, &made, error);
+    assert_int_equal(result == HNBRDF_OK, made != NULL);
+    hnbrdf_model_free(made);
+    return result;
+}
+
+static void edits_survive(void **state)
+{
+    hnbrdf_model *model = NULL;
+    (void)state;
+    assert_int_equal(hnbrdf_model_load(MODEL, NULL, &model, NULL), HNBRDF_OK);
+    survive(edit_model, model, 3);
+    hnbrdf_model_free(model);
 }
 
 static hnbrdf_result import_shader(const void *with, hnbrdf_error *error)
@@ -329,13 +354,10 @@ static void pictures_survive(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(models_survive),
-        cmocka_unit_test(imports_survive),
-        cmocka_unit_test(rgl_files_survive),
-        cmocka_unit_test(tables_survive),
-        cmocka_unit_test(built_in_and_custom_materials_survive),
-        cmocka_unit_test(fits_survive),
-        cmocka_unit_test(pictures_survive),
+        cmocka_unit_test(models_survive),  cmocka_unit_test(edits_survive),
+        cmocka_unit_test(imports_survive), cmocka_unit_test(rgl_files_survive),
+        cmocka_unit_test(tables_survive),  cmocka_unit_test(built_in_and_custom_materials_survive),
+        cmocka_unit_test(fits_survive),    cmocka_unit_test(pictures_survive),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,72 @@
+/* edit.h: models with other materials: replaced, added, removed, renamed, lobes fitted again.
+ *
+ * A model never changes; an edit makes a new one beside it. The network is copied bit by bit, so
+ * materials that no change names keep their values to the last bit. Part of libhnbrdf; needs
+ * nothing else and starts no threads. To change a material, copy it from the model, edit its
+ * fields (or mix two, hnbrdf_material_mix()) and put it back with HNBRDF_CHANGE_REPLACE. */
+#ifndef HNBRDF_EDIT_H
+#define HNBRDF_EDIT_H
+
+#include "hnbrdf/hnbrdf.h"
+
+#ifndef HNBRDF_EXPERIMENTAL
+#define HNBRDF_EXPERIMENTAL HNBRDF_API
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* What one change does. */
+typedef enum hnbrdf_change_kind {
+    HNBRDF_CHANGE_PUT = 0, /* add, or replace where the name is taken */
+    HNBRDF_CHANGE_ADD,     /* at the end; the name must be new */
+    HNBRDF_CHANGE_REPLACE, /* in its place; the name must be there */
+    HNBRDF_CHANGE_REMOVE,  /* those behind it move up by one */
+    HNBRDF_CHANGE_RENAME,  /* in its place; new_name must be free, or the name itself */
+    HNBRDF_CHANGE_LOBES    /* its sampling lobes alone; name NULL: those of every material */
+} hnbrdf_change_kind;
+
+/* The sampling lobes that a material gets. Only HNBRDF_LOBES_FIT takes time, some tens of
+ * milliseconds a material. */
+typedef enum hnbrdf_lobes_scheme {
+    HNBRDF_LOBES_KEEP = 0, /* those of `material`, or those that are there */
+    HNBRDF_LOBES_FIT,      /* hnbrdf_lobes_fit(): least variance */
+    HNBRDF_LOBES_PAPER,    /* hnbrdf_lobes_paper(): to compare with */
+    HNBRDF_LOBES_GUESS     /* none: hnbrdf_sample() guesses from kd and eta */
+} hnbrdf_lobes_scheme;
+
+/* Zero-initialise. The pointers need to live for the call only. */
+typedef struct hnbrdf_material_change {
+    hnbrdf_change_kind kind;
+    const char *name;                /* of the material */
+    const hnbrdf_material *material; /* PUT, ADD, REPLACE: passes hnbrdf_material_check() */
+    const char *new_name;            /* RENAME */
+    hnbrdf_lobes_scheme lobes;       /* PUT, ADD, REPLACE, LOBES */
+} hnbrdf_material_change;
+
+/* Zero-initialise for defaults. */
+typedef struct hnbrdf_edit_options {
+    /* memory for the new model and for the work; fitting lobes takes that of `model` */
+    hnbrdf_allocator allocator;
+    /* if set: called after every change and every fitted lobe, share from 0 to 1, with the name
+     * of the material; anything but 0 stops with HNBRDF_ERROR_CANCELLED */
+    int (*progress)(void *user, double share, const char *name);
+    void *progress_user;
+} hnbrdf_edit_options;
+
+/* The model with these changes, made in order, each seeing what those before it left. Names stay
+ * unique and legal after every change (as in hnbrdf_model_desc); a name that is not there or is
+ * taken, a material out of range, a limit passed or no material left at the end are errors, and
+ * the message names the material. The network, the constants and the variant are those of
+ * `model`, which stays as it is and need not outlive *out. Without changes *out is a copy. options
+ * may be NULL; *out is untouched on failure. */
+HNBRDF_EXPERIMENTAL hnbrdf_result hnbrdf_model_with_materials(
+    const hnbrdf_model *model, const hnbrdf_material_change *changes, int count,
+    const hnbrdf_edit_options *options, hnbrdf_model **out, hnbrdf_error *error);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
