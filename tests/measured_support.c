@@ -51,7 +51,7 @@ static size_t record_size(const test_field *field)
     return 2 + strlen(field->name) + 2 + 1 + 8 + 8 * (size_t)field->dims;
 }
 
-/* The formulas of FORMATS 6.2; index holds p, t, then the rest of the axes. */
+/* The formulas of the synthetic RGL files; index holds p, t, then the rest of the axes. */
 static double formula(const char *name, const uint64_t *index, test_circle circle)
 {
     static const double first[] = {0.0, -1.0, -1.0, -1.0}, last[] = {0.0, 1.0, 0.0, -0.5};

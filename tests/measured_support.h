@@ -25,7 +25,7 @@ void put_le(unsigned char *p, uint64_t value, int bytes);
 void put_float(unsigned char *p, float value);
 void put_double(unsigned char *p, double value);
 
-/* The parts of the phi_i circle that the synthetic RGL files of FORMATS 6.2 cover. */
+/* The parts of the phi_i circle that the synthetic RGL files cover. */
 typedef enum test_circle { TEST_ISOTROPIC, TEST_WHOLE, TEST_HALF, TEST_QUARTER } test_circle;
 
 /* A complete small RGL file; free() its data. */

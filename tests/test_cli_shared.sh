@@ -1,6 +1,6 @@
 #!/bin/sh
 # test_cli_shared.sh HNBRDF FILES SHARED: `hnbrdf eval` reproduces the reference loader on real RGL
-# files (FORMATS 6.1). Skipped (77) where the files are not.
+# files. Skipped (77) where the files are not.
 set -u
 shared=${HNBRDF_DATA_DIR:-$3}
 [ -f "$shared/data/rgl_checkpoints.csv" ] || { echo "skipped: no $shared/data"; exit 77; }

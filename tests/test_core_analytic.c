@@ -1,4 +1,4 @@
-/* test_core_analytic.c: the analytic part, compared with DESIGN section 2 written out in long
+/* test_core_analytic.c: the analytic part, compared with the formulas written out in long
  * double, and what must hold for any direction: conventions, symmetry, the horizon, bad numbers. */
 #include "core_support.h"
 
@@ -294,7 +294,7 @@ static void isotropic_analytic_does_not_see_the_azimuth(void **state)
     hnbrdf_model_free(model);
 }
 
-/* DESIGN 5: alpha, kd and eta each do what their name says. */
+/* alpha, kd and eta each do what their name says. */
 static void editing_moves_the_value_the_way_ggx_moves(void **state)
 {
     (void)state;

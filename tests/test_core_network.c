@@ -121,7 +121,7 @@ static void network_equals_its_definition_in_double(void **state)
                   share);
 }
 
-/* DESIGN 3.11 to the bit: the bias, the latent inputs, the directions, each in index order. */
+/* To the bit: the bias, the latent inputs, the directions, each in index order. */
 static void network_sums_in_the_canonical_order(void **state)
 {
     (void)state;

@@ -109,7 +109,7 @@ static void an_imported_model_is_what_the_text_says(void **state)
 }
 
 /* The matrices as printed, evaluated directly: bias, latent inputs, encoded directions, product by
- * product (DESIGN 3.11), which is what the core promises too: hence no tolerance. */
+ * product, which is what the core promises too: hence no tolerance. */
 static void evaluate(const brdf_sample *s, const float *latent, const float x[6], float out[64])
 {
     float values[64], sums[64];

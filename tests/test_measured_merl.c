@@ -1,5 +1,6 @@
-/* test_measured_merl.c: MERL tables are looked up bin by bin as FORMATS 2.3 says, invalid bins
- * are no measurements, and every broken file is refused with one line. The tables are made here. */
+/* test_measured_merl.c: MERL tables are looked up bin by bin as the authors' reader does, invalid
+ * bins are no measurements, and every broken file is refused with one line. The tables are made
+ * here. */
 #include "measured_support.h"
 
 static const double PI = 3.14159265358979323846;
@@ -77,7 +78,7 @@ static void the_centre_of_every_bin_finds_that_bin(void **state)
     assert_in_range(found, 1080000 / 7, 1120000 / 7); /* 76 % of the bins lie above the horizon */
 }
 
-/* The six pairs of FORMATS 6.3, degrees. */
+/* Six pairs and the bins that the published reader finds for them, degrees. */
 static void published_pairs_find_their_bins(void **state)
 {
     static const struct {

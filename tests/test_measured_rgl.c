@@ -1,4 +1,5 @@
-/* test_measured_rgl.c: RGL files are evaluated as FORMATS 3.5 says. The files are made here. */
+/* test_measured_rgl.c: RGL files are evaluated as the reference loader does. The files are made
+ * here. */
 #include "measured_support.h"
 
 static const double PI = 3.14159265358979323846;
@@ -10,7 +11,7 @@ typedef struct checkpoint {
     double wi[3], wo[3], fcos[3];
 } checkpoint;
 
-/* From the reference loader of the database on the same formulas, six digits (FORMATS 6.2). */
+/* From the reference loader of the database on the same formulas, six digits. */
 static const checkpoint CHECKPOINTS[] = {
     {TEST_ISOTROPIC,
      {0.383022219, 0.321393818, 0.866025388},
@@ -46,7 +47,7 @@ static const checkpoint CHECKPOINTS[] = {
      {0.25231, 0.30381, 0.207896}},
 };
 
-/* Tolerance: the reference computes in float (FORMATS 6.1 grants 1e-4; these agree to 3e-6) and
+/* Tolerance: the reference computes in float (1e-4 would do; these agree to 3e-6) and
  * prints six digits. */
 static void values_are_those_of_the_reference_loader(void **state)
 {
@@ -167,7 +168,7 @@ static void without_jacobian_the_colours_stand_alone(void **state)
 }
 
 /* The first and the last row of the tables both stand for a half vector that turns away from wi;
- * exactly there the first one holds (FORMATS 3.5, step 5). Tilting wo by 1e-6 moves f by less than
+ * exactly there the first one holds. Tilting wo by 1e-6 moves f by less than
  * 1e-4. */
 static void the_seam_of_the_azimuth_belongs_to_the_first_row(void **state)
 {

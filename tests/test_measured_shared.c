@@ -62,7 +62,7 @@ static double largest(const double f[3])
     return fmax(f[0], fmax(f[1], f[2]));
 }
 
-/* Tolerance of FORMATS 6.1: 1e-4 of the largest channel; the reference computes in float. */
+/* Tolerance: 1e-4 of the largest channel; the reference computes in float. */
 static void rgl_files_give_the_reference_values(void **state)
 {
     FILE *file = open_table("rgl_checkpoints.csv");

@@ -23,7 +23,7 @@ static void set_spectra(test_bytes *file, float value)
 /* ---- Spectra --------------------------------------------------------------------------------- */
 
 /* f wo.z at 400 to 700 nm from the reference loader of the database on the same formulas, six
- * digits, computed in float (FORMATS 6.2). */
+ * digits, computed in float. */
 static void spectra_are_those_of_the_reference_loader(void **state)
 {
     static const struct {

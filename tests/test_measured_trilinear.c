@@ -1,4 +1,4 @@
-/* test_measured_trilinear.c: the trilinear lookup in MERL tables (FORMATS 2.4): between samples
+/* test_measured_trilinear.c: the trilinear lookup in MERL tables: between samples
  * at bin centres or at lower edges, around the seam of phi_d, without the bins that hold no
  * measurement. */
 #include "measured_support.h"

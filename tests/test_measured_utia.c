@@ -1,5 +1,6 @@
-/* test_measured_utia.c: UTIA tables are looked up as FORMATS 4 says, in its three modes, and every
- * broken file is refused with one line. The tables are made here: no real one was at hand. */
+/* test_measured_utia.c: UTIA tables are looked up as the format's description says, in its three
+ * modes, and every broken file is refused with one line. The tables are made here: no real one
+ * was at hand. */
 #include "measured_support.h"
 
 static const double PI = 3.14159265358979323846;
@@ -20,7 +21,7 @@ static test_bytes constant_table(double value)
     return file;
 }
 
-/* The table of FORMATS 6.4. */
+/* A small table from a formula. */
 static test_bytes synthetic_table(void)
 {
     test_bytes file = constant_table(0.0);
@@ -66,7 +67,7 @@ static int eval_degrees(const hnbrdf_measured *measured, const double degrees[4]
 
 /* ---- Values ---------------------------------------------------------------------------------- */
 
-/* The rows of FORMATS 6.4; those of djb are dj_brdf's own. Tolerance: six digits are given,
+/* Values worked out by hand; those of djb are dj_brdf's own. Tolerance: six digits are given,
  * directions and samples are floats. */
 static void values_are_those_of_the_description(void **state)
 {
@@ -105,7 +106,7 @@ static void values_are_those_of_the_description(void **state)
     assert_true(worst < 5e-6);
 }
 
-/* FORMATS 6.4: (1,2,3,4,5) and (2,5,47,5,47) of (c, theta_i, phi_i, theta_v, phi_v). */
+/* Nodes (1,2,3,4,5) and (2,5,47,5,47) of (c, theta_i, phi_i, theta_v, phi_v). */
 static void nodes_give_their_samples(void **state)
 {
     hnbrdf_measured *measured = open_table(HNBRDF_UTIA_RAW);

@@ -139,7 +139,7 @@ static void constants_compare_to_their_closed_form(void **state)
 {
     (void)state;
     const float value[3] = {0.5f, 1.0f, 2.0f};
-    const double scale[3] = {1.0 / 1500.0, 1.15 / 1500.0, 1.66 / 1500.0}; /* FORMATS 2.1 */
+    const double scale[3] = {1.0 / 1500.0, 1.15 / 1500.0, 1.66 / 1500.0}; /* of MERL */
     hnbrdf_model *model = constant_model(value);
     hnbrdf_measured *measured = constant_merl(1500.0, 0);
     double smape = 0.0, mae = 0.0, mse = 0.0;

@@ -1,5 +1,5 @@
-/* oracle.c: DESIGN section 2 line by line, in real numbers of many digits. Slow, and meant to be
- * read. */
+/* oracle.c: the model of hnbrdf.h line by line, in real numbers of many digits. Slow, and meant
+ * to be read. */
 #include "check/oracle.h"
 
 #include "check/real.h"

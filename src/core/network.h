@@ -1,6 +1,6 @@
 /* network.h: the network, a plain MLP with HardGELU hidden layers. One canonical order of
- * summation: bias, latent inputs, encoded directions, each in index order, product by product
- * (DESIGN 3.11). */
+ * summation: bias, latent inputs, encoded directions, each in index order, product by
+ * product. */
 #ifndef HNBRDF_CORE_NETWORK_H
 #define HNBRDF_CORE_NETWORK_H
 

@@ -1,5 +1,5 @@
 /* safetensors.h: the container of model files: what lies where in it, shared by loading and saving.
- * u64 little-endian header length, JSON header, tensors one after the other (DESIGN section 6). */
+ * u64 little-endian header length, JSON header, tensors one after the other. */
 #ifndef HNBRDF_FILE_SAFETENSORS_H
 #define HNBRDF_FILE_SAFETENSORS_H
 

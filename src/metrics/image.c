@@ -1,6 +1,6 @@
 /* image.c: MAE, MSE and PSNR between two linear images, and what noise does to them; the peak of
- * PSNR is the reference's largest value, as a rendering in radiance has no fixed white (DESIGN
- * section 8). */
+ * PSNR is the reference's largest value, as a rendering in radiance has no fixed
+ * white. */
 #include "hnbrdf/metrics.h"
 
 #include <math.h>
