@@ -1,7 +1,9 @@
-# Floats are computed as floats, on every machine: the bits promised in hnbrdf.h depend on it. x87 registers
-# hold more, and GCC in ISO mode keeps to the C library's float_t where that is a double (s390x). Flags that
-# are taken for it go to all that is compiled here, ARITHMETIC_FLAGS.
+# Floats are computed as floats, on every machine: the bits promised in hnbrdf.h depend on it. x87
+# registers hold more, and GCC in ISO mode keeps to the C library's float_t where that is a double
+# (s390x). Flags that are taken for it go to all that is compiled here, ARITHMETIC_FLAGS.
 include(CheckCSourceCompiles)
+include(CMakePushCheckState)
+cmake_push_check_state(RESET)
 set(_floats_are_floats "#include <float.h>
   #if FLT_EVAL_METHOD > 0
   #error wider
@@ -22,4 +24,4 @@ if(NOT HNBRDF_ARITHMETIC_AS_IS)
     set(ARITHMETIC_FLAGS -fexcess-precision=fast)
   endif()
 endif()
-unset(CMAKE_REQUIRED_FLAGS)
+cmake_pop_check_state()

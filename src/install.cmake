@@ -1,4 +1,5 @@
-# What `cmake --install` puts where, and how others find it: find_package(hnbrdf) and pkg-config.
+# install.cmake: what `cmake --install` puts where, and how others find it: find_package(hnbrdf) and
+# pkg-config. Folders given relative to the prefix leave all of it movable; absolute ones are kept.
 include(CMakePackageConfigHelpers)
 
 get_property(HNBRDF_PARTS GLOBAL PROPERTY HNBRDF_PARTS)
@@ -26,19 +27,35 @@ endif()
 # find_package(hnbrdf)
 install(EXPORT hnbrdfTargets NAMESPACE hnbrdf:: DESTINATION ${_package_dir})
 set(HNBRDF_SHADER_DIR ${CMAKE_INSTALL_DATADIR}/hnbrdf)
-configure_package_config_file(src/hnbrdfConfig.cmake.in ${CMAKE_CURRENT_BINARY_DIR}/generated/hnbrdfConfig.cmake
+set(_generated ${CMAKE_CURRENT_BINARY_DIR}/generated)
+configure_package_config_file(src/hnbrdfConfig.cmake.in ${_generated}/hnbrdfConfig.cmake
   INSTALL_DESTINATION ${_package_dir} PATH_VARS HNBRDF_SHADER_DIR)
-write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/generated/hnbrdfConfigVersion.cmake
+write_basic_package_version_file(${_generated}/hnbrdfConfigVersion.cmake
   COMPATIBILITY SameMajorVersion)
-install(FILES ${CMAKE_CURRENT_BINARY_DIR}/generated/hnbrdfConfig.cmake
-  ${CMAKE_CURRENT_BINARY_DIR}/generated/hnbrdfConfigVersion.cmake DESTINATION ${_package_dir})
+install(FILES ${_generated}/hnbrdfConfig.cmake ${_generated}/hnbrdfConfigVersion.cmake
+  DESTINATION ${_package_dir})
 
-# pkg-config: one file a part, which find the prefix from their own place.
+# pkg-config: one file a part, which find the prefix from their own place where that is in the prefix.
 set(_about_hnbrdf "evaluate, sample, load and export hybrid neural-microfacet BRDFs")
 set(_about_hnbrdf_measured "measured and procedural BRDFs behind one interface")
 set(_about_hnbrdf_metrics "errors of BRDF models against measurements")
 set(_about_hnbrdf_fit "fit hybrid neural-microfacet BRDFs to measurements")
-file(RELATIVE_PATH PC_PREFIX "/${CMAKE_INSTALL_LIBDIR}/pkgconfig" "/")
+if(IS_ABSOLUTE "${CMAKE_INSTALL_LIBDIR}")
+  set(PC_PREFIX "${CMAKE_INSTALL_PREFIX}")
+else()
+  file(RELATIVE_PATH PC_PREFIX "/${CMAKE_INSTALL_LIBDIR}/pkgconfig" "/")
+  string(REGEX REPLACE "/$" "" PC_PREFIX "\${pcfiledir}/${PC_PREFIX}")
+endif()
+foreach(_name LIBDIR INCLUDEDIR)
+  set(PC_${_name} "${CMAKE_INSTALL_${_name}}")
+  if(NOT IS_ABSOLUTE "${PC_${_name}}")
+    set(PC_${_name} "\${prefix}/${PC_${_name}}")
+  endif()
+endforeach()
+set(PC_SHADERDIR "${HNBRDF_SHADER_DIR}")
+if(NOT IS_ABSOLUTE "${PC_SHADERDIR}")
+  set(PC_SHADERDIR "\${prefix}/${PC_SHADERDIR}")
+endif()
 foreach(PC_NAME ${HNBRDF_PARTS})
   set(PC_ABOUT ${_about_${PC_NAME}})
   get_target_property(PC_NEEDS ${PC_NAME}_shared HNBRDF_NEEDS)
@@ -47,7 +64,6 @@ foreach(PC_NAME ${HNBRDF_PARTS})
   string(REPLACE "Threads::Threads" "${CMAKE_THREAD_LIBS_INIT}" PC_LIBS "${_links}")
   list(TRANSFORM PC_LIBS REPLACE "^([^-])" "-l\\1")
   string(REPLACE ";" " " PC_LIBS "${PC_LIBS}")
-  configure_file(src/hnbrdf.pc.in ${CMAKE_CURRENT_BINARY_DIR}/generated/${PC_NAME}.pc @ONLY)
-  install(FILES ${CMAKE_CURRENT_BINARY_DIR}/generated/${PC_NAME}.pc
-    DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+  configure_file(src/hnbrdf.pc.in ${_generated}/${PC_NAME}.pc @ONLY)
+  install(FILES ${_generated}/${PC_NAME}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 endforeach()

@@ -1,10 +1,17 @@
-# The hnbrdf command and the rooms that only it uses: static libraries, so that tests need not compile
-# them again; none is installed.
+# tools.cmake: the hnbrdf command and the rooms that only it uses: static libraries, so that tests need
+# not compile them again; none is installed.
 # hnbrdf_tool_room(NAME NEEDS targets...): hnbrdf_NAME of the files of the room.
 function(hnbrdf_tool_room name)
   add_library(hnbrdf_${name} STATIC EXCLUDE_FROM_ALL ${HNBRDF_ROOM_${name}})
   target_link_libraries(hnbrdf_${name} PRIVATE hnbrdf_flags PUBLIC ${ARGN})
   target_compile_definitions(hnbrdf_${name} PRIVATE _POSIX_C_SOURCE=200809L)
+endfunction()
+
+# hnbrdf_program(NAME sources...): the target hnbrdf_NAME, a program called NAME, for tests.
+function(hnbrdf_program name)
+  add_executable(hnbrdf_${name} ${ARGN})
+  target_link_libraries(hnbrdf_${name} PRIVATE hnbrdf_flags)
+  set_target_properties(hnbrdf_${name} PROPERTIES OUTPUT_NAME ${name})
 endfunction()
 
 hnbrdf_tool_room(check hnbrdf_measured_static)
@@ -25,19 +32,23 @@ endif()
 
 # What the BRDF is by its formulas, in quadruple precision where there is one.
 include(CheckCSourceCompiles)
+include(CMakePushCheckState)
+cmake_push_check_state(RESET)
 set(CMAKE_REQUIRED_LIBRARIES quadmath)
 check_c_source_compiles("#include <quadmath.h>
   int main(void) { __float128 x = 2; return (int)sqrtq(x); }" HNBRDF_HAS_QUADMATH)
-unset(CMAKE_REQUIRED_LIBRARIES)
+cmake_pop_check_state()
 if(HNBRDF_HAS_QUADMATH)
   target_compile_definitions(hnbrdf_check PRIVATE HNBRDF_ORACLE_QUAD)
   target_link_libraries(hnbrdf_check PRIVATE quadmath)
 endif()
 
 add_executable(hnbrdf_cli ${HNBRDF_ROOM_cli} src/base/text_buffer.c)
-set_target_properties(hnbrdf_cli PROPERTIES OUTPUT_NAME hnbrdf RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR})
+set_target_properties(hnbrdf_cli PROPERTIES OUTPUT_NAME hnbrdf
+  RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR})
 target_link_libraries(hnbrdf_cli PRIVATE hnbrdf_flags hnbrdf_scene hnbrdf_plot hnbrdf_check
   hnbrdf_fit_static hnbrdf_metrics_static)
+target_link_options(hnbrdf_cli PRIVATE ${HNBRDF_LINK_FLAGS})
 target_compile_definitions(hnbrdf_cli PRIVATE _POSIX_C_SOURCE=200809L)
 if(HNBRDF_WITH_VULKAN)
   # What the harness compiles, as texts named hnbrdf_ and the file's name with _ for the dot.
@@ -47,8 +58,8 @@ if(HNBRDF_WITH_VULKAN)
     string(REPLACE "." "_" symbol ${shader})
     set(text ${CMAKE_CURRENT_BINARY_DIR}/generated/${symbol}.c)
     add_custom_command(OUTPUT ${text}
-      COMMAND ${CMAKE_COMMAND} -DINPUT=${CMAKE_CURRENT_SOURCE_DIR}/shaders/${shader} -DOUTPUT=${text}
-              -DNAME=hnbrdf_${symbol} -P ${CMAKE_CURRENT_SOURCE_DIR}/src/embed.cmake
+      COMMAND ${CMAKE_COMMAND} -DINPUT=${CMAKE_CURRENT_SOURCE_DIR}/shaders/${shader}
+              -DOUTPUT=${text} -DNAME=hnbrdf_${symbol} -P ${CMAKE_CURRENT_SOURCE_DIR}/src/embed.cmake
       DEPENDS shaders/${shader} src/embed.cmake VERBATIM)
     list(APPEND HNBRDF_SHADER_TEXTS ${text})
   endforeach()

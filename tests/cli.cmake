@@ -3,11 +3,11 @@ hnbrdf_test(test_metrics test_metrics.c)
 
 # hnbrdf_cli_test(NAME [arguments...]): NAME.sh run with the command, and the program that writes what
 # it reads.
-add_executable(test_cli_files test_cli_files.c)
-target_link_libraries(test_cli_files PRIVATE hnbrdf_flags hnbrdf_measured_static)
+hnbrdf_program(test_cli_files test_cli_files.c)
+target_link_libraries(hnbrdf_test_cli_files PRIVATE hnbrdf_measured_static)
 function(hnbrdf_cli_test name)
   add_test(NAME ${name} COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/${name}.sh
-    $<TARGET_FILE:hnbrdf_cli> $<TARGET_FILE:test_cli_files> ${ARGN})
+    $<TARGET_FILE:hnbrdf_cli> $<TARGET_FILE:hnbrdf_test_cli_files> ${ARGN})
   set_tests_properties(${name} PROPERTIES SKIP_RETURN_CODE 77)
 endfunction()
 hnbrdf_cli_test(test_cli)

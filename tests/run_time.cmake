@@ -3,5 +3,5 @@ hnbrdf_cli_test(test_bench)
 if(HNBRDF_WITH_VULKAN)
   hnbrdf_test(test_bench_peer test_bench_peer.c gpu_support.c ${PROJECT_SOURCE_DIR}/src/cli/bench_peer.c
     ${PROJECT_SOURCE_DIR}/src/base/text_buffer.c)
-  target_link_libraries(test_bench_peer PRIVATE hnbrdf_gpu ${CMAKE_DL_LIBS})
+  target_link_libraries(hnbrdf_test_bench_peer PRIVATE hnbrdf_gpu ${CMAKE_DL_LIBS})
 endif()

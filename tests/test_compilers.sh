@@ -21,8 +21,8 @@ for compiler in gcc clang; do
     for level in 0 1 2 3; do
         program=$scratch/$compiler$level
         $compiler -std=c11 -O$level -ffp-contract=off -DHNBRDF_STATIC -I"$source/include" -I"$source/src" \
-            -I"$source/tests" "$source"/src/core/[!k]*.c "$source/src/core/kernel_plain.c" "$source/src/core/create.c" \
-            "$source/src/core/choose_kernel.c" "$source/src/base/text.c" "$source/tests/test_core_variants.c" \
+            -I"$source/tests" "$source"/src/core/[!k]*.c "$source/src/core/kernel_plain.c" \
+            "$source"/src/model/*.c "$source/src/base/text.c" "$source/tests/test_core_variants.c" \
             "$source/tests/variants_sweep.c" -lm -o "$program" > "$scratch/log" 2>&1 || {
             cat "$scratch/log"
             fail "$compiler -O$level: does not compile"

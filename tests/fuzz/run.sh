@@ -49,7 +49,7 @@ mkdir -p "$build"
     CC=clang cmake -S "$root" -B "$build" $options -DHNBRDF_BUILD_FUZZERS=ON -DHNBRDF_BUILD_FIT=ON -DHNBRDF_BUILD_CLI=ON \
         -DHNBRDF_BUILD_TESTS=OFF -DHNBRDF_BUILD_EXAMPLES=OFF -DHNBRDF_WITH_VULKAN=OFF -DHNBRDF_WITH_VARIANTS=OFF \
         -DCMAKE_BUILD_TYPE=None &&
-        cmake --build "$build" --target fuzzers -j "$(getconf _NPROCESSORS_ONLN 2> /dev/null || echo 2)"
+        cmake --build "$build" --target hnbrdf_fuzzers -j "$(getconf _NPROCESSORS_ONLN 2> /dev/null || echo 2)"
 } > "$build/build.log" 2>&1 || {
     grep -E -A 8 'error:|Error at' "$build/build.log" | head -n 40 >&2
     echo "run.sh: building the fuzzers failed, all of it in $build/build.log" >&2
