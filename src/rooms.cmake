@@ -21,8 +21,8 @@ hnbrdf_room(glsl
 hnbrdf_room(lobes
   fit_lobes.c)
 hnbrdf_room(measured
-  builtin.c builtin_film.c builtin_materials.c cie.c custom.c measured.c merl.c
-  merl_known.c pairs.c rgl.c rgl_eval.c sha256.c tensor_file.c utia.c)
+  builtin.c builtin_film.c builtin_materials.c cie.c custom.c formats.c measured.c merl.c
+  merl_known.c pairs.c read_file.c rgl.c rgl_eval.c sha256.c tensor_file.c utia.c)
 hnbrdf_room(metrics
   compare.c image.c physics.c)
 hnbrdf_room(fit
@@ -54,7 +54,8 @@ hnbrdf_room(cli
   cmd_mix.c cmd_render.c cmd_report.c cmd_report_images.c cmd_report_sampling.c
   cmd_scene.c cmd_sheet.c cmd_stability.c cmd_verify.c compare_images.c csv.c fit_log.c
   fit_speed.c gallery_choose.c gallery_pages.c gallery_strips.c info_physics.c
-  loss_plot.c main.c output.c peak.c picture.c progress.c render_gpu.c render_mesh.c
+  loss_plot.c main.c output.c peak.c picture.c progress.c reading.c render_gpu.c
+  render_mesh.c
   report_fit.c report_ggx.c report_grid.c report_image_tables.c report_images.c
   report_options.c report_plot.c report_rows.c report_tables.c sampling_measure.c
   sampling_strips.c sampling_write.c scene_compare.c scene_job.c sources.c

@@ -271,11 +271,93 @@ static void the_length_of_directions_does_not_matter(void **state)
     free(file.data);
 }
 
+/* ---- The table of formats -------------------------------------------------------------------- */
+
+/* A format that is forgotten in the table has no name; a name stands once. */
+static void every_format_has_one_row(void **state)
+{
+    (void)state;
+    int rows = 0;
+    while (hnbrdf_measured_format_at(rows))
+        rows++;
+    assert_null(hnbrdf_measured_format_at(-1));
+    for (int format = HNBRDF_MEASURED_BUILTIN; format <= HNBRDF_MEASURED_CUSTOM; format++) {
+        int found = 0;
+        for (int k = 0; k < rows; k++) {
+            const hnbrdf_measured_format_info *info = hnbrdf_measured_format_at(k);
+            if ((int)info->format != format)
+                continue;
+            found++;
+            assert_string_equal(hnbrdf_measured_format_name((hnbrdf_measured_format)format),
+                                info->name);
+            assert_true((info->files != NULL) == (info->endings != NULL));
+        }
+        if (found != 1)
+            fail_msg("format %d has %d rows", format, found);
+    }
+    assert_int_equal(rows, HNBRDF_MEASURED_CUSTOM + 1);
+    assert_null(hnbrdf_measured_format_name((hnbrdf_measured_format)(HNBRDF_MEASURED_CUSTOM + 1)));
+    assert_null(hnbrdf_measured_format_name((hnbrdf_measured_format)-1));
+}
+
+static void files_are_known_by_their_endings(void **state)
+{
+    static const struct {
+        const char *name;
+        int format; /* -1: of none */
+        size_t stem;
+    } cases[] = {{"a.binary", HNBRDF_MEASURED_MERL, 1},
+                 {"a_rgb.bsdf", HNBRDF_MEASURED_RGL, 5},
+                 {"m01.bin", HNBRDF_MEASURED_UTIA, 3},
+                 {".bin", -1, 0},
+                 {"a.binary.txt", -1, 0},
+                 {"", -1, 0}};
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        size_t stem = 99;
+        int part = 99;
+        const hnbrdf_measured_format_info *info =
+            hnbrdf_measured_format_of_file(cases[i].name, &stem, &part);
+        assert_int_equal(info ? (int)info->format : -1, cases[i].format);
+        assert_int_equal(stem, info ? cases[i].stem : 99);
+        assert_int_equal(part, info ? -1 : 99);
+        assert_true(hnbrdf_measured_format_of_file(cases[i].name, NULL, NULL) == info);
+    }
+}
+
+/* Each option stands for one member, and 0 in all members is the default. */
+static void options_are_described_once(void **state)
+{
+    const hnbrdf_measured_format_info *info;
+    hnbrdf_measured_options zeros = {0};
+    size_t offsets[32];
+    int count = 0;
+    (void)state;
+    for (int row = 0; (info = hnbrdf_measured_format_at(row)); row++)
+        for (int k = 0; k < info->option_count; k++) {
+            const hnbrdf_measured_option *option = &info->options[k];
+            assert_true(strlen(option->name) > 2 && strlen(option->help) > 10);
+            assert_true(option->offset + sizeof(int) <= sizeof zeros);
+            assert_true(!option->word || (option->word(0) && !option->word(-1)));
+            for (int i = 0; i < count; i++)
+                assert_true(offsets[i] != option->offset);
+            offsets[count++] = option->offset;
+        }
+    assert_int_equal(count, 7);
+    assert_string_equal(hnbrdf_merl_lookup_name(HNBRDF_MERL_TRILINEAR), "trilinear");
+    assert_string_equal(hnbrdf_merl_node_name(HNBRDF_MERL_EDGE), "edge");
+    assert_string_equal(hnbrdf_utia_mode_name(HNBRDF_UTIA_SRGB), "srgb");
+    assert_null(hnbrdf_utia_mode_name((hnbrdf_utia_mode)3));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_file_and_its_bytes_give_the_same_values),
         cmocka_unit_test(missing_empty_and_foreign_files_are_refused),
+        cmocka_unit_test(every_format_has_one_row),
+        cmocka_unit_test(files_are_known_by_their_endings),
+        cmocka_unit_test(options_are_described_once),
         cmocka_unit_test(files_above_the_limit_are_refused_at_the_limit),
         cmocka_unit_test(a_huge_file_is_refused_without_reading_it_all),
         cmocka_unit_test(files_of_several_chunks_are_read_whole),

@@ -27,7 +27,8 @@ typedef enum hnbrdf_measured_format {
     HNBRDF_MEASURED_CUSTOM
 } hnbrdf_measured_format;
 
-/* "builtin", "MERL", "RGL", "UTIA", "custom"; NULL for any other value. */
+/* "builtin", "MERL", "RGL", "UTIA", "custom"; NULL for any other value. So do the other functions
+ * that name a value of an enum here: its word, and NULL for a value that is none. */
 HNBRDF_API const char *hnbrdf_measured_format_name(hnbrdf_measured_format format);
 
 /* One measured material. Immutable after opening, may be shared between threads. */
@@ -38,6 +39,9 @@ typedef enum hnbrdf_merl_lookup {
     HNBRDF_MERL_TRILINEAR    /* between 8 bins; those without a measurement are left out */
 } hnbrdf_merl_lookup;
 
+/* "nearest", "trilinear" */
+HNBRDF_API const char *hnbrdf_merl_lookup_name(hnbrdf_merl_lookup lookup);
+
 /* Where in its bin a sample counts as taken, for the trilinear lookup. No source settles it; the
  * choice moves theta_h by half a bin (21 % at 0.3, 5 % at 4.4 degrees), enough to bias a fitted
  * roughness. */
@@ -45,6 +49,9 @@ typedef enum hnbrdf_merl_node {
     HNBRDF_MERL_CENTRE = 0,
     HNBRDF_MERL_EDGE /* the lower edge in all three angles */
 } hnbrdf_merl_node;
+
+/* "centre", "edge" */
+HNBRDF_API const char *hnbrdf_merl_node_name(hnbrdf_merl_node node);
 
 /* What the numbers of a UTIA file mean. Public readers disagree, so the absolute scale of UTIA
  * data is uncertain. v: a sample; f is never negative. */
@@ -55,6 +62,9 @@ typedef enum hnbrdf_utia_mode {
     HNBRDF_UTIA_RAW, /* f = v */
     HNBRDF_UTIA_SRGB /* f = v through the inverse sRGB curve, sample by sample */
 } hnbrdf_utia_mode;
+
+/* "djb", "raw", "srgb" */
+HNBRDF_API const char *hnbrdf_utia_mode_name(hnbrdf_utia_mode mode);
 
 /* Zero-initialise for defaults. A value outside its range is HNBRDF_ERROR_ARGUMENT on opening. */
 typedef struct hnbrdf_measured_options {
@@ -94,6 +104,45 @@ HNBRDF_API hnbrdf_result hnbrdf_measured_open_memory(const void *data, size_t si
                                                      const hnbrdf_measured_options *options,
                                                      hnbrdf_measured **measured,
                                                      hnbrdf_error *error);
+
+/* ---- The formats, for tools that look for files and offer options ---------------------------- */
+
+/* One option of a format: a member of hnbrdf_measured_options as a command line offers it. */
+typedef struct hnbrdf_measured_option {
+    const char *name; /* "merl-node" */
+    const char *help; /* one line with the default */
+    size_t offset;    /* of the member: an enum, a double or an int that is 0 or 1 */
+    /* Of an enum: the word of each of its values, from 0 on, and NULL past the last; else NULL. */
+    const char *(*word)(int value);
+    /* Of a double: what 0 stands for, and the range that makes sense; else all 0. */
+    double usual, low, high;
+    const char *needs;  /* the option without which this one has no effect, or NULL */
+    int makes_negative; /* 1: it allows negative values, which models and fits do not know */
+} hnbrdf_measured_option;
+
+typedef struct hnbrdf_measured_format_info {
+    hnbrdf_measured_format format;
+    const char *name;  /* as hnbrdf_measured_format_name() */
+    const char *files; /* what messages call its files: "MERL .binary"; NULL: it has none */
+    /* How the names of its files end (".binary"), the last NULL. NULL: it has no files. */
+    const char *const *endings;
+    /* The same where one material lies in several files: any of them opens all. NULL: never. */
+    const char *const *part_endings;
+    const hnbrdf_measured_option *options;
+    int option_count;
+    /* Why this build reads not all of its files, or NULL. */
+    const char *limits;
+} hnbrdf_measured_format_info;
+
+/* The formats in the order in which files are tried, index 0 on; NULL past the last. */
+HNBRDF_API const hnbrdf_measured_format_info *hnbrdf_measured_format_at(int index);
+/* The format whose files end like this name, or NULL. *stem is the length of the name without its
+ * ending, *part the number of the ending among part_endings, or -1 for a file that is whole; both
+ * may be NULL. For looking through directories; opening goes by content. */
+HNBRDF_API const hnbrdf_measured_format_info *
+hnbrdf_measured_format_of_file(const char *name, size_t *stem, int *part);
+
+/* ---- Built-in materials and your own --------------------------------------------------------- */
 
 /* The built-in procedural materials, index 0 to hnbrdf_measured_builtin_count() - 1: formulas
  * that hold what measurements contain and one GGX lobe cannot follow. NULL name when index is out
@@ -167,7 +216,7 @@ typedef enum hnbrdf_sampler {
                                    phi_h uniform too, which only anisotropic data notice. */
 } hnbrdf_sampler;
 
-/* "uniform", "cosine", "grid"; NULL for any other value. */
+/* "uniform", "cosine", "grid" */
 HNBRDF_API const char *hnbrdf_sampler_name(hnbrdf_sampler sampler);
 
 /* PCG32 (O'Neill 2014); any state is valid, the lowest bit of the stream counts as set. */

@@ -116,6 +116,31 @@ const char *cli_guess_nearest(const cli_guess *guess)
     return guess->nearest && guess->distance <= 1 + strlen(guess->word) / 4 ? guess->nearest : NULL;
 }
 
+/* ---- Tables ---------------------------------------------------------------------------------- */
+
+/* Option k of a table and of the tables in it, or NULL past the last. */
+static const cli_option *option_at(const cli_option *options, int k)
+{
+    for (const cli_option *option = options; option->name; option++) {
+        const cli_option *inside = option->type == CLI_TABLE ? option->value : NULL;
+        if (!inside && k-- == 0)
+            return option;
+        for (; inside && inside->name; inside++)
+            if (k-- == 0)
+                return inside;
+    }
+    return NULL;
+}
+
+/* Does the table hold that of the options for reading measured files? */
+static int reads_measured(const cli_option *options)
+{
+    for (const cli_option *option = options; option->name; option++)
+        if (option->type == CLI_TABLE && option->value == (const void *)cli_reading_table(0))
+            return 1;
+    return 0;
+}
+
 /* ---- Help ------------------------------------------------------------------------------------ */
 
 /* Words of text from `column` on, wrapped at HELP_COLUMNS and indented to `column`. */
@@ -167,19 +192,31 @@ static void print_indented(const char *text)
     }
 }
 
+static void print_measured_files(void)
+{
+    char files[256];
+    cli_measured_files(files, sizeof files, " and ");
+    int column = printf("\nMeasured files: ");
+    print_wrapped(files, column - 1);
+}
+
 static void print_help(const cli_command *command, const cli_option *options)
 {
     static const cli_option help = {"help", 'h', CLI_FLAG, NULL, 0, 0, NULL, "show this help"};
+    const cli_option *option;
     int width = (int)strlen("--help");
-    for (const cli_option *option = options; option->name; option++) {
+    for (int k = 0; (option = option_at(options, k)); k++) {
         char text[96];
         spell_option(option, text, sizeof text);
         width = (int)strlen(text) > width ? (int)strlen(text) : width;
     }
     int column = printf("usage: hnbrdf %s ", command->name);
     print_wrapped(command->synopsis, column);
-    printf("\n%s\n\noptions:\n", command->about);
-    for (const cli_option *option = options; option->name; option++)
+    printf("\n%s\n", command->about);
+    if (reads_measured(options))
+        print_measured_files();
+    printf("\noptions:\n");
+    for (int k = 0; (option = option_at(options, k)); k++)
         print_option(option, width);
     print_option(&help, width);
     printf("\nexamples:\n");
@@ -276,6 +313,7 @@ static int set_option(const cli_command *command, const cli_option *option, cons
         return -1;
     case CLI_INT:
     case CLI_REAL:
+    case CLI_TABLE: /* never found */
         break;
     }
     return set_number(command, option, text);
@@ -283,7 +321,8 @@ static int set_option(const cli_command *command, const cli_option *option, cons
 
 static const cli_option *find_option(const cli_option *options, const char *argument)
 {
-    for (const cli_option *option = options; option->name; option++) {
+    const cli_option *option;
+    for (int k = 0; (option = option_at(options, k)); k++) {
         size_t length = strlen(option->name);
         if (argument[1] == '-') {
             if (strncmp(argument + 2, option->name, length) == 0 &&
@@ -302,7 +341,8 @@ static int fail_unknown(const cli_command *command, const cli_option *options, c
     cli_guess guess;
     snprintf(name, sizeof name, "%.*s", (int)strcspn(argument, "="), argument);
     cli_guess_begin(&guess, name + strspn(name, "-"));
-    for (const cli_option *option = options; option->name; option++)
+    const cli_option *option;
+    for (int k = 0; (option = option_at(options, k)); k++)
         cli_guess_offer(&guess, option->name);
     cli_guess_offer(&guess, "help");
     const char *nearest = cli_guess_nearest(&guess);

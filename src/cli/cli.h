@@ -34,12 +34,13 @@ int cmd_stability(int argc, char **argv);
 /* ---- Options ------------------------------------------------------------------------------------
  * A  * command describes itself once; --help, parsing and messages come from that. */
 typedef enum cli_type {
-    CLI_FLAG,  /* int *: set to 1 */
-    CLI_TEXT,  /* const char **: points into argv */
-    CLI_INT,   /* long *: decimal integer */
-    CLI_REAL,  /* double *: finite decimal number, '.' whatever the locale */
-    CLI_NET,   /* int[2]: HxN, as in 32x2 */
-    CLI_CHOICE /* int *: which word of `argument`, "a|b|c", from 0 */
+    CLI_FLAG,   /* int *: set to 1 */
+    CLI_TEXT,   /* const char **: points into argv */
+    CLI_INT,    /* long *: decimal integer */
+    CLI_REAL,   /* double *: finite decimal number, '.' whatever the locale */
+    CLI_NET,    /* int[2]: HxN, as in 32x2 */
+    CLI_CHOICE, /* int *: which word of `argument`, "a|b|c", from 0 */
+    CLI_TABLE   /* const cli_option *: the options of another table, here among these */
 } cli_type;
 
 typedef struct cli_option {
@@ -90,45 +91,29 @@ int cli_parse_real(const char *text, double *value);
 /* What a 0 for --threads stands for: the processors that are online. */
 int cli_processors(void);
 
-/* ---- Reading measured files ---------------------------------------------------------------------
- * The options of  * measured.h, as the commands that open measured files offer them. What is set
- * here holds for  * every file the process opens; each such command has CLI_READING_OPTIONS in
- * its table. */
-typedef struct cli_reading {
-    int merl, merl_node, utia; /* values of the enums of measured.h */
-    double utia_scale;
-    int utia_no_extrapolate, keep_sign, spectra;
-    int merl_identify; /* no option: for commands that tell about files */
-} cli_reading;
-extern cli_reading cli_read;
-/* The same as measured.h wants it. */
-hnbrdf_measured_options cli_reading_options(void);
+/* ---- Reading measured files ------------------------------------------------------------------ */
+
+/* As the commands that open measured files were told; holds for every file the process opens. Each
+ * such command has CLI_READING_OPTIONS in its table: those of the library's table of formats.
+ * merl_identify is no option: for commands that tell about files. */
+extern hnbrdf_measured_options cli_read;
+/* The options without, or only, those that make negative values. */
+const cli_option *cli_reading_table(int negative);
 /* A line on stdout with the options that are not the default; nothing if all are. */
 void cli_print_reading(void);
+/* "RGL .bsdf, MERL .binary or UTIA .bin", with `last` (" or ") before the last. */
+void cli_measured_files(char *text, size_t size, const char *last);
 
 /* clang-format off */
-#define CLI_READING_OPTIONS \
-    {"merl", 0, CLI_CHOICE, &cli_read.merl, 0, 0, "nearest|trilinear", \
-     "lookup in MERL files (default nearest)"}, \
-    {"merl-node", 0, CLI_CHOICE, &cli_read.merl_node, 0, 0, "centre|edge", \
-     "where in its bin a MERL sample lies, for trilinear (default centre)"}, \
-    {"utia", 0, CLI_CHOICE, &cli_read.utia, 0, 0, "djb|raw|srgb", \
-     "what the numbers in UTIA files mean; their scale is uncertain (default djb)"}, \
-    {"utia-scale", 0, CLI_REAL, &cli_read.utia_scale, 1e-6, 1e6, "X", \
-     "factor on UTIA values (default 1)"}, \
-    {"utia-no-extrapolate", 0, CLI_FLAG, &cli_read.utia_no_extrapolate, 0, 0, NULL, \
-     "hold UTIA values beyond 75 degrees (default: go on linearly)"}, \
-    {"spectra", 0, CLI_FLAG, &cli_read.spectra, 0, 0, NULL, \
-     "RGL files that have RGB and spectra: use the spectra"}
+#define CLI_READING_OPTIONS {"", 0, CLI_TABLE, (void *)cli_reading_table(0), 0, 0, NULL, NULL}
 /* Not for `fit`: a model is never negative. */
-#define CLI_SIGNED_OPTION \
-    {"signed", 0, CLI_FLAG, &cli_read.keep_sign, 0, 0, NULL, \
-     "keep negative values of RGL files: colours outside the gamut (default: clipped to 0)"}
+#define CLI_SIGNED_OPTION {"", 0, CLI_TABLE, (void *)cli_reading_table(1), 0, 0, NULL, NULL}
 /* clang-format on */
 
-/* ---- Sources and data ---------------------------------------------------------------------------
- * DATA arguments:  * "builtin" (all built-in materials), "builtin:NAME", files, or directories
- * (every .bsdf, .binary  * and .bin file in them, in byte order of their names). */
+/* ---- Sources and data ------------------------------------------------------------------------ */
+
+/* DATA arguments: "builtin" (all built-in materials), "builtin:NAME", files, or directories (every
+ * file in them with the ending of a measured format, in byte order of their names). */
 typedef struct cli_data {
     hnbrdf_measured **items;
     int count;

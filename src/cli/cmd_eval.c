@@ -10,9 +10,8 @@
 static const cli_command command = {
     "eval",
     "SOURCE [--material NAME] [-i FILE] [-o FILE]",
-    "Evaluates a BRDF for pairs of directions. SOURCE is a model file, a measured file (MERL "
-    ".binary,\n"
-    "RGL .bsdf, UTIA .bin) or builtin:NAME.\n"
+    "Evaluates a BRDF for pairs of directions. SOURCE is a model file, a measured file or\n"
+    "builtin:NAME.\n"
     "\n"
     "In:  CSV with the columns wi_x,wi_y,wi_z,wo_x,wo_y,wo_z: unit vectors in the shading frame "
     "(normal\n"

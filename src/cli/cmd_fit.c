@@ -14,7 +14,7 @@ static const cli_command command = {
     "fit", "DATA... [options] -o MODEL.safetensors",
     "Fit one model to measured materials: GGX for each of them, then a small network and latent "
     "codes\n"
-    "that learn what GGX misses. DATA is `builtin`, builtin:NAME, files (.bsdf, .binary, .bin)\n"
+    "that learn what GGX misses. DATA is `builtin`, builtin:NAME, measured files\n"
     "or directories.\n"
     "The result depends on the data, the options and the seed, not on the number of threads; a "
     "fit\n"

@@ -9,8 +9,8 @@
 static const cli_command command = {
     "info",
     "SOURCE [--json]",
-    "Tells what SOURCE holds: a model file, a measured file (MERL .binary, RGL .bsdf, UTIA .bin),\n"
-    "builtin:NAME, builtin, or a directory of measured files. The checksum of a single MERL file "
+    "Tells what SOURCE holds: a model file, a measured file, builtin:NAME,\n"
+    " builtin, or a directory of measured files. The checksum of a single MERL file "
     "is compared\n"
     "with those of the 100 published ones.\n"
     "\n"

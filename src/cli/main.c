@@ -44,19 +44,21 @@ static void print_overview(FILE *file)
           file);
     for (int k = 0; k < SUBCOMMANDS; k++)
         fprintf(file, "  %-9s  %s\n", subcommands[k].name, subcommands[k].about);
-    fputs(
-        "\n"
-        "DATA is `builtin` (procedural materials), MERL .binary, RGL .bsdf or UTIA .bin files, or\n"
-        "directories of them. A material is named after its file. `hnbrdf COMMAND --help` tells "
-        "more.\n"
-        "\n"
-        "examples:\n"
-        "  hnbrdf fit builtin -o model.safetensors\n"
-        "  hnbrdf compare model.safetensors builtin\n"
-        "  hnbrdf info model.safetensors\n"
-        "  hnbrdf export model.safetensors -o scene.glsl\n"
-        "  hnbrdf verify model.safetensors\n",
-        file);
+    char files[256];
+    cli_measured_files(files, sizeof files, " or ");
+    fprintf(file,
+            "\nDATA is `builtin` (procedural materials), files or directories of them:\n%s.\n",
+            files);
+    fputs("A material is named after its file. `hnbrdf COMMAND --help` tells "
+          "more.\n"
+          "\n"
+          "examples:\n"
+          "  hnbrdf fit builtin -o model.safetensors\n"
+          "  hnbrdf compare model.safetensors builtin\n"
+          "  hnbrdf info model.safetensors\n"
+          "  hnbrdf export model.safetensors -o scene.glsl\n"
+          "  hnbrdf verify model.safetensors\n",
+          file);
 }
 
 static const subcommand *find_subcommand(const char *name)

@@ -35,8 +35,7 @@ int scene_files_render(const scene_files *files, const scene_job *job, render_sh
 {
     hnbrdf_error error;
     render_loaded loaded;
-    const hnbrdf_measured_options reading = cli_reading_options();
-    if (render_description_load(&files->description, show, folder, &reading, &loaded, &error) !=
+    if (render_description_load(&files->description, show, folder, &cli_read, &loaded, &error) !=
         HNBRDF_OK)
         return cli_fail("%s", error.text);
     scene_job whole = *job;

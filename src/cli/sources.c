@@ -90,40 +90,6 @@ static int open_builtin(int index, hnbrdf_measured **measured)
     return CLI_OK;
 }
 
-/* ---- Reading options ------------------------------------------------------------------------- */
-
-cli_reading cli_read = {.utia_scale = 1.0};
-
-hnbrdf_measured_options cli_reading_options(void)
-{
-    return (hnbrdf_measured_options){.merl_lookup = (hnbrdf_merl_lookup)cli_read.merl,
-                                     .merl_node = (hnbrdf_merl_node)cli_read.merl_node,
-                                     .merl_identify = cli_read.merl_identify,
-                                     .rgl_signed = cli_read.keep_sign,
-                                     .rgl_spectra = cli_read.spectra,
-                                     .utia_mode = (hnbrdf_utia_mode)cli_read.utia,
-                                     .utia_scale = cli_read.utia_scale,
-                                     .utia_no_extrapolate = cli_read.utia_no_extrapolate};
-}
-
-void cli_print_reading(void)
-{
-    static const char *const utia_modes[] = {"djb", "raw", "srgb"};
-    const cli_reading *r = &cli_read;
-    if (!r->merl && !r->utia && r->utia_scale == 1.0 && !r->utia_no_extrapolate && !r->spectra &&
-        !r->keep_sign)
-        return;
-    printf("measured files read with");
-    if (r->merl)
-        printf(" --merl trilinear --merl-node %s", r->merl_node ? "edge" : "centre");
-    if (r->utia)
-        printf(" --utia %s", utia_modes[r->utia]);
-    if (r->utia_scale != 1.0)
-        printf(" --utia-scale %.9g", r->utia_scale);
-    printf("%s%s%s\n", r->utia_no_extrapolate ? " --utia-no-extrapolate" : "",
-           r->spectra ? " --spectra" : "", r->keep_sign ? " --signed" : "");
-}
-
 /* ---- Recognising files ----------------------------------------------------------------------- */
 
 static int has_extension(const char *path, const char *extension)
@@ -177,8 +143,7 @@ static int open_measured_file(const char *path, hnbrdf_measured **measured)
         return fail_missing(path);
     if (has_extension(path, ".brdf"))
         return cli_fail("%s: a published shader; make a model of it first: hnbrdf import", path);
-    hnbrdf_measured_options options = cli_reading_options();
-    if (hnbrdf_measured_open(path, &options, measured, &error) == HNBRDF_OK)
+    if (hnbrdf_measured_open(path, &cli_read, measured, &error) == HNBRDF_OK)
         return CLI_OK;
     return cli_fail("%s", error.text);
 }
@@ -235,9 +200,11 @@ static int add_material(data_builder *builder, hnbrdf_measured *measured, const 
 static int add_file(data_builder *builder, const char *path)
 {
     hnbrdf_measured *measured = NULL;
-    if (looks_like_model(path))
-        return cli_fail(
-            "%s: a model file, expected measured data (MERL .binary, RGL .bsdf, UTIA .bin)", path);
+    if (looks_like_model(path)) {
+        char files[256];
+        cli_measured_files(files, sizeof files, ", ");
+        return cli_fail("%s: a model file, expected measured data (%s)", path, files);
+    }
     if (open_measured_file(path, &measured) != CLI_OK)
         return CLI_FAILURE;
     return add_material(builder, measured, path);
@@ -255,8 +222,7 @@ static int add_builtin(data_builder *builder, int index)
 
 static int is_measured_name(const struct dirent *entry)
 {
-    return has_extension(entry->d_name, ".bsdf") || has_extension(entry->d_name, ".binary") ||
-           has_extension(entry->d_name, ".bin");
+    return hnbrdf_measured_format_of_file(entry->d_name, NULL, NULL) != NULL;
 }
 
 static int compare_bytes(const struct dirent **a, const struct dirent **b)
@@ -271,8 +237,11 @@ static int add_directory(data_builder *builder, const char *path)
     if (count < 0)
         return cli_fail("%s: cannot read the directory: %s", path, strerror(errno));
     int result = CLI_OK;
-    if (count == 0)
-        result = cli_fail("%s: the directory has no .bsdf, .binary or .bin file", path);
+    if (count == 0) {
+        char files[256];
+        cli_measured_files(files, sizeof files, " or ");
+        result = cli_fail("%s: the directory has no measured file: %s", path, files);
+    }
     const char *slash = has_extension(path, "/") ? "" : "/";
     for (int k = 0; k < count; k++) {
         size_t size = strlen(path) + strlen(entries[k]->d_name) + 2;

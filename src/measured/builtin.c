@@ -49,3 +49,7 @@ hnbrdf_result hnbrdf_builtin_open(int index, measured_body *body, hnbrdf_error *
     snprintf(body->summary, sizeof body->summary, "built-in: %s", material->about);
     return HNBRDF_OK;
 }
+
+const measured_reader hnbrdf_builtin_reader = {
+    .info = {.format = HNBRDF_MEASURED_BUILTIN, .name = "builtin"},
+};

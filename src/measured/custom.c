@@ -48,3 +48,7 @@ hnbrdf_result hnbrdf_custom_open(const hnbrdf_measured_custom *custom, measured_
     body->isotropic = custom->isotropic != 0;
     return HNBRDF_OK;
 }
+
+const measured_reader hnbrdf_custom_reader = {
+    .info = {.format = HNBRDF_MEASURED_CUSTOM, .name = "custom"},
+};

@@ -1,8 +1,8 @@
 /* measured.c: open a measured material from a file, from memory or from the built-in list, and
- * ask it for values. Which format it is, is decided here by content; everything else lies in the
- * formats. */
+ * ask it for values. Which format it is, is decided by the table of formats.c; everything else lies
+ * in the formats. */
 #include "measured/format.h"
-#include "measured/merl_known.h"
+#include "measured/read_file.h"
 #include "base/error.h"
 
 #include <math.h>
@@ -10,16 +10,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum {
-    LABEL_SIZE = 161,     /* of a path in a message: leaves room for what was found and expected */
-    FIRST_CHUNK = 1 << 20 /* bytes; the buffer doubles from here */
-};
-static const size_t DEFAULT_MAX_BYTES = (size_t)1 << 30;
+/* Of a path in a message: leaves room for what was found and expected. */
+enum { LABEL_SIZE = 161 };
 
 struct hnbrdf_measured {
     hnbrdf_measured_format format;
     measured_body body;
-    const char *published; /* or NULL */
     char name[HNBRDF_MAX_NAME + 1];
 };
 
@@ -108,116 +104,40 @@ static void make_name(char name[HNBRDF_MAX_NAME + 1], const char *path)
 
 /* ---- Opening --------------------------------------------------------------------------------- */
 
-/* given, or the defaults where it is NULL or has 0s that stand for something else. */
-static hnbrdf_result settle_options(const hnbrdf_measured_options *given,
-                                    hnbrdf_measured_options *options, hnbrdf_error *error)
+static hnbrdf_result unrecognised(const measured_file *file, hnbrdf_error *error)
 {
-    hnbrdf_measured_options settled = {0};
-    if (given)
-        settled = *given;
-    int known =
-        (settled.merl_lookup == HNBRDF_MERL_NEAREST ||
-         settled.merl_lookup == HNBRDF_MERL_TRILINEAR) &&
-        (settled.merl_node == HNBRDF_MERL_CENTRE || settled.merl_node == HNBRDF_MERL_EDGE) &&
-        (settled.utia_mode == HNBRDF_UTIA_DJB || settled.utia_mode == HNBRDF_UTIA_RAW ||
-         settled.utia_mode == HNBRDF_UTIA_SRGB);
-    if (!known)
-        return hnbrdf_fail(
-            error, HNBRDF_ERROR_ARGUMENT,
-            "measured options: merl_lookup %d, merl_node %d, utia_mode %d, expected values "
-            "of their enums",
-            (int)settled.merl_lookup, (int)settled.merl_node, (int)settled.utia_mode);
-    if (!(settled.utia_scale >= 0.0 && settled.utia_scale <= (double)HNBRDF_MAX_VALUE))
-        return hnbrdf_fail(
-            error, HNBRDF_ERROR_ARGUMENT,
-            "measured options: utia_scale is negative or not finite, expected a factor");
-    if (settled.utia_scale == 0.0)
-        settled.utia_scale = 1.0;
-    if (settled.max_bytes == 0)
-        settled.max_bytes = DEFAULT_MAX_BYTES;
-    *options = settled;
-    return HNBRDF_OK;
+    char expected[sizeof error->text], start[3 * 12 + 1] = "";
+    hnbrdf_measured_expected(expected, sizeof expected);
+    if (file->size == 0)
+        return hnbrdf_fail(error, HNBRDF_ERROR_FORMAT, "%s: empty, %s", file->label, expected);
+    for (size_t i = 0; i < 12 && i < file->size; i++)
+        snprintf(start + 3 * i, sizeof start - 3 * i, " %02x", file->bytes[i]);
+    return hnbrdf_fail(error, HNBRDF_ERROR_FORMAT, "%s: %zu bytes starting with%s, %s", file->label,
+                       file->size, start, expected);
 }
 
-/* Everything up to the end of the stream, at most limit bytes, into *bytes (malloc'ed, also when
- * empty). The size is what could be read: pipes and special files have no other. */
-static hnbrdf_result read_stream(FILE *stream, size_t limit, const char *label,
-                                 unsigned char **bytes, size_t *size, hnbrdf_error *error)
+/* The row of the format that the content claims, or NULL. */
+static const measured_reader *recognise(const measured_file *file)
 {
-    size_t capacity = FIRST_CHUNK, used = 0;
-    unsigned char *buffer = malloc(capacity);
-    while (buffer) {
-        used += fread(buffer + used, 1, capacity - used, stream);
-        if (used > limit) {
-            free(buffer);
-            return hnbrdf_fail(error, HNBRDF_ERROR_LIMIT, "%s: larger than the limit of %zu bytes",
-                               label, limit);
-        }
-        if (ferror(stream)) {
-            free(buffer);
-            return hnbrdf_fail(error, HNBRDF_ERROR_IO,
-                               "%s: cannot be read after %zu bytes, expected a regular file", label,
-                               used);
-        }
-        if (used < capacity) {
-            *bytes = buffer;
-            *size = used;
-            return HNBRDF_OK;
-        }
-        unsigned char *larger = capacity <= SIZE_MAX / 2 ? realloc(buffer, capacity * 2) : NULL;
-        if (!larger)
-            free(buffer);
-        buffer = larger;
-        capacity *= 2;
-    }
-    return hnbrdf_fail(error, HNBRDF_ERROR_MEMORY, "%s: out of memory after reading %zu bytes",
-                       label, used);
+    const measured_reader *reader;
+    for (int k = 0; (reader = hnbrdf_measured_reader_at(k)); k++)
+        if (reader->recognise && reader->recognise(file))
+            return reader;
+    return NULL;
 }
 
-static hnbrdf_result unrecognised(const unsigned char *bytes, size_t size, const char *label,
-                                  hnbrdf_error *error)
+static hnbrdf_result open_file(const measured_file *file, const char *path,
+                               const hnbrdf_measured_options *options, hnbrdf_measured **measured,
+                               hnbrdf_error *error)
 {
-    static const char expected[] =
-        "expected an RGL .bsdf (starts with \"tensor_file\"), a MERL .binary "
-        "(starts with the sizes 90 90 180) or a UTIA .bin (1990656 bytes)";
-    if (size == 0)
-        return hnbrdf_fail(error, HNBRDF_ERROR_FORMAT, "%s: empty, %s", label, expected);
-    char start[3 * 12 + 1] = "";
-    for (size_t i = 0; i < 12 && i < size; i++)
-        snprintf(start + 3 * i, sizeof start - 3 * i, " %02x", bytes[i]);
-    return hnbrdf_fail(error, HNBRDF_ERROR_FORMAT, "%s: %zu bytes starting with%s, %s", label, size,
-                       start, expected);
-}
-
-static hnbrdf_result open_bytes(const unsigned char *bytes, size_t size, const char *label,
-                                const hnbrdf_measured_options *options, hnbrdf_measured *measured,
-                                hnbrdf_error *error)
-{
-    if (hnbrdf_rgl_recognise(bytes, size)) {
-        measured->format = HNBRDF_MEASURED_RGL;
-        return hnbrdf_rgl_open(bytes, size, label, options, &measured->body, error);
-    }
-    if (hnbrdf_merl_recognise(bytes, size)) {
-        measured->format = HNBRDF_MEASURED_MERL;
-        if (options->merl_identify)
-            measured->published = hnbrdf_merl_known(bytes, size);
-        return hnbrdf_merl_open(bytes, size, label, options, &measured->body, error);
-    }
-    if (hnbrdf_utia_recognise(size, label)) {
-        measured->format = HNBRDF_MEASURED_UTIA;
-        return hnbrdf_utia_open(bytes, size, label, options, &measured->body, error);
-    }
-    return unrecognised(bytes, size, label, error);
-}
-
-static hnbrdf_result open_labelled(const unsigned char *bytes, size_t size, const char *path,
-                                   const char *label, const hnbrdf_measured_options *options,
-                                   hnbrdf_measured **measured, hnbrdf_error *error)
-{
+    const measured_reader *reader = recognise(file);
+    if (!reader)
+        return unrecognised(file, error);
     hnbrdf_measured *opened = calloc(1, sizeof *opened);
     if (!opened)
-        return hnbrdf_fail(error, HNBRDF_ERROR_MEMORY, "%s: out of memory", label);
-    hnbrdf_result result = open_bytes(bytes, size, label, options, opened, error);
+        return hnbrdf_fail(error, HNBRDF_ERROR_MEMORY, "%s: out of memory", file->label);
+    opened->format = reader->info.format;
+    hnbrdf_result result = reader->open(file, options, &opened->body, error);
     if (result) {
         free(opened);
         return result;
@@ -235,19 +155,16 @@ hnbrdf_result hnbrdf_measured_open(const char *path, const hnbrdf_measured_optio
                            "hnbrdf_measured_open: path or result is NULL");
     char label[LABEL_SIZE];
     hnbrdf_measured_options settled;
-    hnbrdf_result result = settle_options(options, &settled, error);
+    hnbrdf_result result = hnbrdf_measured_settle(options, &settled, error);
     if (result)
         return result;
     make_label(label, path);
-    FILE *stream = fopen(path, "rb");
-    if (!stream)
-        return hnbrdf_fail(error, HNBRDF_ERROR_IO, "%s: cannot be opened for reading", label);
     unsigned char *bytes = NULL;
-    size_t size = 0;
-    result = read_stream(stream, settled.max_bytes, label, &bytes, &size, error);
-    fclose(stream);
+    measured_file file = {.label = label, .path = path};
+    result = hnbrdf_read_file(path, settled.max_bytes, label, &bytes, &file.size, error);
+    file.bytes = bytes;
     if (!result)
-        result = open_labelled(bytes, size, path, label, &settled, measured, error);
+        result = open_file(&file, path, &settled, measured, error);
     free(bytes);
     return result;
 }
@@ -261,14 +178,15 @@ hnbrdf_result hnbrdf_measured_open_memory(const void *data, size_t size, const c
                            "hnbrdf_measured_open_memory: data, path or result is NULL");
     char label[LABEL_SIZE];
     hnbrdf_measured_options settled;
-    hnbrdf_result result = settle_options(options, &settled, error);
+    hnbrdf_result result = hnbrdf_measured_settle(options, &settled, error);
     if (result)
         return result;
     make_label(label, path);
     if (size > settled.max_bytes)
         return hnbrdf_fail(error, HNBRDF_ERROR_LIMIT, "%s: %zu bytes, larger than the limit of %zu",
                            label, size, settled.max_bytes);
-    return open_labelled(data, size, path, label, &settled, measured, error);
+    measured_file file = {.bytes = data, .size = size, .label = label};
+    return open_file(&file, path, &settled, measured, error);
 }
 
 hnbrdf_result hnbrdf_measured_open_builtin(int index, hnbrdf_measured **measured,
@@ -333,23 +251,6 @@ void hnbrdf_measured_close(hnbrdf_measured *measured)
 
 /* ---- Asking ---------------------------------------------------------------------------------- */
 
-const char *hnbrdf_measured_format_name(hnbrdf_measured_format format)
-{
-    switch (format) {
-    case HNBRDF_MEASURED_BUILTIN:
-        return "builtin";
-    case HNBRDF_MEASURED_MERL:
-        return "MERL";
-    case HNBRDF_MEASURED_RGL:
-        return "RGL";
-    case HNBRDF_MEASURED_UTIA:
-        return "UTIA";
-    case HNBRDF_MEASURED_CUSTOM:
-        return "custom";
-    }
-    return NULL;
-}
-
 const char *hnbrdf_measured_name(const hnbrdf_measured *measured)
 {
     return measured->name;
@@ -372,7 +273,7 @@ const char *hnbrdf_measured_summary(const hnbrdf_measured *measured)
 
 const char *hnbrdf_measured_published(const hnbrdf_measured *measured)
 {
-    return measured->published;
+    return measured->body.published;
 }
 
 size_t hnbrdf_measured_wavelengths(const hnbrdf_measured *measured, const float **nm)

@@ -2,10 +2,12 @@
  * difference angles of Rusinkiewicz 1998. Nearest bin, as the database's own code looks up, or
  * trilinear. */
 #include "measured/format.h"
+#include "measured/merl_known.h"
 #include "base/bytes.h"
 #include "base/error.h"
 
 #include <math.h>
+#include <stddef.h>
 #include <stdlib.h>
 
 enum {
@@ -135,15 +137,15 @@ static int eval_trilinear(const void *data, const double wi[3], const double wo[
     return total > 0.0;
 }
 
-int hnbrdf_merl_recognise(const unsigned char *bytes, size_t size)
+static int merl_recognise(const measured_file *file)
 {
-    if (size == FILE_SIZE)
+    if (file->size == FILE_SIZE)
         return 1;
-    if (size < HEADER_SIZE)
+    if (file->size < HEADER_SIZE)
         return 0;
     uint64_t bins = 1;
     for (int axis = 0; axis < 3; axis++) {
-        uint32_t dim = le32(bytes + 4 * axis);
+        uint32_t dim = le32(file->bytes + 4 * axis);
         if (dim < 1 || dim > 4096)
             return 0;
         bins *= dim;
@@ -213,30 +215,90 @@ static void summarise(char summary[256], const hnbrdf_measured_options *options,
                  size - FILE_SIZE);
 }
 
-hnbrdf_result hnbrdf_merl_open(const unsigned char *bytes, size_t size, const char *label,
-                               const hnbrdf_measured_options *options, measured_body *body,
-                               hnbrdf_error *error)
+static hnbrdf_result merl_open(const measured_file *file, const hnbrdf_measured_options *options,
+                               measured_body *body, hnbrdf_error *error)
 {
-    hnbrdf_result result = check_header(bytes, size, label, error);
+    hnbrdf_result result = check_header(file->bytes, file->size, file->label, error);
     if (result)
         return result;
     merl_table *table = malloc(sizeof *table);
     if (!table)
-        return hnbrdf_fail(error, HNBRDF_ERROR_MEMORY, "%s: out of memory (%zu bytes)", label,
+        return hnbrdf_fail(error, HNBRDF_ERROR_MEMORY, "%s: out of memory (%zu bytes)", file->label,
                            sizeof *table);
-    int valid = fill_table(table, bytes + HEADER_SIZE);
+    int valid = fill_table(table, file->bytes + HEADER_SIZE);
     if (valid == 0) {
         free(table);
         return hnbrdf_fail(
             error, HNBRDF_ERROR_FORMAT,
-            "%s: all %d MERL bins are negative or not finite, expected about %d valid ones", label,
-            BINS, TYPICAL_VALID);
+            "%s: all %d MERL bins are negative or not finite, expected about %d valid ones",
+            file->label, BINS, TYPICAL_VALID);
     }
     table->node = options->merl_node == HNBRDF_MERL_CENTRE ? 0.5 : 0.0;
     body->data = table;
     body->eval = options->merl_lookup == HNBRDF_MERL_NEAREST ? eval_nearest : eval_trilinear;
     body->release = free;
     body->isotropic = 1;
-    summarise(body->summary, options, valid, size);
+    if (options->merl_identify)
+        body->published = hnbrdf_merl_known(file->bytes, file->size);
+    summarise(body->summary, options, valid, file->size);
     return HNBRDF_OK;
 }
+
+/* ---- The row of the format ------------------------------------------------------------------- */
+
+const char *hnbrdf_merl_lookup_name(hnbrdf_merl_lookup lookup)
+{
+    switch (lookup) {
+    case HNBRDF_MERL_NEAREST:
+        return "nearest";
+    case HNBRDF_MERL_TRILINEAR:
+        return "trilinear";
+    }
+    return NULL;
+}
+
+const char *hnbrdf_merl_node_name(hnbrdf_merl_node node)
+{
+    switch (node) {
+    case HNBRDF_MERL_CENTRE:
+        return "centre";
+    case HNBRDF_MERL_EDGE:
+        return "edge";
+    }
+    return NULL;
+}
+
+static const char *lookup_word(int value)
+{
+    return hnbrdf_merl_lookup_name((hnbrdf_merl_lookup)value);
+}
+
+static const char *node_word(int value)
+{
+    return hnbrdf_merl_node_name((hnbrdf_merl_node)value);
+}
+
+static const hnbrdf_measured_option merl_options[] = {
+    {.name = "merl",
+     .help = "lookup in MERL files (default nearest)",
+     .offset = offsetof(hnbrdf_measured_options, merl_lookup),
+     .word = lookup_word},
+    {.name = "merl-node",
+     .help = "where in its bin a MERL sample lies, for trilinear (default centre)",
+     .offset = offsetof(hnbrdf_measured_options, merl_node),
+     .word = node_word,
+     .needs = "merl"},
+};
+static const char *const endings[] = {".binary", NULL};
+
+const measured_reader hnbrdf_merl_reader = {
+    .info = {.format = HNBRDF_MEASURED_MERL,
+             .name = "MERL",
+             .files = "MERL .binary",
+             .endings = endings,
+             .options = merl_options,
+             .option_count = sizeof merl_options / sizeof merl_options[0]},
+    .expected = "a MERL .binary (starts with the sizes 90 90 180)",
+    .recognise = merl_recognise,
+    .open = merl_open,
+};

@@ -8,6 +8,7 @@
 #include "base/error.h"
 
 #include <math.h>
+#include <stddef.h>
 #include <stdlib.h>
 
 static const double PI = 3.14159265358979323846;
@@ -27,11 +28,6 @@ typedef struct reader {
     const char *label;
     hnbrdf_error *error;
 } reader;
-
-int hnbrdf_rgl_recognise(const unsigned char *bytes, size_t size)
-{
-    return hnbrdf_tensor_file_recognise(bytes, size);
-}
 
 /* ---- Fields and shapes ----------------------------------------------------------------------- */
 
@@ -459,12 +455,13 @@ static void summarise(char summary[256], const rgl *material,
         snprintf(summary + n, (size_t)(256 - n), ", file version 1.%u read as 1.0", minor);
 }
 
-hnbrdf_result hnbrdf_rgl_open(const unsigned char *bytes, size_t size, const char *label,
-                              const hnbrdf_measured_options *options, measured_body *body,
-                              hnbrdf_error *error)
+static hnbrdf_result rgl_open(const measured_file *source, const hnbrdf_measured_options *options,
+                              measured_body *body, hnbrdf_error *error)
 {
+    const char *label = source->label;
     tensor_file file;
-    hnbrdf_result result = hnbrdf_tensor_file_parse(bytes, size, label, &file, error);
+    hnbrdf_result result =
+        hnbrdf_tensor_file_parse(source->bytes, source->size, label, &file, error);
     if (result)
         return result;
     reader r = {&file, options, label, error};
@@ -490,3 +487,33 @@ hnbrdf_result hnbrdf_rgl_open(const unsigned char *bytes, size_t size, const cha
     hnbrdf_tensor_file_free(&file);
     return result;
 }
+
+/* ---- The row of the format ------------------------------------------------------------------- */
+
+static int rgl_recognise(const measured_file *file)
+{
+    return hnbrdf_tensor_file_recognise(file->bytes, file->size);
+}
+
+static const hnbrdf_measured_option rgl_options[] = {
+    {.name = "spectra",
+     .help = "RGL files that have RGB and spectra: use the spectra",
+     .offset = offsetof(hnbrdf_measured_options, rgl_spectra)},
+    {.name = "signed",
+     .help = "keep negative values of RGL files: colours outside the gamut (default: clipped to 0)",
+     .offset = offsetof(hnbrdf_measured_options, rgl_signed),
+     .makes_negative = 1},
+};
+static const char *const endings[] = {".bsdf", NULL};
+
+const measured_reader hnbrdf_rgl_reader = {
+    .info = {.format = HNBRDF_MEASURED_RGL,
+             .name = "RGL",
+             .files = "RGL .bsdf",
+             .endings = endings,
+             .options = rgl_options,
+             .option_count = sizeof rgl_options / sizeof rgl_options[0]},
+    .expected = "an RGL .bsdf (starts with \"tensor_file\")",
+    .recognise = rgl_recognise,
+    .open = rgl_open,
+};

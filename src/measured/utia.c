@@ -6,6 +6,7 @@
 #include "base/error.h"
 
 #include <math.h>
+#include <stddef.h>
 #include <stdlib.h>
 
 enum {
@@ -123,11 +124,11 @@ static double albedo(const utia_table *table, double sine2)
 
 /* ---- Opening --------------------------------------------------------------------------------- */
 
-int hnbrdf_utia_recognise(size_t size, const char *label)
+static int utia_recognise(const measured_file *file)
 {
-    size_t length = strlen(label);
-    return size == FILE_SIZE || (uint64_t)size == DENSE_FILE_SIZE ||
-           (size > 0 && length > 4 && strcmp(label + length - 4, ".bin") == 0);
+    size_t length = strlen(file->label);
+    return file->size == FILE_SIZE || (uint64_t)file->size == DENSE_FILE_SIZE ||
+           (file->size > 0 && length > 4 && strcmp(file->label + length - 4, ".bin") == 0);
 }
 
 static hnbrdf_result fill_table(utia_table *table, const unsigned char *bytes, const char *label,
@@ -161,7 +162,6 @@ static void print_albedo(char text[16], double value)
 
 static void summarise(char summary[256], const utia_table *table, int negative)
 {
-    static const char *const modes[] = {"djb", "raw", "srgb"};
     double at_0 = albedo(table, 0.0), at_45 = albedo(table, 0.5);
     char text_0[16], text_45[16];
     print_albedo(text_0, at_0);
@@ -169,15 +169,16 @@ static void summarise(char summary[256], const utia_table *table, int negative)
     snprintf(summary, 256,
              "UTIA 6 x 48 directions of light and view, mode %s%s%s, directional albedo %s at 0 "
              "and %s at 45 degrees%s; %d of %d samples negative",
-             modes[table->mode], table->scale != 1.0 ? " scaled" : "",
+             hnbrdf_utia_mode_name(table->mode), table->scale != 1.0 ? " scaled" : "",
              table->max_theta < THETAS ? ", not extrapolated" : "", text_0, text_45,
              at_0 > 1.0 || at_45 > 1.0 ? " (WARNING: more than arrives)" : "", negative, SAMPLES);
 }
 
-hnbrdf_result hnbrdf_utia_open(const unsigned char *bytes, size_t size, const char *label,
-                               const hnbrdf_measured_options *options, measured_body *body,
-                               hnbrdf_error *error)
+static hnbrdf_result utia_open(const measured_file *file, const hnbrdf_measured_options *options,
+                               measured_body *body, hnbrdf_error *error)
 {
+    const size_t size = file->size;
+    const char *label = file->label;
     if ((uint64_t)size == DENSE_FILE_SIZE)
         return hnbrdf_fail(
             error, HNBRDF_ERROR_UNSUPPORTED,
@@ -198,7 +199,7 @@ hnbrdf_result hnbrdf_utia_open(const unsigned char *bytes, size_t size, const ch
     table->scale = options->utia_scale;
     table->max_theta = options->utia_no_extrapolate ? THETAS - 1 : THETAS;
     int negative = 0;
-    hnbrdf_result result = fill_table(table, bytes, label, &negative, error);
+    hnbrdf_result result = fill_table(table, file->bytes, label, &negative, error);
     if (result) {
         free(table);
         return result;
@@ -210,3 +211,52 @@ hnbrdf_result hnbrdf_utia_open(const unsigned char *bytes, size_t size, const ch
     summarise(body->summary, table, negative);
     return HNBRDF_OK;
 }
+
+/* ---- The row of the format ------------------------------------------------------------------- */
+
+const char *hnbrdf_utia_mode_name(hnbrdf_utia_mode mode)
+{
+    switch (mode) {
+    case HNBRDF_UTIA_DJB:
+        return "djb";
+    case HNBRDF_UTIA_RAW:
+        return "raw";
+    case HNBRDF_UTIA_SRGB:
+        return "srgb";
+    }
+    return NULL;
+}
+
+static const char *mode_word(int value)
+{
+    return hnbrdf_utia_mode_name((hnbrdf_utia_mode)value);
+}
+
+static const hnbrdf_measured_option utia_options[] = {
+    {.name = "utia",
+     .help = "what the numbers in UTIA files mean; their scale is uncertain (default djb)",
+     .offset = offsetof(hnbrdf_measured_options, utia_mode),
+     .word = mode_word},
+    {.name = "utia-scale",
+     .help = "factor on UTIA values (default 1)",
+     .offset = offsetof(hnbrdf_measured_options, utia_scale),
+     .usual = 1.0,
+     .low = 1e-6,
+     .high = 1e6},
+    {.name = "utia-no-extrapolate",
+     .help = "hold UTIA values beyond 75 degrees (default: go on linearly)",
+     .offset = offsetof(hnbrdf_measured_options, utia_no_extrapolate)},
+};
+static const char *const endings[] = {".bin", NULL};
+
+const measured_reader hnbrdf_utia_reader = {
+    .info = {.format = HNBRDF_MEASURED_UTIA,
+             .name = "UTIA",
+             .files = "UTIA .bin",
+             .endings = endings,
+             .options = utia_options,
+             .option_count = sizeof utia_options / sizeof utia_options[0]},
+    .expected = "a UTIA .bin (1990656 bytes)",
+    .recognise = utia_recognise,
+    .open = utia_open,
+};

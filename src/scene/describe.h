@@ -10,11 +10,14 @@
  *   bounces N                      most reflections of a path
  *   environment SOURCE [rotate DEG] [gain G] [hidden]     sky, furnace, or a map; hidden: not
  *                                                         behind
- * the shapes portal corner X Y Z edge X Y Z edge X Y Z             a window through which the
- * environment is seen material NAME model FILE [MATERIAL]                   of a model file
- *                                                                           material
- * NAME measured FILE                           .bsdf, .binary, .bin material NAME builtin NAME
- * material NAME ggx kd R G B eta R G B alpha A [ALPHA_Y] material NAME diffuse R G B Lambert
+ *                                                         the shapes
+ *   portal corner X Y Z edge X Y Z edge X Y Z             a window through which the environment
+ *                                                         is seen
+ *   material NAME model FILE [MATERIAL]                   of a model file
+ *   material NAME measured FILE
+ *   material NAME builtin NAME
+ *   material NAME ggx kd R G B eta R G B alpha A [ALPHA_Y]
+ *   material NAME diffuse R G B                           Lambert
  * shape KIND [its parameters] [material NAME] [emit R G B] [placing]
  *
  * Kinds of shapes and their parameters, detail N being the quads around:
@@ -103,8 +106,8 @@ typedef struct render_loaded {
     int measured_count;
 } render_loaded;
 
-/* Reads all files and builds the scene. `folder`: for RENDER_SHOW_MEASURED, holds NAME_rgb.bsdf,
- * NAME.bsdf or NAME.binary. options may be NULL. */
+/* Reads all files and builds the scene. `folder`: for RENDER_SHOW_MEASURED, holds each
+ * NAME or NAME_rgb with the ending of a measured format. options may be NULL. */
 hnbrdf_result render_description_load(const render_description *description, render_show show,
                                       const char *folder, const hnbrdf_measured_options *options,
                                       render_loaded *loaded, hnbrdf_error *error);

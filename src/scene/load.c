@@ -70,20 +70,38 @@ static void measured_surface(loader *l, hnbrdf_measured *measured, render_surfac
     render_surface_guide(surface, &guide);
 }
 
+/* The first of the files NAME and ENDING that is there; 0 if none is. */
+static int find_counterpart(const loader *l, const char *name, const char *const *endings,
+                            char path[2 * RENDER_MAX_PATH])
+{
+    for (int i = 0; endings && endings[i]; i++) {
+        snprintf(path, 2 * RENDER_MAX_PATH, "%s/%s%s", l->folder, name, endings[i]);
+        if (access(path, F_OK) == 0)
+            return 1;
+    }
+    return 0;
+}
+
 /* The measurement of a model's material. */
 static hnbrdf_result open_counterpart(loader *l, const char *name, hnbrdf_measured **measured)
 {
-    static const char *const endings[] = {"_rgb.bsdf", ".bsdf", ".binary", ".bin"};
-    char path[2 * RENDER_MAX_PATH];
-    for (size_t i = 0; i < sizeof endings / sizeof *endings; i++) {
-        snprintf(path, sizeof path, "%s/%s%s", l->folder, name, endings[i]);
-        if (access(path, F_OK) == 0)
+    const hnbrdf_measured_format_info *info;
+    char path[2 * RENDER_MAX_PATH], endings[128] = "", rgb[HNBRDF_MAX_NAME + 8];
+    size_t length = 0;
+    snprintf(rgb, sizeof rgb, "%s_rgb", name);
+    for (int row = 0; (info = hnbrdf_measured_format_at(row)); row++) {
+        if (find_counterpart(l, rgb, info->endings, path) ||
+            find_counterpart(l, name, info->endings, path) ||
+            find_counterpart(l, rgb, info->part_endings, path) ||
+            find_counterpart(l, name, info->part_endings, path))
             return hnbrdf_measured_open(path, l->options, measured, l->error);
+        for (int i = 0; info->endings && info->endings[i] && length < sizeof endings; i++)
+            length += (size_t)snprintf(endings + length, sizeof endings - length, ", %s",
+                                       info->endings[i]);
     }
-    return hnbrdf_fail(
-        l->error, HNBRDF_ERROR_IO,
-        "%s: no measurement of '%s' there: expected %s_rgb.bsdf, .bsdf, .binary or .bin", l->folder,
-        name, name);
+    return hnbrdf_fail(l->error, HNBRDF_ERROR_IO,
+                       "%s: no measurement of '%s' there: expected %s_rgb or %s and one of%s",
+                       l->folder, name, name, name, endings + (endings[0] == ','));
 }
 
 static hnbrdf_result from_model(loader *l, const render_text_material *m, render_surface *surface)
