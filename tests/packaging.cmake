@@ -16,4 +16,8 @@ if(NOT HNBRDF_SANITIZE)
   set_tests_properties(test_install PROPERTIES SKIP_RETURN_CODE 77)
   add_test(NAME test_minimal COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/test_minimal.sh
     ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR} ${CMAKE_C_COMPILER} ${CMAKE_CURRENT_BINARY_DIR}/minimal)
+  add_test(NAME test_guest COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/test_guest.sh ${PROJECT_SOURCE_DIR}
+    ${CMAKE_CURRENT_BINARY_DIR}/guest $<TARGET_FILE:hnbrdf_fast_math_plain>
+    ${PROJECT_SOURCE_DIR}/examples/models/rgl_32x2.safetensors)
+  set_tests_properties(test_guest PROPERTIES SKIP_RETURN_CODE 77)
 endif()
