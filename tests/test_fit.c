@@ -130,16 +130,15 @@ static void every_kind_and_encoding_fits(void **state)
         hnbrdf_fit_options o = small(k < 2 ? HNBRDF_KIND_NEURAL : HNBRDF_KIND_HYBRID);
         o.steps = 100;
         o.layers = 1 + k;
-        o.encoding_set = 1;
-        o.encoding = k % 2 ? HNBRDF_ENCODING_DIRECTIONS : HNBRDF_ENCODING_HALF_DIFFERENCE;
+        o.encoding = k % 2 ? "directions" : "half-difference";
         o.analytic = k == 3 ? HNBRDF_FIT_JOINT : HNBRDF_FIT_FAITHFUL;
-        o.floor = k == 2 ? -1.0f : 0.0f;
+        o.floor_none = k == 2;
         hnbrdf_fit_report report;
         hnbrdf_model *model = fit(&o, &report);
         hnbrdf_model_desc desc;
         hnbrdf_model_describe(model, &desc);
         assert_int_equal(desc.kind, o.kind);
-        assert_int_equal(desc.encoding, o.encoding);
+        assert_string_equal(hnbrdf_encoding_name(desc.encoding), o.encoding);
         assert_int_equal(desc.layers, o.layers);
         assert_int_equal(desc.latent, k < 2 ? 12 : 4);
         assert_true(desc.floor == (k == 2 ? 0.0f : 0.003f));
@@ -428,7 +427,7 @@ static void a_given_analytic_part_is_kept_and_one_material_needs_no_latent_code(
     given.eta[2] = 2.5f;
     given.latent[0] = 7.0f; /* is not taken */
     o.materials = &given;
-    o.latent = -1;
+    o.latent_none = 1;
     o.steps = 200;
     assert_int_equal(hnbrdf_fit((const hnbrdf_measured *const *)data, 1, &o, &model, NULL, &error),
                      HNBRDF_OK);
@@ -467,41 +466,39 @@ static void a_given_analytic_part_is_kept_and_one_material_needs_no_latent_code(
 static void bad_options_are_refused_with_a_message(void **state)
 {
     (void)state;
-    for (int k = 0; k < 8; k++) {
-        hnbrdf_fit_options o = small(HNBRDF_KIND_HYBRID);
-        switch (k) {
-        case 0:
-            o.hidden = HNBRDF_MAX_HIDDEN + 1;
-            break;
-        case 1:
-            o.layers = -1;
-            break;
-        case 2:
-            o.latent = HNBRDF_MAX_LATENT + 1;
-            break;
-        case 3:
-            o.learning_rate = NAN;
-            break;
-        case 4:
-            o.seconds = -1.0;
-            break;
-        case 5:
-            o.kind = (hnbrdf_kind)9;
-            break;
-        case 6:
-            o.encoding_set = 1, o.encoding = (hnbrdf_encoding)9;
-            break;
-        default:
-            o.batch = -5;
-            break;
-        }
+    static const struct {
+        hnbrdf_fit_options set;
+        const char *message; /* part of it */
+    } bad[] = {
+        {{.hidden = HNBRDF_MAX_HIDDEN + 1}, "network 65x"},
+        {{.layers = -1}, "x-1, expected 1x1"},
+        {{.latent = HNBRDF_MAX_LATENT + 1}, "latent code of 17 floats"},
+        {{.latent = -1}, "latent code of -1 floats"},
+        {{.latent = 4, .latent_none = 1}, "latent is 4 and latent_none is set"},
+        {{.learning_rate = NAN}, "learning rate"},
+        {{.seconds = -1.0}, "seconds"},
+        {{.kind = (hnbrdf_kind)9}, "out of its range"},
+        {{.encoding = "angle"}, "no encoding is named \"angle\""},
+        {{.encoding = ""}, "no encoding is named \"\""},
+        {{.batch = -5}, "batch"},
+        {{.floor = -0.1f}, "floor"},
+        {{.floor = 1.0f}, "floor"},
+        {{.floor = NAN}, "floor"},
+        {{.floor = 0.5f, .floor_none = 1}, "floor is 0.5 and floor_none is set"},
+        {{.uniform_share = -0.1f}, "uniform share"},
+        {{.uniform_share = 1.1f}, "uniform share"},
+        {{.uniform_share = 0.5f, .uniform_none = 1}, "uniform_share is 0.5 and uniform_none is"},
+    };
+    for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
+        const hnbrdf_fit_options o = bad[k].set;
         hnbrdf_model *model = NULL;
         hnbrdf_error error = {{0}};
         assert_int_equal(
             hnbrdf_fit((const hnbrdf_measured *const *)data, COUNT, &o, &model, NULL, &error),
             HNBRDF_ERROR_ARGUMENT);
         assert_null(model);
-        assert_true(error.text[0] != '\0');
+        if (!strstr(error.text, bad[k].message))
+            fail_msg("\"%s\" does not say \"%s\"", error.text, bad[k].message);
     }
     assert_int_equal(hnbrdf_fit((const hnbrdf_measured *const *)data, 0, NULL, NULL, NULL, NULL),
                      HNBRDF_ERROR_ARGUMENT);

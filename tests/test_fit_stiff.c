@@ -233,7 +233,7 @@ static void fit_all_kinds(source *s, source *truth, double ggx, double hybrid, d
     const double most[] = {hybrid, neural, ggx}; /* by hnbrdf_kind */
     for (int kind = 0; kind < 3; kind++) {
         hnbrdf_fit_options o = small((hnbrdf_kind)kind);
-        o.latent = kind == HNBRDF_KIND_HYBRID ? 4 : -1;
+        o.latent_none = kind != HNBRDF_KIND_HYBRID;
         outcome r = fit_source(s, truth, &o);
         assert_true(r.smape <= most[kind]);
     }
@@ -295,7 +295,7 @@ static void what_is_nearly_black_is_matched_to_1e_4(void **state)
     source s = make_source(DARK_CHANNEL, 0.2f, 0.5f, 1.5f);
     for (int kind = 0; kind < 2; kind++) {
         hnbrdf_fit_options o = small((hnbrdf_kind)kind);
-        o.latent = -1;
+        o.latent_none = 1;
         outcome r = fit_source(&s, &s, &o);
         assert_true(r.report.best_loss <= 0.1);
         assert_true(fabs(r.drawn.dark - 1.0 / 3.0) < 1e-6 && r.drawn.cut == 0.0);
@@ -410,7 +410,7 @@ static void identical_and_hard_materials_share_a_network(void **state)
         make_source(BLACK, 0.2f, 0.5f, 1.5f),    make_source(NONE, 1e-3f, 0.05f, 8.0f),
         make_source(OUTLIERS, 0.2f, 0.5f, 1.5f), make_source(CONSTANT, 0.2f, 0.5f, 1.5f)};
     enum { COUNT = sizeof sources / sizeof sources[0] };
-    static const int latents[] = {-1, 16};
+    static const int latents[] = {0, 16};
     hnbrdf_measured *data[COUNT];
     for (int m = 0; m < COUNT; m++)
         data[m] = measured_of(&sources[m], names[m]);
@@ -421,6 +421,7 @@ static void identical_and_hard_materials_share_a_network(void **state)
             hnbrdf_error error;
             hnbrdf_comparison c[2];
             o.latent = latents[l];
+            o.latent_none = latents[l] == 0;
             o.analytic = l == 1 ? HNBRDF_FIT_JOINT : HNBRDF_FIT_FAITHFUL;
             assert_int_equal(
                 hnbrdf_fit((const hnbrdf_measured *const *)data, COUNT, &o, &model, NULL, &error),

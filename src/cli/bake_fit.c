@@ -247,9 +247,9 @@ static void set_options(const bake *b, const task *t, hnbrdf_fit_options *o)
     o->kind = HNBRDF_KIND_HYBRID;
     o->hidden = job->candidate->hidden;
     o->layers = job->candidate->layers;
-    o->latent = job->candidate->latent ? job->candidate->latent : -1;
-    o->encoding_set = b->encoding >= 0;
-    o->encoding = b->encoding >= 0 ? (hnbrdf_encoding)b->encoding : HNBRDF_ENCODING_ANGLES;
+    o->latent = job->candidate->latent;
+    o->latent_none = job->candidate->latent == 0;
+    o->encoding = b->encoding >= 0 ? hnbrdf_encoding_name((hnbrdf_encoding)b->encoding) : NULL;
     o->materials = b->analytic;
     o->steps = job->full ? b->steps : b->short_steps;
     o->seconds = t->of->seconds;

@@ -353,9 +353,9 @@ int cmd_fit(int argc, char **argv)
     j.fit.hidden = net[0];
     j.fit.layers = net[1];
     j.fit.latent = (int)latent;
-    j.fit.encoding = (hnbrdf_encoding)encoding_index;
-    j.fit.encoding_set = encoding != NULL;
-    j.fit.floor = floor > 0.0 ? (float)floor : -1.0f;
+    j.fit.encoding = encoding;
+    j.fit.floor = (float)floor;
+    j.fit.floor_none = j.fit.floor == 0.0f;
     j.fit.analytic = (hnbrdf_fit_analytic)analytic_index;
     j.fit.steps = steps;
     j.fit.seconds = seconds;
@@ -364,7 +364,8 @@ int cmd_fit(int argc, char **argv)
     j.fit.learning_rate = (float)rate;
     j.fit.loss = (hnbrdf_fit_loss)loss_index;
     j.fit.schedule = (hnbrdf_fit_schedule)schedule_index;
-    j.fit.uniform_share = uniform_share > 0.0 ? (float)uniform_share : -1.0f;
+    j.fit.uniform_share = (float)uniform_share;
+    j.fit.uniform_none = j.fit.uniform_share == 0.0f;
     j.fit.seed = (uint64_t)seed;
     j.fit.threads = (int)threads;
     j.fit.resume = resume;

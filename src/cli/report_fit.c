@@ -182,9 +182,8 @@ static void set_options(const report *r, const report_entry *e, hnbrdf_fit_optio
     o->latent = e->latent;
     o->analytic = (hnbrdf_fit_analytic)r->analytic;
     if (e->form == REPORT_PAPER) {
-        o->encoding_set = 1;
-        o->encoding = HNBRDF_ENCODING_DIRECTIONS;
-        o->floor = -1.0f;
+        o->encoding = hnbrdf_encoding_name(HNBRDF_ENCODING_DIRECTIONS);
+        o->floor_none = 1;
         o->analytic = HNBRDF_FIT_JOINT;
     }
     o->steps = r->steps;

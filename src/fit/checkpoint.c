@@ -47,7 +47,7 @@ static uint64_t fingerprint(const trainer *t)
                               o->hidden,
                               o->layers,
                               o->latent,
-                              o->encoding,
+                              t->encoding,
                               (double)o->floor,
                               o->analytic,
                               (double)o->steps,

@@ -112,7 +112,7 @@ static void fit_one(void *context, int material, int worker)
     }
     if (t->options.kind != HNBRDF_KIND_GGX) {
         double started = hnbrdf_fit_thread_seconds();
-        hnbrdf_fit_pool_encode(&t->pool, material, t->options.encoding, &t->materials[material]);
+        hnbrdf_fit_pool_encode(&t->pool, material, t->encoding, &t->materials[material]);
         t->encoded[material] = hnbrdf_fit_thread_seconds() - started;
     }
     piece_done(t, "ggx", worker);
@@ -125,7 +125,7 @@ static void describe_network(const trainer *t, float *weights, hnbrdf_model_desc
 {
     const fit_layout *l = &t->layout;
     const float *p = t->parameters;
-    desc->encoding = t->options.encoding;
+    desc->encoding = t->encoding;
     desc->hidden = l->hidden_size;
     desc->layers = l->layers;
     desc->latent = l->latent_size;
@@ -233,10 +233,11 @@ static hnbrdf_result take_frozen(hnbrdf_fit_options *o, hnbrdf_error *error)
     o->kind = desc.kind;
     o->hidden = desc.hidden;
     o->layers = desc.layers;
-    o->latent = desc.latent ? desc.latent : -1;
-    o->encoding = desc.encoding;
-    o->encoding_set = 1;
-    o->floor = desc.floor > 0.0f ? desc.floor : -1.0f;
+    o->latent = desc.latent;
+    o->latent_none = desc.latent == 0;
+    o->encoding = hnbrdf_encoding_name(desc.encoding);
+    o->floor = desc.floor;
+    o->floor_none = desc.floor == 0.0f;
     return HNBRDF_OK;
 }
 
@@ -279,6 +280,40 @@ static float default_rate(float units)
     return DEFAULT_RATE * fminf(1.0f, (float)RATE_UNITS / units);
 }
 
+/* 1 and *encoding, or 0 for a name of none. */
+static int encoding_named(const char *name, hnbrdf_encoding *encoding)
+{
+    for (int k = 0; hnbrdf_encoding_name((hnbrdf_encoding)k); k++)
+        if (strcmp(name, hnbrdf_encoding_name((hnbrdf_encoding)k)) == 0) {
+            *encoding = (hnbrdf_encoding)k;
+            return 1;
+        }
+    return 0;
+}
+
+/* A number and the flag that asks for none exclude each other. */
+static hnbrdf_result check_flags(const hnbrdf_fit_options *o, hnbrdf_error *error)
+{
+    const struct {
+        const char *number, *flag;
+        double value;
+        int none;
+    } pairs[] = {{"latent", "latent_none", o->latent, o->latent_none},
+                 {"floor", "floor_none", (double)o->floor, o->floor_none},
+                 {"uniform_share", "uniform_none", (double)o->uniform_share, o->uniform_none}};
+    hnbrdf_encoding encoding;
+    for (size_t k = 0; k < sizeof pairs / sizeof pairs[0]; k++)
+        if (pairs[k].value != 0.0 && pairs[k].none)
+            return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT,
+                               "fit options: %s is %s and %s is set, expected one of them",
+                               pairs[k].number, HNBRDF_NUMBER(pairs[k].value), pairs[k].flag);
+    if (o->encoding && !encoding_named(o->encoding, &encoding))
+        return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT,
+                           "fit options: no encoding is named \"%s\", expected angles or another",
+                           o->encoding);
+    return HNBRDF_OK;
+}
+
 static hnbrdf_result fill_options(hnbrdf_fit_options *o, int count, hnbrdf_error *error)
 {
     if (o->freeze) {
@@ -286,11 +321,15 @@ static hnbrdf_result fill_options(hnbrdf_fit_options *o, int count, hnbrdf_error
         if (result)
             return result;
     }
+    hnbrdf_result flags = check_flags(o, error);
+    if (flags)
+        return flags;
     o->hidden = o->hidden ? o->hidden : 32;
     o->layers = o->layers ? o->layers : 2;
-    o->latent = o->latent ? o->latent : (o->kind == HNBRDF_KIND_NEURAL ? 12 : 4);
-    o->latent = o->latent < 0 ? 0 : o->latent;
-    o->floor = o->floor == 0.0f ? DEFAULT_FLOOR : fmaxf(o->floor, 0.0f);
+    if (o->latent == 0 && !o->latent_none)
+        o->latent = o->kind == HNBRDF_KIND_NEURAL ? 12 : 4;
+    if (o->floor == 0.0f && !o->floor_none)
+        o->floor = DEFAULT_FLOOR;
     o->steps = o->steps ? o->steps : (o->freeze ? DEFAULT_FROZEN_STEPS : DEFAULT_STEPS);
     o->batch = o->batch ? o->batch : DEFAULT_BATCH;
     if (o->pool == 0)
@@ -298,26 +337,26 @@ static hnbrdf_result fill_options(hnbrdf_fit_options *o, int count, hnbrdf_error
             DEFAULT_POOL, POOL_LIMIT / ((double)count * FIT_POOL_TILE / FIT_TILE * sizeof(float)));
     o->learning_rate = o->learning_rate == 0.0f ? default_rate((float)o->hidden * (float)o->layers)
                                                 : o->learning_rate;
-    o->uniform_share =
-        o->uniform_share == 0.0f ? DEFAULT_UNIFORM_SHARE : fmaxf(o->uniform_share, 0.0f);
+    if (o->uniform_share == 0.0f && !o->uniform_none)
+        o->uniform_share = DEFAULT_UNIFORM_SHARE;
     if (o->hidden < 1 || o->hidden > HNBRDF_MAX_HIDDEN || o->layers < 1 ||
         o->layers > HNBRDF_MAX_LAYERS)
         return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT, "network %dx%d, expected 1x1 to %dx%d",
                            o->hidden, o->layers, HNBRDF_MAX_HIDDEN, HNBRDF_MAX_LAYERS);
-    if (o->latent > HNBRDF_MAX_LATENT)
+    if (o->latent < 0 || o->latent > HNBRDF_MAX_LATENT)
         return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT,
                            "latent code of %d floats, expected 0 to %d", o->latent,
                            HNBRDF_MAX_LATENT);
     if (o->steps < 1 || o->batch < 1 || o->batch > 1 << 24 || o->pool > 1 << 26 || o->threads < 0 ||
         !(o->seconds >= 0.0) || !(o->learning_rate > 0.0f && o->learning_rate <= FLT_MAX) ||
-        !(o->floor < 1.0f) || !(o->uniform_share <= 1.0f) || (unsigned)o->loss > HNBRDF_FIT_SMAPE ||
-        (unsigned)o->schedule > HNBRDF_FIT_CONSTANT || !hnbrdf_kind_name(o->kind) ||
-        !hnbrdf_encoding_name(o->encoding))
+        !(o->floor >= 0.0f && o->floor < 1.0f) ||
+        !(o->uniform_share >= 0.0f && o->uniform_share <= 1.0f) ||
+        (unsigned)o->loss > HNBRDF_FIT_SMAPE || (unsigned)o->schedule > HNBRDF_FIT_CONSTANT ||
+        !hnbrdf_kind_name(o->kind))
         return hnbrdf_fail(
             error, HNBRDF_ERROR_ARGUMENT,
             "a fit option is out of its range: steps, batch and pool at least 1, learning "
-            "rate above 0 and finite, floor below 1, uniform share at most 1, seconds and threads "
-            "not "
+            "rate above 0 and finite, floor and uniform share from 0 to 1, seconds and threads not "
             "negative");
     if (o->resume && !o->checkpoint)
         return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT,
@@ -465,8 +504,8 @@ hnbrdf_result hnbrdf_fit(const hnbrdf_measured *const *data, int count,
         result = check_names(&t, error);
     if (result)
         return result;
-    if (!t.options.encoding_set)
-        t.options.encoding = default_encoding(data, count);
+    if (!t.options.encoding || !encoding_named(t.options.encoding, &t.encoding))
+        t.encoding = default_encoding(data, count);
     int unit = FIT_TILE * FIT_CHUNKS;
     t.tiles_per_step = (t.options.batch + unit - 1) / unit * FIT_CHUNKS;
     t.pool.tiles = (t.options.pool + FIT_TILE - 1) / FIT_TILE;

@@ -14,7 +14,8 @@ enum { FIT_CHUNKS = 16 };
 
 typedef struct trainer {
     const hnbrdf_measured *const *data;
-    hnbrdf_fit_options options;
+    hnbrdf_fit_options options; /* as given, defaults filled in */
+    hnbrdf_encoding encoding;
     int count; /* materials */
     fit_layout layout;
     const fit_kernel *kernel;
