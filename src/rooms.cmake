@@ -6,7 +6,14 @@ function(hnbrdf_room name)
 endfunction()
 
 hnbrdf_room(base
-  json.c text.c)
+  clock.c csv.c files.c files_posix.c files_windows.c interrupt.c json.c text.c text_buffer.c
+  threads.c write.c)
+# Each file of base that an installed library needs is in exactly one of the static ones: here what
+# libhnbrdf and libhnbrdf_fit hold. Shared libraries take what they need from hnbrdf_base and hide
+# it.
+set(HNBRDF_BASE_HNBRDF src/base/files.c src/base/files_posix.c src/base/files_windows.c
+  src/base/json.c src/base/text.c)
+set(HNBRDF_BASE_FIT src/base/clock.c src/base/threads.c)
 hnbrdf_room(core
   eval.c kernel_plain.c material.c network.c pack.c sample.c
   strerror.c variant.c)
@@ -26,8 +33,8 @@ hnbrdf_room(measured
 hnbrdf_room(metrics
   compare.c image.c physics.c)
 hnbrdf_room(fit
-  kernel_avx2.c kernel_avx512.c adam.c checkpoint.c fit.c ggx.c judge.c kernel.c kernel_double.c pool.c train.c
-  workers.c)
+  kernel_avx2.c kernel_avx512.c adam.c checkpoint.c fit.c ggx.c judge.c kernel.c kernel_double.c pool.c
+  train.c)
 hnbrdf_room(check
   backends.c bounds.c cases.c half.c maps.c oracle.c pairs.c reference.c rounding.c
   rules.c run.c)
@@ -52,7 +59,7 @@ hnbrdf_room(cli
   bench_quality.c bench_write.c cli.c cmd_bake.c cmd_bench.c cmd_compare.c cmd_edit.c
   cmd_eval.c cmd_export.c cmd_fit.c cmd_gallery.c cmd_import.c cmd_info.c cmd_lobes.c
   cmd_mix.c cmd_render.c cmd_report.c cmd_report_images.c cmd_report_sampling.c
-  cmd_scene.c cmd_sheet.c cmd_stability.c cmd_verify.c compare_images.c csv.c fit_log.c
+  cmd_scene.c cmd_sheet.c cmd_stability.c cmd_verify.c compare_images.c fit_log.c
   fit_speed.c gallery_choose.c gallery_pages.c gallery_strips.c info_physics.c
   loss_plot.c main.c output.c peak.c picture.c progress.c reading.c render_gpu.c
   render_mesh.c

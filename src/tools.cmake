@@ -3,7 +3,7 @@
 # hnbrdf_tool_room(NAME NEEDS targets...): hnbrdf_NAME of the files of the room.
 function(hnbrdf_tool_room name)
   add_library(hnbrdf_${name} STATIC EXCLUDE_FROM_ALL ${HNBRDF_ROOM_${name}})
-  target_link_libraries(hnbrdf_${name} PRIVATE hnbrdf_flags PUBLIC ${ARGN})
+  target_link_libraries(hnbrdf_${name} PRIVATE hnbrdf_flags PUBLIC ${ARGN} hnbrdf_base)
   target_compile_definitions(hnbrdf_${name} PRIVATE _POSIX_C_SOURCE=200809L)
 endfunction()
 
@@ -43,11 +43,11 @@ if(HNBRDF_HAS_QUADMATH)
   target_link_libraries(hnbrdf_check PRIVATE quadmath)
 endif()
 
-add_executable(hnbrdf_cli ${HNBRDF_ROOM_cli} src/base/text_buffer.c)
+add_executable(hnbrdf_cli ${HNBRDF_ROOM_cli})
 set_target_properties(hnbrdf_cli PROPERTIES OUTPUT_NAME hnbrdf
   RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR})
 target_link_libraries(hnbrdf_cli PRIVATE hnbrdf_flags hnbrdf_scene hnbrdf_plot hnbrdf_check
-  hnbrdf_fit_static hnbrdf_metrics_static)
+  hnbrdf_fit_static hnbrdf_metrics_static hnbrdf_base)
 target_link_options(hnbrdf_cli PRIVATE ${HNBRDF_LINK_FLAGS})
 target_compile_definitions(hnbrdf_cli PRIVATE _POSIX_C_SOURCE=200809L)
 if(HNBRDF_WITH_VULKAN)

@@ -155,6 +155,6 @@ else
     grep -q 'interrupted; net.safetensors has the best' err || fail "interrupt: the message"
     "$HNBRDF" info net.safetensors | grep -q '64x4' || fail "the model after an interrupt"
 fi
-ls ./*.part >/dev/null 2>&1 && fail "an interrupt leaves part of a file"
+ls ./*part >/dev/null 2>&1 && fail "an interrupt leaves part of a file"
 
 finish

@@ -65,7 +65,7 @@ for path in "$source"/src/core/*.c; do
     done
 done
 
-# No part prints, ends the program, catches or raises signals, leaves by a jump, looks at errno, changes rounding, or
+# No part prints, ends the program, catches or raises signals, leaves by a jump, changes rounding, or
 # does what depends on the locale; only the trainer starts threads. And none keeps anything that can be written to
 # from one call to the next: what is not constant belongs to the caller.
 for part in "$@"; do
@@ -75,7 +75,7 @@ for part in "$@"; do
         printf | fprintf | puts | fputs | putchar | putc | fputc | vprintf | vfprintf | perror | stdin | stdout | \
             stderr | __printf_chk | __fprintf_chk | __vfprintf_chk | exit | _exit | _Exit | quick_exit | atexit | \
             on_exit | abort | __assert_fail | system | signal | __sysv_signal | sigaction | sigprocmask | sigaltstack | \
-            raise | kill | setjmp | _setjmp | __sigsetjmp | longjmp | siglongjmp | __errno_location | __errno | \
+            raise | kill | setjmp | _setjmp | __sigsetjmp | longjmp | siglongjmp | \
             fesetround | fesetenv | feholdexcept | feenableexcept | setlocale | uselocale | newlocale | localeconv | \
             strtod | strtof | strtold | atof | strcoll | toupper | tolower | __ctype_* | sscanf | __isoc99_sscanf | \
             rand | srand | random | strtok | localtime | gmtime)
@@ -89,6 +89,19 @@ for part in "$@"; do
         $NF !~ /^\./ { print $NF }')
     [ -z "$written" ] || fail "lib$part.a keeps what can be written to:" $written
 done
+# errno is looked at where a file is written, to say why it cannot be.
+for part in "$@"; do
+    for object in $(nm -A -u "$build/lib$part.a" 2> /dev/null | sed -n 's|.*:\([^:]*\): *[Uw] __errno\(_location\)*$|\1|p'); do
+        case $object in
+        files.c.o | files_*.c.o) ;;
+        *) fail "$object looks at errno" ;;
+        esac
+    done
+done
+# What src/base gives to several parts is in one archive, so that static ones link together.
+twice=$(for part in "$@"; do ar t "$build/lib$part.a"; done | sort | uniq -d |
+    while read -r object; do [ ! -e "$source/src/base/${object%.o}" ] || echo "$object"; done)
+[ -z "$twice" ] || fail "in several archives:" $twice
 archive=$build/libhnbrdf.a
 # The environment is read in one place, for HNBRDF_VARIANT.
 for object in $(nm -A -u "$archive" 2> /dev/null | sed -n 's|.*:\([^:]*\): *[Uw] getenv$|\1|p'); do

@@ -30,7 +30,7 @@ tr -d ' \n' < speed.json | grep -q '"pairs":512000,' || fail "500 steps of 1024 
 "$hnbrdf" fit $small --steps 20000 --log cut.csv -o cut.safetensors > out 2> err &
 process=$!
 # The log under way tells when the network is being trained; after that there is something to interrupt.
-until grep -qs '^100,' cut.csv.*.part || ! kill -0 $process 2> /dev/null; do sleep 0.05; done
+until grep -qs '^100,' cut.csv.hnbrdf-part || ! kill -0 $process 2> /dev/null; do sleep 0.05; done
 kill -INT $process 2> /dev/null || true
 wait $process || fail "an interrupted fit does not end well: $(cat err)"
 if ! grep -q 'interrupted' out; then

@@ -97,7 +97,7 @@ static void a_file_holds_the_bytes_that_are_written(void **state)
     char path[256], aside[256];
     (void)state;
     in_directory("a.safetensors", path);
-    in_directory("a.safetensors.tmp", aside);
+    in_directory("a.safetensors.hnbrdf-part", aside);
     for (int i = 0; i < EXAMPLE_COUNT; i++) {
         hnbrdf_model *model = example(i), *back = NULL;
         assert_int_equal(hnbrdf_model_save(model, path, NULL), HNBRDF_OK);
@@ -257,59 +257,40 @@ static void missing_files_and_directories_are_io_errors(void **state)
 
 /* ---- Failures while saving ------------------------------------------------------------------- */
 
-static void a_failed_save_leaves_the_old_file(void **state)
+static void what_cannot_be_saved_to_is_refused(void **state)
 {
-    hnbrdf_model *model = example(0), *other = example(1), *back = NULL;
+    hnbrdf_model *model = example(0);
     hnbrdf_error error = {""};
-    char path[256], aside[256], blocked[256];
+    char path[256];
     (void)state;
-    in_directory("old.safetensors", path);
-    in_directory("old.safetensors.tmp", aside);
-    assert_int_equal(hnbrdf_model_save(model, path, NULL), HNBRDF_OK);
-    assert_int_equal(mkdir(aside, 0700), 0); /* where the new file would be written */
-    assert_int_equal(hnbrdf_model_save(other, path, &error), HNBRDF_ERROR_IO);
-    assert_non_null(strstr(error.text, aside));
-    assert_int_equal(rmdir(aside), 0);
-    assert_int_equal(hnbrdf_model_load(path, NULL, &back, NULL), HNBRDF_OK);
-    assert_same_model(model, back);
-    remove(path);
-
-    in_directory("missing/a.safetensors", blocked);
-    assert_int_equal(hnbrdf_model_save(model, blocked, &error), HNBRDF_ERROR_IO);
-
-    /* a file cannot take a folder's place: the aside file must go */
-    in_directory("folder", blocked);
-    in_directory("folder.tmp", aside);
-    assert_int_equal(mkdir(blocked, 0700), 0);
-    assert_int_equal(hnbrdf_model_save(model, blocked, &error), HNBRDF_ERROR_IO);
-    assert_non_null(strstr(error.text, "cannot be renamed"));
-    assert_false(exists(aside));
-    assert_int_equal(rmdir(blocked), 0);
+    in_directory("missing/a.safetensors", path);
+    assert_int_equal(hnbrdf_model_save(model, path, &error), HNBRDF_ERROR_IO);
+    in_directory("folder", path);
+    assert_int_equal(mkdir(path, 0700), 0);
+    assert_int_equal(hnbrdf_model_save(model, path, &error), HNBRDF_ERROR_IO);
+    assert_non_null(strstr(error.text, "Is a directory"));
+    assert_int_equal(rmdir(path), 0);
     hnbrdf_model_free(model);
-    hnbrdf_model_free(other);
-    hnbrdf_model_free(back);
 }
 
 /* /dev/full takes no byte: a large file fails while it is written, one that fits the stream's
  * buffer only when it is closed. Only where there is such a device. */
 static void a_full_disk_is_noticed(void **state)
 {
-    char path[256], aside[256];
+    char path[256];
     (void)state;
     in_directory("full", path);
-    in_directory("full.tmp", aside);
     for (int small = 0; small < 2; small++) {
         hnbrdf_model *model = example(small ? 2 : 0);
         hnbrdf_error error = {""};
-        if (symlink("/dev/full", aside) != 0 || !exists(aside)) {
-            remove(aside);
+        if (symlink("/dev/full", path) != 0 || !exists(path)) {
+            remove(path);
             hnbrdf_model_free(model);
             skip();
         }
         assert_int_equal(hnbrdf_model_save(model, path, &error), HNBRDF_ERROR_IO);
-        assert_non_null(strstr(error.text, "cannot be written"));
-        assert_false(exists(path));
-        assert_false(exists(aside));
+        assert_non_null(strstr(error.text, "No space left on device"));
+        assert_int_equal(remove(path), 0);
         hnbrdf_model_free(model);
     }
 }
@@ -384,7 +365,7 @@ static void every_failed_allocation_is_reported_without_a_leak(void **state)
     }
 }
 
-static void saving_asks_the_models_allocator(void **state)
+static void saving_allocates_nothing(void **state)
 {
     hnbrdf_model *model = example(0), *own = NULL;
     hnbrdf_model_desc desc;
@@ -395,8 +376,6 @@ static void saving_asks_the_models_allocator(void **state)
     in_directory("own.safetensors", path);
     hnbrdf_model_describe(model, &desc);
     assert_int_equal(hnbrdf_model_create(&desc, &allocator, &own, NULL), HNBRDF_OK);
-    assert_int_equal(hnbrdf_model_save(own, path, NULL), HNBRDF_ERROR_MEMORY);
-    assert_false(exists(path));
     assert_int_equal(hnbrdf_model_save(own, path, NULL), HNBRDF_OK);
     assert_int_equal(count.alive, 1);
     remove(path);
@@ -440,11 +419,11 @@ int main(void)
         cmocka_unit_test(a_callback_that_fails_is_an_io_error),
         cmocka_unit_test(input_above_max_bytes_is_refused),
         cmocka_unit_test(missing_files_and_directories_are_io_errors),
-        cmocka_unit_test(a_failed_save_leaves_the_old_file),
+        cmocka_unit_test(what_cannot_be_saved_to_is_refused),
         cmocka_unit_test(a_full_disk_is_noticed),
         cmocka_unit_test(a_write_callback_can_stop_anywhere),
         cmocka_unit_test(every_failed_allocation_is_reported_without_a_leak),
-        cmocka_unit_test(saving_asks_the_models_allocator),
+        cmocka_unit_test(saving_allocates_nothing),
         cmocka_unit_test(a_comma_locale_changes_no_byte),
     };
     return cmocka_run_group_tests(tests, make_directory, remove_directory);

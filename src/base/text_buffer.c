@@ -6,9 +6,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-int text_buffer_append(void *buffer, const void *data, size_t size)
+int hnbrdf_text_buffer_append(void *buffer, const void *data, size_t size)
 {
-    text_buffer *text = buffer;
+    hnbrdf_text_buffer *text = buffer;
     if (!text->failed && text->size + size + 1 > text->room) {
         size_t room = 2 * (text->size + size + 1);
         char *grown = realloc(text->bytes, room);
@@ -24,7 +24,7 @@ int text_buffer_append(void *buffer, const void *data, size_t size)
     return 0;
 }
 
-void text_buffer_print(text_buffer *buffer, const char *format, ...)
+void hnbrdf_text_buffer_print(hnbrdf_text_buffer *buffer, const char *format, ...)
 {
     char text[512];
     va_list arguments;
@@ -32,18 +32,18 @@ void text_buffer_print(text_buffer *buffer, const char *format, ...)
     int length = vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
     if (length >= 0 && (size_t)length < sizeof text)
-        text_buffer_append(buffer, text, (size_t)length);
+        hnbrdf_text_buffer_append(buffer, text, (size_t)length);
     else
         buffer->failed = 1;
 }
 
-char *text_buffer_take(text_buffer *buffer)
+char *hnbrdf_text_buffer_take(hnbrdf_text_buffer *buffer)
 {
     char *bytes = buffer->bytes;
     if (buffer->failed) {
         free(bytes);
         bytes = NULL;
     }
-    *buffer = (text_buffer){0};
+    *buffer = (hnbrdf_text_buffer){0};
     return bytes;
 }

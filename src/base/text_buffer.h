@@ -5,17 +5,17 @@
 #include <stddef.h>
 
 /* Zero-initialise. After `failed` (no memory) nothing more is added. */
-typedef struct text_buffer {
+typedef struct hnbrdf_text_buffer {
     char *bytes; /* malloc'ed, NUL-terminated; NULL while empty */
     size_t size, room;
     int failed;
-} text_buffer;
+} hnbrdf_text_buffer;
 
 /* An hnbrdf_write_fn for a text_buffer. */
-int text_buffer_append(void *buffer, const void *data, size_t size);
-void text_buffer_print(text_buffer *buffer, const char *format, ...)
+int hnbrdf_text_buffer_append(void *buffer, const void *data, size_t size);
+void hnbrdf_text_buffer_print(hnbrdf_text_buffer *buffer, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 /* The bytes, or NULL with everything freed if anything failed. */
-char *text_buffer_take(text_buffer *buffer);
+char *hnbrdf_text_buffer_take(hnbrdf_text_buffer *buffer);
 
 #endif

@@ -2,6 +2,8 @@
  * at. */
 #include "check/cases.h"
 
+#include "base/hash.h"
+
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -426,13 +428,10 @@ const stability_case stability_cases[] = {
 };
 const int stability_case_count = sizeof stability_cases / sizeof stability_cases[0];
 
-/* FNV-1a: what a case draws does not depend on its place in the table. */
+/* What a case draws does not depend on its place in the table. */
 static uint64_t hash_of(const char *name)
 {
-    uint64_t hash = 0xcbf29ce484222325;
-    for (; *name; name++)
-        hash = (hash ^ (unsigned char)*name) * 0x100000001b3;
-    return hash;
+    return hnbrdf_hash(HNBRDF_HASH_START, name, strlen(name));
 }
 
 void stability_block_make(const stability_case *what, int number, const hnbrdf_material *material,

@@ -1,9 +1,9 @@
 /* bake_fit.c: fits candidates to the reference, several at once, and measures what comes out. */
 #include "cli/bake.h"
-#include "fit/workers.h"
+#include "base/interrupt.h"
+#include "base/threads.h"
 
 #include <math.h>
-#include <signal.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -16,25 +16,14 @@ enum {
 #define MEMORY 1.5e9    /* bytes of training data that all fits together may take */
 #define PAIR_BYTES 72.0 /* of one pair in the trainer's pool */
 
-/* Set by Ctrl-C; every fit looks at it after its step. */
-static volatile sig_atomic_t interrupted;
-
-static void on_interrupt(int number)
-{
-    (void)number;
-    interrupted = 1;
-}
-
 void bake_catch_interrupts(int on)
 {
-    interrupted = on ? 0 : interrupted;
-    signal(SIGINT, on ? on_interrupt : SIG_DFL);
-    signal(SIGTERM, on ? on_interrupt : SIG_DFL);
+    hnbrdf_catch_interrupts(on);
 }
 
 int bake_interrupted(void)
 {
-    return interrupted != 0;
+    return hnbrdf_interrupted();
 }
 
 double bake_judged(const bake *b, const bake_row *row)
@@ -339,10 +328,10 @@ int bake_wave(bake *b, const bake_job *jobs, int count, double seconds)
     int width = bake_width(b, jobs[0].full);
     wave w = {.b = b, .count = count, .seconds = seconds, .width = width < count ? width : count};
     w.tasks = calloc((size_t)count, sizeof *w.tasks);
-    fit_workers *workers = hnbrdf_fit_workers_start(w.width);
+    hnbrdf_threads *workers = hnbrdf_threads_start(w.width);
     if (!w.tasks || !workers) {
         free(w.tasks);
-        hnbrdf_fit_workers_stop(workers);
+        hnbrdf_threads_stop(workers);
         return cli_fail("out of memory");
     }
     for (int k = 0; k < count; k++) {
@@ -354,9 +343,9 @@ int bake_wave(bake *b, const bake_job *jobs, int count, double seconds)
     snprintf(what, sizeof what, "%s fits of %s%s%s", jobs[0].full ? "full" : "short", first,
              strcmp(first, last) ? " to " : "", strcmp(first, last) ? last : "");
     cli_progress_begin(&w.line, what);
-    hnbrdf_fit_workers_run(workers, count, run_task, &w);
+    hnbrdf_threads_run(workers, count, run_task, &w);
     cli_progress_end(&w.line);
-    hnbrdf_fit_workers_stop(workers);
+    hnbrdf_threads_stop(workers);
     int code = collect(&w);
     free(w.tasks);
     return code;

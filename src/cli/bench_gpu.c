@@ -3,6 +3,7 @@
 #include "cli/bench.h"
 
 #ifdef HNBRDF_WITH_VULKAN
+#include "base/clock.h"
 #include "base/text_buffer.h"
 #include "gpu/compile.h"
 #include "gpu/timed.h"
@@ -10,7 +11,6 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 /* Two materials, told apart when the shader runs: a lone one would be folded into the network's
  * constants. */
@@ -38,9 +38,7 @@ struct bench_gpu {
 
 static double process_ns(void)
 {
-    struct timespec now;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-    return 1e9 * (double)now.tv_sec + (double)now.tv_nsec;
+    return 1e9 * hnbrdf_process_seconds();
 }
 
 /* A device in software runs on this process's threads: what they use of the processors, shared
@@ -107,7 +105,7 @@ static int add_scene(bench *b, gpu_bench_device *on, const bench_model *model,
 }
 
 typedef struct exported_scene {
-    text_buffer text, weights;
+    hnbrdf_text_buffer text, weights;
 } exported_scene;
 
 static void free_scene(exported_scene *scene)
@@ -129,10 +127,10 @@ static int export_scene(const bench_model *model, hnbrdf_glsl_weights weights,
                                          .precision = precision};
     hnbrdf_error error;
     hnbrdf_result result =
-        hnbrdf_export_glsl(model->model, &options, text_buffer_append, &scene->text, &error);
+        hnbrdf_export_glsl(model->model, &options, hnbrdf_text_buffer_append, &scene->text, &error);
     if (!result && weights == HNBRDF_GLSL_UNIFORM)
-        result = hnbrdf_export_weights(model->model, &options, text_buffer_append, &scene->weights,
-                                       &error);
+        result = hnbrdf_export_weights(model->model, &options, hnbrdf_text_buffer_append,
+                                       &scene->weights, &error);
     return result ? cli_fail("%s: %s", model->name, error.text) : CLI_OK;
 }
 

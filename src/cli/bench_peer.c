@@ -84,22 +84,22 @@ static hnbrdf_material rounded_material(const hnbrdf_material *m)
     return made;
 }
 
-static void put_thousandths(text_buffer *text, float value)
+static void put_thousandths(hnbrdf_text_buffer *text, float value)
 {
     long thousandths = lround(1000.0 * (double)value);
-    text_buffer_print(text, "%s%ld.%03ld", thousandths < 0 ? "-" : "", labs(thousandths) / 1000,
-                      labs(thousandths) % 1000);
+    hnbrdf_text_buffer_print(text, "%s%ld.%03ld", thousandths < 0 ? "-" : "",
+                             labs(thousandths) / 1000, labs(thousandths) % 1000);
 }
 
-static void put_numbers(text_buffer *text, const char *type, const float *values, int count,
+static void put_numbers(hnbrdf_text_buffer *text, const char *type, const float *values, int count,
                         int given)
 {
-    text_buffer_print(text, "%s(", type);
+    hnbrdf_text_buffer_print(text, "%s(", type);
     for (int k = 0; k < count; k++) {
-        text_buffer_print(text, "%s", k ? ", " : "");
+        hnbrdf_text_buffer_print(text, "%s", k ? ", " : "");
         put_thousandths(text, k < given ? values[k] : 0.0f);
     }
-    text_buffer_print(text, ")");
+    hnbrdf_text_buffer_print(text, ")");
 }
 
 /* ---- The network ----------------------------------------------------------------------------- */
@@ -116,110 +116,111 @@ static int outputs_of(const hnbrdf_model_desc *desc, int layer)
 
 /* mat4(...) * fL_B: `rows` rows from `row` on, four columns or what is left of them; column by
  * column. */
-static void put_product(text_buffer *text, const hnbrdf_model_desc *desc, int layer, int row,
+static void put_product(hnbrdf_text_buffer *text, const hnbrdf_model_desc *desc, int layer, int row,
                         int rows, int block)
 {
     int inputs = inputs_of(desc, layer), columns = inputs - 4 * block;
     columns = columns < 4 ? columns : 4;
     if (columns == 1)
-        text_buffer_print(text, "vec%d(", rows);
+        hnbrdf_text_buffer_print(text, "vec%d(", rows);
     else if (columns == 4 && rows == 4)
-        text_buffer_print(text, "mat4(");
+        hnbrdf_text_buffer_print(text, "mat4(");
     else
-        text_buffer_print(text, "mat%dx%d(", columns, rows);
+        hnbrdf_text_buffer_print(text, "mat%dx%d(", columns, rows);
     for (int k = 0; k < rows * columns; k++) {
-        text_buffer_print(text, "%s", k ? ", " : "");
+        hnbrdf_text_buffer_print(text, "%s", k ? ", " : "");
         put_thousandths(text,
                         desc->weights[layer][(row + k % rows) * inputs + 4 * block + k / rows]);
     }
-    text_buffer_print(text, ") * f%d_%d + ", layer, block);
+    hnbrdf_text_buffer_print(text, ") * f%d_%d + ", layer, block);
 }
 
-static void put_rows(text_buffer *text, const hnbrdf_model_desc *desc, int layer, int row, int rows)
+static void put_rows(hnbrdf_text_buffer *text, const hnbrdf_model_desc *desc, int layer, int row,
+                     int rows)
 {
     int hidden = layer < desc->layers;
     char type[8];
     snprintf(type, sizeof type, "vec%d", rows);
-    text_buffer_print(text, "    %s f%d_%d = %s", type, layer + 1, row / 4,
-                      hidden ? "hardGeLU(" : "");
+    hnbrdf_text_buffer_print(text, "    %s f%d_%d = %s", type, layer + 1, row / 4,
+                             hidden ? "hardGeLU(" : "");
     for (int block = 0; 4 * block < inputs_of(desc, layer); block++)
         put_product(text, desc, layer, row, rows, block);
     put_numbers(text, type, desc->biases[layer] + row, rows, rows);
-    text_buffer_print(text, "%s", hidden ? ");\n" : ";\n");
+    hnbrdf_text_buffer_print(text, "%s", hidden ? ");\n" : ";\n");
 }
 
 /* The inputs in blocks of four: wi, wo, then the latent code. */
-static void put_inputs(text_buffer *text, const hnbrdf_model_desc *desc)
+static void put_inputs(hnbrdf_text_buffer *text, const hnbrdf_model_desc *desc)
 {
     static const char *const directions[] = {"wi.x", "wi.y", "wi.z", "wo.x", "wo.y", "wo.z"};
     int count = inputs_of(desc, 0);
     for (int k = 0; k < count; k++) {
         int left = count - k < 4 ? count - k : 4;
         if (k % 4 == 0 && left > 1)
-            text_buffer_print(text, "    vec%d f0_%d = vec%d(", left, k / 4, left);
+            hnbrdf_text_buffer_print(text, "    vec%d f0_%d = vec%d(", left, k / 4, left);
         else if (k % 4 == 0)
-            text_buffer_print(text, "    float f0_%d = (", k / 4);
+            hnbrdf_text_buffer_print(text, "    float f0_%d = (", k / 4);
         if (k < 6)
-            text_buffer_print(text, "%s", directions[k]);
+            hnbrdf_text_buffer_print(text, "%s", directions[k]);
         else
-            text_buffer_print(text, "m.latent%d.%c", (k - 6) / 4, "xyzw"[(k - 6) % 4]);
-        text_buffer_print(text, "%s", k % 4 == 3 || k + 1 == count ? ");\n" : ", ");
+            hnbrdf_text_buffer_print(text, "m.latent%d.%c", (k - 6) / 4, "xyzw"[(k - 6) % 4]);
+        hnbrdf_text_buffer_print(text, "%s", k % 4 == 3 || k + 1 == count ? ");\n" : ", ");
     }
 }
 
-static void put_network(text_buffer *text, const hnbrdf_model_desc *desc)
+static void put_network(hnbrdf_text_buffer *text, const hnbrdf_model_desc *desc)
 {
     int last = desc->layers + 1;
-    text_buffer_print(
+    hnbrdf_text_buffer_print(
         text, "void hnbrdf_network(hnbrdf_material m, vec3 wi, vec3 wo, out vec3 c, out vec3 "
               "g)\n{\n");
     put_inputs(text, desc);
     for (int layer = 0; layer <= desc->layers; layer++)
         for (int row = 0; row < outputs_of(desc, layer); row += 4)
             put_rows(text, desc, layer, row, outputs_of(desc, layer) - row < 4 ? 2 : 4);
-    text_buffer_print(text, "    c = f%d_0.xyz;\n    g = vec3(f%d_0.w, f%d_1);\n}\n\n", last, last,
-                      last);
+    hnbrdf_text_buffer_print(text, "    c = f%d_0.xyz;\n    g = vec3(f%d_0.w, f%d_1);\n}\n\n", last,
+                             last, last);
 }
 
 /* ---- The whole ------------------------------------------------------------------------------- */
 
-static void put_materials(text_buffer *text, const hnbrdf_model_desc *desc, int materials)
+static void put_materials(hnbrdf_text_buffer *text, const hnbrdf_model_desc *desc, int materials)
 {
     int vectors = (desc->latent + 3) / 4;
-    text_buffer_print(text, "struct hnbrdf_material { vec3 kd; vec3 eta; float alpha;");
+    hnbrdf_text_buffer_print(text, "struct hnbrdf_material { vec3 kd; vec3 eta; float alpha;");
     for (int v = 0; v < vectors; v++)
-        text_buffer_print(text, " vec4 latent%d;", v);
-    text_buffer_print(text, " };\n\nhnbrdf_material hnbrdf_scene_material(int index)\n{\n");
+        hnbrdf_text_buffer_print(text, " vec4 latent%d;", v);
+    hnbrdf_text_buffer_print(text, " };\n\nhnbrdf_material hnbrdf_scene_material(int index)\n{\n");
     for (int k = 0; k < materials; k++) {
         const hnbrdf_material m = rounded_material(&desc->materials[k]);
         if (k + 1 < materials)
-            text_buffer_print(text, "    if (index == %d)\n    ", k);
-        text_buffer_print(text, "    return hnbrdf_material(");
+            hnbrdf_text_buffer_print(text, "    if (index == %d)\n    ", k);
+        hnbrdf_text_buffer_print(text, "    return hnbrdf_material(");
         put_numbers(text, "vec3", m.kd, 3, 3);
         put_numbers(text, ", vec3", m.eta, 3, 3);
         put_numbers(text, ", float", m.alpha, 1, 1);
         for (int v = 0; v < vectors; v++)
             put_numbers(text, ", vec4", m.latent + 4 * v, 4, desc->latent - 4 * v);
-        text_buffer_print(text, ");\n");
+        hnbrdf_text_buffer_print(text, ");\n");
     }
-    text_buffer_print(text, "}\n\n");
+    hnbrdf_text_buffer_print(text, "}\n\n");
 }
 
 char *bench_peer_shader(const hnbrdf_model_desc *desc, int materials)
 {
-    text_buffer text = {0};
-    text_buffer_print(&text, "#define HNBRDF_SCENE_HYBRID\n");
+    hnbrdf_text_buffer text = {0};
+    hnbrdf_text_buffer_print(&text, "#define HNBRDF_SCENE_HYBRID\n");
     put_materials(&text, desc, materials);
-    text_buffer_append(&text, formulas, strlen(formulas));
+    hnbrdf_text_buffer_append(&text, formulas, strlen(formulas));
     put_network(&text, desc);
-    text_buffer_append(&text, evaluation, strlen(evaluation));
-    text_buffer_print(&text, "    neural_output = exp(");
+    hnbrdf_text_buffer_append(&text, evaluation, strlen(evaluation));
+    hnbrdf_text_buffer_print(&text, "    neural_output = exp(");
     put_thousandths(&text, desc->scale);
-    text_buffer_print(&text, " * neural_output + ");
+    hnbrdf_text_buffer_print(&text, " * neural_output + ");
     put_thousandths(&text, desc->shift);
-    text_buffer_print(
+    hnbrdf_text_buffer_print(
         &text, ");\n    return neural_output + microfacet(m, wi, wo) / (1.0 + exp(-gate));\n}\n");
-    return text_buffer_take(&text);
+    return hnbrdf_text_buffer_take(&text);
 }
 
 static float *round_all(const float *values, size_t count)

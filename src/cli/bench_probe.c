@@ -2,8 +2,9 @@
  * counts. */
 #include "cli/bench.h"
 
+#include "base/clock.h"
+
 #include <math.h>
-#include <time.h>
 
 enum { MOST_REPEATS = 1 << 24 };
 
@@ -16,9 +17,7 @@ bench_probe bench_probe_make(double (*run)(void *context, long repeats), void *c
 
 double bench_thread_ns(void)
 {
-    struct timespec now;
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-    return 1e9 * (double)now.tv_sec + (double)now.tv_nsec;
+    return 1e9 * hnbrdf_thread_seconds();
 }
 
 /* Takes one sample and keeps it if it is the best so far. */

@@ -2,7 +2,7 @@
  * spheres. */
 #include "cli/bench.h"
 #include "cli/picture.h"
-#include "fit/workers.h"
+#include "base/threads.h"
 #include "hnbrdf/metrics.h"
 #ifdef HNBRDF_WITH_VULKAN
 #include "check/half.h"
@@ -116,14 +116,14 @@ static void compare_one(void *context, int index, int worker)
 
 static int measure_smape(quality *q)
 {
-    fit_workers *workers = hnbrdf_fit_workers_start(0);
+    hnbrdf_threads *workers = hnbrdf_threads_start(0);
     if (!workers)
         return cli_fail("out of memory");
     for (int s = 0; s < q->count; s++)
         for (int m = 0; m < q->data->count; m++)
             q->smape[s * q->data->count + m] = (double)NAN;
-    hnbrdf_fit_workers_run(workers, q->count * q->data->count, compare_one, q);
-    hnbrdf_fit_workers_stop(workers);
+    hnbrdf_threads_run(workers, q->count * q->data->count, compare_one, q);
+    hnbrdf_threads_stop(workers);
     return CLI_OK;
 }
 

@@ -2,12 +2,12 @@
 #include "cli/cli.h"
 
 #include "base/text.h"
+#include "base/threads.h"
 
 #include <limits.h>
 #include <math.h>
 #include <stdarg.h>
 #include <string.h>
-#include <unistd.h>
 
 enum { HELP_COLUMNS = 100, MESSAGE_SIZE = 1024 };
 
@@ -55,8 +55,7 @@ int cli_usage(const cli_command *command, const char *format, ...)
 
 int cli_processors(void)
 {
-    long count = sysconf(_SC_NPROCESSORS_ONLN);
-    return count < 1 ? 1 : count > 1024 ? 1024 : (int)count;
+    return hnbrdf_processors();
 }
 
 /* ---- Suggestions ----------------------------------------------------------------------------- */

@@ -2,6 +2,7 @@
 #ifndef HNBRDF_CLI_CLI_H
 #define HNBRDF_CLI_CLI_H
 
+#include "base/files.h"
 #include "hnbrdf/edit.h"
 #include "hnbrdf/hnbrdf.h"
 #include "hnbrdf/measured.h"
@@ -155,12 +156,10 @@ int cli_choose_material(const hnbrdf_model *model, const char *name);
 int cli_choose_materials(const hnbrdf_model *model, const char *list, int **indices, int *count);
 
 /* ---- Output -------------------------------------------------------------------------------------
- * Files  * are written aside and renamed when complete; the old file stays until then. "-" is
- * stdout; it  * and what is no regular file (a pipe, a device) are written directly, aside is
- * then NULL. */
+ * Files are written aside and renamed when complete, as base/files.h has it; "-" is stdout. */
 typedef struct cli_output {
-    FILE *file; /* write here */
-    char *path, *aside;
+    FILE *file;           /* write here */
+    hnbrdf_output output; /* unless it is stdout */
 } cli_output;
 int cli_output_open(const char *path, cli_output *output); /* 0, or CLI_FAILURE after a message */
 int cli_output_close(cli_output *output);                  /* flush, check, rename; likewise */

@@ -1,6 +1,6 @@
 /* cmd_eval.c: `hnbrdf eval`: pairs of directions in, BRDF values out, one CSV line for each. */
 #include "cli/cli.h"
-#include "cli/csv.h"
+#include "base/csv.h"
 #include "base/text.h"
 
 #include <errno.h>
@@ -40,7 +40,7 @@ static const float unit_tolerance = 1e-3f;
 typedef struct eval_job {
     cli_source source;
     int material; /* of a model, when no column names it */
-    csv_reader in;
+    hnbrdf_csv_reader in;
     FILE *out;
     const char *out_name;
     int fields;                    /* expected in every line */
@@ -83,12 +83,13 @@ static int is_number(const char *text)
 
 static int read_pair(const eval_job *job, float pair[6])
 {
+    hnbrdf_error error;
     if (job->in.count != job->fields)
         return cli_fail("%s:%ld: found %d fields, expected %d", job->in.name, job->in.line,
                         job->in.count, job->fields);
     for (int k = 0; k < 6; k++)
-        if (csv_number(&job->in, job->columns[k], column_names[k], &pair[k]) != 0)
-            return CLI_FAILURE;
+        if (hnbrdf_csv_number(&job->in, job->columns[k], column_names[k], &pair[k], &error) != 0)
+            return cli_fail("%s", error.text);
     return CLI_OK;
 }
 
@@ -153,24 +154,25 @@ static int evaluate_line(eval_job *job)
 
 static int evaluate_lines(eval_job *job)
 {
-    int more = csv_next(&job->in);
+    hnbrdf_error error;
+    int more = hnbrdf_csv_next(&job->in, &error);
     if (more == 0)
         return cli_fail("%s: empty, expected lines with wi_x,wi_y,wi_z,wo_x,wo_y,wo_z",
                         job->in.name);
     if (more < 0)
-        return CLI_FAILURE;
+        return cli_fail("%s", error.text);
     if (is_number(job->in.fields[0])) {
         assume_columns(job);
     } else {
         if (read_header(job) != CLI_OK)
             return CLI_FAILURE;
-        more = csv_next(&job->in);
+        more = hnbrdf_csv_next(&job->in, &error);
     }
     fputs("f_r,f_g,f_b\n", job->out);
-    for (; more > 0; more = csv_next(&job->in))
+    for (; more > 0; more = hnbrdf_csv_next(&job->in, &error))
         if (evaluate_line(job) != CLI_OK)
             return CLI_FAILURE;
-    return more == 0 ? CLI_OK : CLI_FAILURE;
+    return more == 0 ? CLI_OK : cli_fail("%s", error.text);
 }
 
 /* ---- Command --------------------------------------------------------------------------------- */
@@ -178,10 +180,10 @@ static int evaluate_lines(eval_job *job)
 static int run(eval_job *job, const char *in, const char *out)
 {
     cli_output output;
-    FILE *file = in ? fopen(in, "rb") : stdin;
+    FILE *file = in ? hnbrdf_open_to_read(in) : stdin;
     if (!file)
         return cli_fail("%s: cannot open: %s", in, strerror(errno));
-    csv_begin(&job->in, file, in ? in : "stdin");
+    hnbrdf_csv_begin(&job->in, file, in ? in : "stdin");
     int result = cli_output_open(out, &output);
     if (result == CLI_OK) {
         job->out = output.file;

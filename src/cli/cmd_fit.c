@@ -5,8 +5,9 @@
 #include "cli/loss_plot.h"
 #include "hnbrdf/fit.h"
 
+#include "base/interrupt.h"
+
 #include <math.h>
-#include <signal.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -39,15 +40,7 @@ typedef struct display {
     loss_curve curve;
 } display;
 
-/* Set by Ctrl-C; the fit looks at it after every step. */
-static volatile sig_atomic_t interrupted;
-
-static void on_interrupt(int number)
-{
-    (void)number;
-    interrupted = 1;
-}
-
+/* The fit calls it after every step. */
 static int show(void *user, const hnbrdf_fit_progress *p)
 {
     display *d = user;
@@ -69,7 +62,7 @@ static int show(void *user, const hnbrdf_fit_progress *p)
     cli_progress_update(&d->line, p->done, detail);
     if (strcmp(p->stage, "network") == 0 && p->step > 0 && p->step % 100 == 0)
         fit_log_row(&d->log, p);
-    return interrupted != 0;
+    return hnbrdf_interrupted();
 }
 
 /* Index of text in names, or -1. */
@@ -187,7 +180,7 @@ static int write_speed(const job *j, const hnbrdf_fit_report *report)
 /* Fit and save. The checkpoint stays only after an interruption. */
 static int run(job *j)
 {
-    display d = {{0}, NULL, {{NULL, NULL, NULL}, NULL, NULL}, {NULL, 0, 0}};
+    display d = {.stage = NULL};
     hnbrdf_model *model = NULL;
     hnbrdf_fit_report report;
     hnbrdf_error error;
@@ -196,12 +189,10 @@ static int run(job *j)
         return code;
     j->fit.progress = show;
     j->fit.progress_user = &d;
-    signal(SIGINT, on_interrupt);
-    signal(SIGTERM, on_interrupt);
+    hnbrdf_catch_interrupts(1);
     hnbrdf_result result = hnbrdf_fit((const hnbrdf_measured *const *)j->data.items, j->data.count,
                                       &j->fit, &model, &report, &error);
-    signal(SIGINT, SIG_DFL);
-    signal(SIGTERM, SIG_DFL);
+    hnbrdf_catch_interrupts(0);
     if (d.stage)
         cli_progress_end(&d.line);
     if (!result)

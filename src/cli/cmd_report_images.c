@@ -1,7 +1,8 @@
 /* cmd_report_images.c: `hnbrdf report images`: PSNR of spheres for a grid of networks and
  * baselines, with picture rows, material by material, so that what an interrupted run has done
  * stays. */
-#include "cli/csv.h"
+#include "base/csv.h"
+#include "base/hash.h"
 #include "cli/report.h"
 #include "base/text.h"
 
@@ -36,9 +37,8 @@ static const cli_command command = {
 
 static int hash_bytes(void *user, const void *data, size_t size)
 {
-    uint64_t *hash = user; /* FNV-1a */
-    for (const unsigned char *at = data; size--; at++)
-        *hash = (*hash ^ *at) * UINT64_C(1099511628211);
+    uint64_t *hash = user;
+    *hash = hnbrdf_hash(*hash, data, size);
     return 0;
 }
 
@@ -52,7 +52,7 @@ static void write_settings(const report *r, hnbrdf_model *const *models, FILE *f
         fprintf(file, "material %s: %s\n", hnbrdf_measured_name(r->data.items[m]),
                 hnbrdf_measured_summary(r->data.items[m]));
     for (int k = 0; k < r->count; k++) {
-        uint64_t hash = UINT64_C(14695981039346656037);
+        uint64_t hash = HNBRDF_HASH_START;
         hnbrdf_model_write(models[k], hash_bytes, &hash, NULL);
         fprintf(file, "model %s %016llx\n", r->entries[k].name, (unsigned long long)hash);
     }
@@ -103,7 +103,7 @@ static report_picture *find_picture(report *r, const char *material, const char 
 }
 
 /* A row of images.csv; what is not one is made again. */
-static void read_row(report *r, const csv_reader *reader)
+static void read_row(report *r, const hnbrdf_csv_reader *reader)
 {
     double values[6];
     report_picture *p =
@@ -119,18 +119,22 @@ static void read_row(report *r, const csv_reader *reader)
 
 static int read_figures(report *r)
 {
-    csv_reader *reader = malloc(sizeof *reader);
+    hnbrdf_error error;
+    hnbrdf_csv_reader *reader = malloc(sizeof *reader);
     char *path = report_path_in(r, "images.csv");
     FILE *file = path ? fopen(path, "r") : NULL;
     int found = 1;
     if (reader && file) {
-        csv_begin(reader, file, path);
-        while ((found = csv_next(reader)) == 1)
+        hnbrdf_csv_begin(reader, file, path);
+        while ((found = hnbrdf_csv_next(reader, &error)) == 1)
             read_row(r, reader);
     }
     if (file)
         fclose(file);
-    int code = !path || found < 0 ? CLI_FAILURE : reader ? CLI_OK : cli_fail("out of memory");
+    int code = !path       ? CLI_FAILURE
+               : !reader   ? cli_fail("out of memory")
+               : found < 0 ? cli_fail("%s", error.text)
+                           : CLI_OK;
     free(reader);
     free(path);
     return code;

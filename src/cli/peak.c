@@ -2,7 +2,7 @@
 #include "cli/peak.h"
 
 #include "cli/cli.h"
-#include "fit/workers.h"
+#include "base/threads.h"
 
 #include <string.h>
 
@@ -131,20 +131,20 @@ static void run_one(void *context, int index, int worker)
 
 static double measure(float (*chain)(void), int width, int threads)
 {
-    fit_workers *workers = hnbrdf_fit_workers_start(threads);
+    hnbrdf_threads *workers = hnbrdf_threads_start(threads);
     if (!workers)
         return 0.0;
     volatile float results[256];
     run r = {chain, results};
-    int count = hnbrdf_fit_workers_count(workers);
+    int count = hnbrdf_threads_count(workers);
     double begun = cli_seconds(), best = 1e9;
     for (int runs = 0; runs < PEAK_RUNS_AT_LEAST || cli_seconds() - begun < PEAK_SECONDS; runs++) {
-        double before = hnbrdf_fit_workers_busy(workers);
-        hnbrdf_fit_workers_run(workers, count, run_one, &r);
-        double seconds = (hnbrdf_fit_workers_busy(workers) - before) / count;
+        double before = hnbrdf_threads_busy(workers);
+        hnbrdf_threads_run(workers, count, run_one, &r);
+        double seconds = (hnbrdf_threads_busy(workers) - before) / count;
         best = seconds < best ? seconds : best;
     }
-    hnbrdf_fit_workers_stop(workers);
+    hnbrdf_threads_stop(workers);
     return best > 0.0 ? 2.0 * count * width * PEAK_CHAINS * (double)PEAK_STEPS / best : 0.0;
 }
 

@@ -2,8 +2,9 @@
  * */
 #include "cli/cli.h"
 
+#include "base/clock.h"
+
 #include <string.h>
-#include <time.h>
 #include <unistd.h>
 
 static const double quiet_seconds = 2.0;    /* nothing is said about what ends within these */
@@ -12,9 +13,7 @@ static const double log_seconds = 10.0;     /* between lines when stderr is no t
 
 double cli_seconds(void)
 {
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+    return hnbrdf_seconds();
 }
 
 void cli_progress_begin(cli_progress *progress, const char *what)

@@ -1,32 +1,23 @@
 /* report_fit.c: trains or reuses the models of a report, one after the other, and measures them. */
 #include "cli/report.h"
-#include "fit/workers.h"
+#include "base/hash.h"
+#include "base/interrupt.h"
+#include "base/threads.h"
 
 #include <math.h>
-#include <signal.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
 /* Set by Ctrl-C; the fit looks at it after every step. */
-static volatile sig_atomic_t interrupted;
-
-static void on_interrupt(int number)
-{
-    (void)number;
-    interrupted = 1;
-}
-
 int report_interrupted(void)
 {
-    return interrupted != 0;
+    return hnbrdf_interrupted();
 }
 
 void report_catch_interrupts(int on)
 {
-    interrupted = 0;
-    signal(SIGINT, on ? on_interrupt : SIG_DFL);
-    signal(SIGTERM, on ? on_interrupt : SIG_DFL);
+    hnbrdf_catch_interrupts(on);
 }
 
 /* What is under way, for the progress line; all in seconds. */
@@ -44,17 +35,14 @@ typedef struct watch {
  * models/NAME.txt: the settings in one  * line, then what the fit took. Written last: it says
  * that the model beside it is complete. */
 
-static uint64_t hash_text(uint64_t h, const char *text) /* FNV-1a */
+static uint64_t hash_text(uint64_t h, const char *text)
 {
-    do
-        h = (h ^ (unsigned char)*text) * UINT64_C(1099511628211);
-    while (*text++);
-    return h;
+    return hnbrdf_hash(h, text, strlen(text) + 1);
 }
 
 static void describe_settings(const report *r, const report_entry *e, char *text, size_t size)
 {
-    uint64_t h = UINT64_C(14695981039346656037);
+    uint64_t h = HNBRDF_HASH_START;
     for (int m = 0; m < r->data.count; m++) {
         h = hash_text(h, hnbrdf_measured_name(r->data.items[m]));
         h = hash_text(h, hnbrdf_measured_summary(r->data.items[m]));
@@ -164,7 +152,7 @@ static int show(void *user, const hnbrdf_fit_progress *p)
     snprintf(detail, sizeof detail, "%d of %d %s%s", (int)(w->entry - w->r->entries) + 1,
              w->r->count, w->entry->name, loss);
     cli_progress_update(&w->line, spent / (spent + left), detail);
-    return interrupted != 0;
+    return hnbrdf_interrupted();
 }
 
 static void set_options(const report *r, const report_entry *e, hnbrdf_fit_options *o)
@@ -219,7 +207,8 @@ static int fit_entry(const report *r, report_entry *e, watch *w, hnbrdf_model **
     hnbrdf_model *fitted = NULL;
     hnbrdf_result result = hnbrdf_fit((const hnbrdf_measured *const *)r->data.items, r->data.count,
                                       &options, &fitted, &made, &error);
-    if (result == HNBRDF_ERROR_CANCELLED || (result == HNBRDF_OK && (interrupted || made.stopped)))
+    if (result == HNBRDF_ERROR_CANCELLED ||
+        (result == HNBRDF_OK && (hnbrdf_interrupted() || made.stopped)))
         code =
             cli_fail("%s: interrupted; what is finished is there, --resume goes on", r->directory);
     else if (result == HNBRDF_OK)
@@ -290,9 +279,9 @@ static int measure(const report *r, report_entry *e, const hnbrdf_model *model)
 {
     int items = REPORT_SAMPLERS * r->data.count, code = CLI_OK;
     measuring job = {r, e, model, calloc((size_t)items, sizeof(hnbrdf_result))};
-    fit_workers *workers = hnbrdf_fit_workers_start((int)r->threads);
+    hnbrdf_threads *workers = hnbrdf_threads_start((int)r->threads);
     if (job.results && workers) {
-        hnbrdf_fit_workers_run(workers, items, measure_one, &job);
+        hnbrdf_threads_run(workers, items, measure_one, &job);
         for (int k = 0; k < items && code == CLI_OK; k++)
             if (job.results[k] != HNBRDF_OK)
                 code = cli_fail("%s: %s", hnbrdf_measured_name(r->data.items[k % r->data.count]),
@@ -301,7 +290,7 @@ static int measure(const report *r, report_entry *e, const hnbrdf_model *model)
     } else {
         code = cli_fail("out of memory");
     }
-    hnbrdf_fit_workers_stop(workers);
+    hnbrdf_threads_stop(workers);
     free(job.results);
     return code;
 }
@@ -363,7 +352,7 @@ int report_run(report *r, int (*finished)(const report *r, const report_entry *e
         cli_progress_end(&w.line);
         if (result == CLI_OK)
             result = finished(r, &r->entries[k]);
-        if (result == CLI_OK && interrupted && k + 1 < r->count)
+        if (result == CLI_OK && hnbrdf_interrupted() && k + 1 < r->count)
             result = cli_fail("%s: interrupted; what is finished is there, --resume goes on",
                               r->directory);
     }

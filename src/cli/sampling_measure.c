@@ -2,11 +2,11 @@
  * against a converged one. */
 #include "cli/sampling.h"
 
+#include "base/clock.h"
 #include "image/difference.h"
 #include "render/tabulated.h"
 
 #include <string.h>
-#include <time.h>
 
 const char *sampling_name(sampling_way way)
 {
@@ -40,9 +40,7 @@ static int set_lobes(const sampling_subject *s, sampling_way way, hnbrdf_materia
 /* Seconds of all of this process's threads. */
 static double processor_seconds(void)
 {
-    struct timespec now;
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+    return hnbrdf_process_seconds();
 }
 
 static int render(const sampling_report *r, const render_surface *surface, render_strategy strategy,

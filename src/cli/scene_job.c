@@ -1,28 +1,21 @@
 /* scene_job.c: render a scene for a command: progress, Ctrl-C, checkpoint. */
 #include "cli/scene_job.h"
 
-#include <signal.h>
+#include "base/interrupt.h"
+
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
 
-static volatile sig_atomic_t interrupted;
-
-static void on_interrupt(int number)
-{
-    (void)number;
-    interrupted = 1;
-}
-
 int scene_job_interrupted(void)
 {
-    return interrupted != 0;
+    return hnbrdf_interrupted();
 }
 
 static int show(void *line, double share)
 {
     cli_progress_update(line, share, NULL);
-    return interrupted != 0;
+    return hnbrdf_interrupted();
 }
 
 static char *checkpoint_path(const char *output)
@@ -52,11 +45,9 @@ static int fill(const scene_job *job, const render_scene *scene, const char *wha
                                           .progress = show,
                                           .progress_user = &line};
     cli_progress_begin(&line, what);
-    signal(SIGINT, on_interrupt);
-    signal(SIGTERM, on_interrupt);
+    hnbrdf_catch_interrupts(1);
     hnbrdf_result result = render_scene_run(scene, &options, film, complete, &error);
-    signal(SIGINT, SIG_DFL);
-    signal(SIGTERM, SIG_DFL);
+    hnbrdf_catch_interrupts(0);
     cli_progress_end(&line);
     return result == HNBRDF_OK ? CLI_OK : cli_fail("%s", error.text);
 }

@@ -1,5 +1,6 @@
 /* load.c: read a model file whole, from a file, a callback or memory. */
 #include "base/error.h"
+#include "base/files.h"
 #include "base/memory.h"
 #include "file/safetensors.h"
 #include "model/choose_kernel.h"
@@ -136,7 +137,7 @@ hnbrdf_result hnbrdf_model_load(const char *path, const hnbrdf_load_options *opt
             return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT,
                                "path is NULL, expected a file's path");
         }
-        if (!(file = fopen(path, "rb")))
+        if (!(file = hnbrdf_open_to_read(path)))
             return hnbrdf_fail(error, HNBRDF_ERROR_IO, "%s: cannot be opened for reading", path);
         s.read = read_stream;
         s.read_user = file;

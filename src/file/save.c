@@ -1,15 +1,12 @@
 /* save.c: write a model as a safetensors file. Identical models give identical bytes.
  * The header is walked twice, once to count its bytes, so that nothing is allocated for it. */
 #include "base/error.h"
-#include "base/memory.h"
+#include "base/files.h"
 #include "file/safetensors.h"
 #include "base/text.h"
 
 #include <stdio.h>
 #include <string.h>
-#if defined(__unix__) || defined(__APPLE__)
-#include <sys/stat.h>
-#endif
 
 /* ---- Bytes on their way ---------------------------------------------------------------------- */
 
@@ -212,57 +209,14 @@ hnbrdf_result hnbrdf_model_write(const hnbrdf_model *model, hnbrdf_write_fn writ
 
 /* ---- Files ----------------------------------------------------------------------------------- */
 
-static int write_stream(void *user, const void *data, size_t size)
-{
-    return fwrite(data, 1, size, user) != size;
-}
-
-/* Existing pipes and devices, /dev/null for one, must not be replaced by a file. */
-static int is_written_directly(const char *path)
-{
-#if defined(__unix__) || defined(__APPLE__)
-    struct stat status;
-    return stat(path, &status) == 0 && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode);
-#else
-    (void)path;
-    return 0;
-#endif
-}
-
-/* Writes `aside` and, where that is another file, moves it to `path` or leaves nothing behind. */
-static hnbrdf_result save_aside(const hnbrdf_model *model, const char *path, const char *aside,
-                                hnbrdf_error *error)
-{
-    FILE *file = fopen(aside, "wb");
-    if (!file)
-        return hnbrdf_fail(error, HNBRDF_ERROR_IO, "%s: cannot be opened for writing", aside);
-    hnbrdf_result result = hnbrdf_model_write(model, write_stream, file, NULL);
-    const int closed = fclose(file) == 0;
-    if (result || !closed) {
-        result = hnbrdf_fail(error, HNBRDF_ERROR_IO,
-                             "%s: cannot be written, expected room for a model file", aside);
-    } else if (strcmp(aside, path) != 0 && rename(aside, path) != 0) {
-        result = hnbrdf_fail(error, HNBRDF_ERROR_IO, "%s: cannot be renamed to %s", aside, path);
-    }
-    if (result && strcmp(aside, path) != 0)
-        remove(aside);
-    return result;
-}
-
 hnbrdf_result hnbrdf_model_save(const hnbrdf_model *model, const char *path, hnbrdf_error *error)
 {
-    static const char SUFFIX[] = ".tmp";
+    hnbrdf_output output;
     if (!model || !path)
         return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT, "%s is NULL", model ? "path" : "model");
-    if (is_written_directly(path))
-        return save_aside(model, path, path, error);
-    const size_t length = strlen(path), size = length + sizeof SUFFIX;
-    char *aside = hnbrdf_allocate(&model->allocator, size);
-    if (!aside)
-        return hnbrdf_fail_memory(error, size, "a path");
-    memcpy(aside, path, length);
-    memcpy(aside + length, SUFFIX, sizeof SUFFIX);
-    const hnbrdf_result result = save_aside(model, path, aside, error);
-    hnbrdf_release(&model->allocator, aside);
-    return result;
+    const hnbrdf_result result = hnbrdf_output_open(path, &output, error);
+    if (result)
+        return result;
+    hnbrdf_model_write(model, hnbrdf_write_stream, output.stream, NULL); /* closing tells */
+    return hnbrdf_output_close(&output, error);
 }

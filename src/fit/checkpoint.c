@@ -5,12 +5,13 @@
 #include "fit/trainer.h"
 
 #include "base/error.h"
+#include "base/files.h"
+#include "base/hash.h"
 
 #include <float.h>
 #include <limits.h>
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 typedef struct header {
@@ -25,18 +26,9 @@ typedef struct header {
 
 static const char magic[16] = "hnbrdf-fit/2";
 
-/* FNV-1a. */
-static uint64_t hash(uint64_t h, const void *data, size_t size)
-{
-    const unsigned char *bytes = data;
-    for (size_t i = 0; i < size; i++)
-        h = (h ^ bytes[i]) * UINT64_C(1099511628211);
-    return h;
-}
-
 static uint64_t hash_number(uint64_t h, double value)
 {
-    return hash(h, &value, sizeof value);
+    return hnbrdf_hash(h, &value, sizeof value);
 }
 
 /* Everything that the result depends on, but for the values of the measurements. */
@@ -62,12 +54,12 @@ static uint64_t fingerprint(const trainer *t)
                               o->schedule,
                               (double)o->uniform_share,
                               o->materials != NULL};
-    uint64_t h = UINT64_C(14695981039346656037);
+    uint64_t h = HNBRDF_HASH_START;
     for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++)
         h = hash_number(h, numbers[i]);
     for (int m = 0; m < t->count; m++) {
         const char *name = hnbrdf_measured_name(t->data[m]);
-        h = hash(h, name, strlen(name) + 1);
+        h = hnbrdf_hash(h, name, strlen(name) + 1);
     }
     return h;
 }
@@ -103,12 +95,6 @@ static int numbers_are_sound(const float *numbers, size_t count)
 hnbrdf_result hnbrdf_fit_checkpoint_save(const trainer *t, hnbrdf_error *error)
 {
     const char *path = t->options.checkpoint;
-    size_t length = strlen(path);
-    char *aside = malloc(length + 5);
-    if (!aside)
-        return hnbrdf_fail(error, HNBRDF_ERROR_MEMORY, "%s: out of memory", path);
-    memcpy(aside, path, length);
-    memcpy(aside + length, ".tmp", 5);
     header h;
     memset(&h, 0, sizeof h);
     memcpy(h.magic, magic, sizeof magic);
@@ -125,17 +111,13 @@ hnbrdf_result hnbrdf_fit_checkpoint_save(const trainer *t, hnbrdf_error *error)
     h.set_backs = t->set_backs;
     h.best_loss = t->best_loss;
     trainer view = *t; /* transfer() takes what it may write to; it only reads here */
-    FILE *file = fopen(aside, "wb");
-    int good = file && fwrite(&h, sizeof h, 1, file) == 1 && transfer(&view, file, 1);
-    if (file && fclose(file))
-        good = 0;
-    if (!good || rename(aside, path)) {
-        remove(aside);
-        free(aside);
-        return hnbrdf_fail(error, HNBRDF_ERROR_IO, "%s: the checkpoint cannot be written", path);
-    }
-    free(aside);
-    return HNBRDF_OK;
+    hnbrdf_output output;
+    const hnbrdf_result result = hnbrdf_output_open(path, &output, error);
+    if (result)
+        return result;
+    if (fwrite(&h, sizeof h, 1, output.stream) == 1)
+        transfer(&view, output.stream, 1); /* closing tells whether it failed */
+    return hnbrdf_output_close(&output, error);
 }
 
 /* 1 if training could have stood like this: indices that exist, and numbers in range. */
@@ -158,7 +140,7 @@ static int is_sound(const trainer *t, const header *h)
 hnbrdf_result hnbrdf_fit_checkpoint_load(trainer *t, hnbrdf_error *error)
 {
     const char *path = t->options.checkpoint;
-    FILE *file = fopen(path, "rb");
+    FILE *file = hnbrdf_open_to_read(path);
     if (!file)
         return hnbrdf_fail(error, HNBRDF_ERROR_IO,
                            "%s: no checkpoint to resume from can be read there", path);

@@ -1,8 +1,8 @@
 /* fit.c: the fit from measured data to a model: draw data, fit GGX per material, train the
  * network. */
-#define _POSIX_C_SOURCE 200809L
 #include "fit/trainer.h"
 
+#include "base/clock.h"
 #include "base/error.h"
 #include "fit/ggx.h"
 
@@ -11,7 +11,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 enum {
     DEFAULT_STEPS = 32000,
@@ -32,24 +31,17 @@ enum { ASYMMETRY_PAIRS = 4096 };
 #define LEAST_VALID 0.01
 #define POOL_LIMIT 1.25e9 /* bytes of training data; beyond, fewer pairs a material */
 
-double hnbrdf_fit_seconds(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
-
 void hnbrdf_fit_stage_begin(trainer *t)
 {
     atomic_store(&t->finished, 0);
-    t->stage_started = hnbrdf_fit_seconds();
+    t->stage_started = hnbrdf_seconds();
     t->shown = 0.0;
 }
 
 void hnbrdf_fit_tell(trainer *t, const char *stage, double done, double loss, double pairs,
                      int always)
 {
-    double now = hnbrdf_fit_seconds(), elapsed = now - t->stage_started;
+    double now = hnbrdf_seconds(), elapsed = now - t->stage_started;
     if (!t->options.progress || (!always && now - t->shown < 0.1 && done < 1.0))
         return;
     t->shown = now;
@@ -111,9 +103,9 @@ static void fit_one(void *context, int material, int worker)
             t->materials[material] = fitted;
     }
     if (t->options.kind != HNBRDF_KIND_GGX) {
-        double started = hnbrdf_fit_thread_seconds();
+        double started = hnbrdf_thread_seconds();
         hnbrdf_fit_pool_encode(&t->pool, material, t->encoding, &t->materials[material]);
-        t->encoded[material] = hnbrdf_fit_thread_seconds() - started;
+        t->encoded[material] = hnbrdf_thread_seconds() - started;
     }
     piece_done(t, "ggx", worker);
 }
@@ -162,7 +154,7 @@ static hnbrdf_result fit_lobes(trainer *t, hnbrdf_model_desc *desc, hnbrdf_mater
     hnbrdf_result result = hnbrdf_model_create(desc, NULL, &bare, error);
     if (result)
         return result;
-    t->stage_started = hnbrdf_fit_seconds();
+    t->stage_started = hnbrdf_seconds();
     for (int m = 0; m < t->count && !result; m++) {
         result = hnbrdf_lobes_fit(bare, &materials[m], &materials[m].lobes, error);
         hnbrdf_fit_tell(t, "lobes", (double)(m + 1) / t->count, NAN, 0.0, 0);
@@ -384,7 +376,7 @@ static int allocate(trainer *t)
     t->chunk_gradients = calloc(FIT_CHUNKS * l->count, sizeof(float));
     t->derived = calloc(l->derived_count + 1, sizeof(float));
     t->scratch =
-        calloc((size_t)hnbrdf_fit_workers_count(t->workers) * l->scratch_count + 1, sizeof(float));
+        calloc((size_t)hnbrdf_threads_count(t->workers) * l->scratch_count + 1, sizeof(float));
     t->tile_material = calloc(tiles, sizeof(int));
     t->tile_index = calloc(tiles, sizeof(int));
     t->moments = t->parameters ? t->parameters + l->count : NULL;
@@ -395,7 +387,7 @@ static int allocate(trainer *t)
 
 static void release(trainer *t)
 {
-    hnbrdf_fit_workers_stop(t->workers);
+    hnbrdf_threads_stop(t->workers);
     void *all[] = {t->pool.data, t->materials,     t->isotropic,       t->drawn,
                    t->order,     t->encoded,       t->cursor,          t->parameters,
                    t->best,      t->gradient,      t->chunk_gradients, t->derived,
@@ -458,18 +450,18 @@ static hnbrdf_result run(trainer *t, hnbrdf_model **model, hnbrdf_fit_report *re
         t->order[m] = m;
     }
     hnbrdf_fit_stage_begin(t);
-    hnbrdf_fit_workers_run(t->workers, t->count, draw_one, t);
-    result->times.drawing = hnbrdf_fit_workers_busy(t->workers);
+    hnbrdf_threads_run(t->workers, t->count, draw_one, t);
+    result->times.drawing = hnbrdf_threads_busy(t->workers);
     if (atomic_load(&t->undrawn))
         return refuse_data(t, error);
     if (t->options.drawn)
         memcpy(t->options.drawn, t->drawn, (size_t)t->count * sizeof *t->drawn);
     hnbrdf_fit_stage_begin(t);
-    hnbrdf_fit_workers_run(t->workers, t->count, fit_one, t);
+    hnbrdf_threads_run(t->workers, t->count, fit_one, t);
     for (int m = 0; m < t->count; m++)
         result->times.encoding += t->encoded[m];
     result->times.ggx =
-        hnbrdf_fit_workers_busy(t->workers) - result->times.drawing - result->times.encoding;
+        hnbrdf_threads_busy(t->workers) - result->times.drawing - result->times.encoding;
     if (t->stopped && t->options.kind != HNBRDF_KIND_GGX && !t->options.resume)
         return hnbrdf_fail(error, HNBRDF_ERROR_CANCELLED,
                            "stopped before the network's first step");
@@ -484,7 +476,7 @@ hnbrdf_result hnbrdf_fit(const hnbrdf_measured *const *data, int count,
                          hnbrdf_fit_report *report_out, hnbrdf_error *error)
 {
     trainer t = {0};
-    double started = hnbrdf_fit_seconds();
+    double started = hnbrdf_seconds();
     hnbrdf_fit_report result_report = {.final_loss = NAN, .best_loss = NAN, .ggx_loss = NAN};
     if (count < 1 || count > HNBRDF_MAX_MATERIALS)
         return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT, "%d materials to fit, expected 1 to %d",
@@ -514,7 +506,7 @@ hnbrdf_result hnbrdf_fit(const hnbrdf_measured *const *data, int count,
     hnbrdf_fit_layout_make(&t.layout, t.options.kind, t.options.hidden, t.options.layers,
                            t.options.latent, count, t.options.analytic == HNBRDF_FIT_JOINT,
                            t.options.floor);
-    t.workers = hnbrdf_fit_workers_start(t.options.threads);
+    t.workers = hnbrdf_threads_start(t.options.threads);
     if (!t.workers || !allocate(&t))
         result = hnbrdf_fail(error, HNBRDF_ERROR_MEMORY,
                              "out of memory: %d materials of %d pairs need about %.0f MB", count,
@@ -522,11 +514,11 @@ hnbrdf_result hnbrdf_fit(const hnbrdf_measured *const *data, int count,
                              (double)count * t.pool.tiles * FIT_POOL_TILE * sizeof(float) * 1e-6);
     else
         result = run(&t, model, &result_report, error);
-    result_report.seconds = hnbrdf_fit_seconds() - started;
+    result_report.seconds = hnbrdf_seconds() - started;
     result_report.instructions = t.kernel->name;
     if (t.workers) {
         hnbrdf_fit_times *times = &result_report.times;
-        result_report.threads = hnbrdf_fit_workers_count(t.workers);
+        result_report.threads = hnbrdf_threads_count(t.workers);
         times->waiting =
             fmax(0.0, result_report.threads * result_report.seconds - times->drawing - times->ggx -
                           times->encoding - times->network - times->update);

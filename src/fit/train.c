@@ -1,6 +1,7 @@
 /* train.c: the network stage: Adam on the shared network and the latent codes, in fixed chunks. */
 #include "fit/trainer.h"
 
+#include "base/clock.h"
 #include "base/error.h"
 #include "fit/adam.h"
 #include "fit/ggx.h"
@@ -143,7 +144,7 @@ static void chunk(void *context, int index, int worker)
 double hnbrdf_fit_step_gradient(trainer *t)
 {
     t->kernel->derive(&t->layout, t->parameters, t->derived);
-    hnbrdf_fit_workers_run(t->workers, FIT_CHUNKS, chunk, t);
+    hnbrdf_threads_run(t->workers, FIT_CHUNKS, chunk, t);
     double scale = 1.0 / (3.0 * FIT_TILE * t->tiles_per_step), loss = 0.0;
     memcpy(t->gradient, t->chunk_gradients, sizeof(float) * t->layout.count);
     for (int c = 1; c < FIT_CHUNKS; c++) {
@@ -238,15 +239,14 @@ static double flops_a_pair(const fit_layout *l)
 
 hnbrdf_result hnbrdf_fit_train(trainer *t, hnbrdf_fit_report *report, hnbrdf_error *error)
 {
-    const double busy_before = hnbrdf_fit_workers_busy(t->workers);
-    const double alone_before =
-        hnbrdf_fit_thread_seconds() - hnbrdf_fit_workers_busy_here(t->workers);
+    const double busy_before = hnbrdf_threads_busy(t->workers);
+    const double alone_before = hnbrdf_thread_seconds() - hnbrdf_threads_busy_here(t->workers);
     hnbrdf_result result = start(t, error);
     if (result)
         return result;
     hnbrdf_fit_stage_begin(t);
     const double share_before = t->share, each = (double)t->tiles_per_step * FIT_TILE;
-    double saved = hnbrdf_fit_seconds(), pairs = 0.0;
+    double saved = hnbrdf_seconds(), pairs = 0.0;
     while (t->share < 1.0 && !t->stopped) {
         t->mix = mix_now(t);
         schedule(t);
@@ -254,7 +254,7 @@ hnbrdf_result hnbrdf_fit_train(trainer *t, hnbrdf_fit_report *report, hnbrdf_err
         t->step++;
         pairs += each;
         advance(t, loss);
-        double now = hnbrdf_fit_seconds();
+        double now = hnbrdf_seconds();
         t->share = t->options.seconds > 0.0
                        ? share_before + (now - t->stage_started) / t->options.seconds
                        : (double)t->step / (double)t->options.steps;
@@ -267,14 +267,14 @@ hnbrdf_result hnbrdf_fit_train(trainer *t, hnbrdf_fit_report *report, hnbrdf_err
             saved = now;
         }
     }
-    double elapsed = hnbrdf_fit_seconds() - t->stage_started;
+    double elapsed = hnbrdf_seconds() - t->stage_started;
     hnbrdf_fit_judge_end(t, report);
     report->pairs_per_s = elapsed > 0.0 ? pairs / elapsed : 0.0;
     report->steps = t->step;
     report->pairs = pairs;
     report->flops = pairs * flops_a_pair(&t->layout);
-    report->times.network = hnbrdf_fit_workers_busy(t->workers) - busy_before;
+    report->times.network = hnbrdf_threads_busy(t->workers) - busy_before;
     report->times.update =
-        hnbrdf_fit_thread_seconds() - hnbrdf_fit_workers_busy_here(t->workers) - alone_before;
+        hnbrdf_thread_seconds() - hnbrdf_threads_busy_here(t->workers) - alone_before;
     return HNBRDF_OK;
 }

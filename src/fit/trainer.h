@@ -4,7 +4,7 @@
 #define HNBRDF_FIT_TRAINER_H
 
 #include "fit/pool.h"
-#include "fit/workers.h"
+#include "base/threads.h"
 #include "hnbrdf/fit.h"
 
 #include <stdatomic.h>
@@ -19,7 +19,7 @@ typedef struct trainer {
     int count; /* materials */
     fit_layout layout;
     const fit_kernel *kernel;
-    fit_workers *workers;
+    hnbrdf_threads *workers;
     fit_pool pool;
     hnbrdf_material *materials; /* [count], from the GGX stage */
     int *isotropic;             /* [count] */
@@ -48,8 +48,6 @@ typedef struct trainer {
     int stopped;
 } trainer;
 
-/* Monotonic seconds. */
-double hnbrdf_fit_seconds(void);
 /* A stage starts: its clock and its count of finished pieces. */
 void hnbrdf_fit_stage_begin(trainer *t);
 /* Tell the caller how far a stage is, from the calling thread only; at most ten times a second

@@ -3,6 +3,7 @@
 #include "glsl/export_scene.h"
 
 #include "base/error.h"
+#include "base/hash.h"
 
 #include <stdint.h>
 #include <string.h>
@@ -70,9 +71,7 @@ static void sanitise(const char *name, hnbrdf_macro_name text)
 /* A hash set of names by their numbers; free slots hold -1, `slots` is a power of two. */
 static int claim(const hnbrdf_scene *s, int *table, size_t slots, int k)
 {
-    uint32_t hash = 2166136261u; /* FNV-1a */
-    for (const char *c = s->names[k]; *c; c++)
-        hash = (hash ^ (uint32_t)(unsigned char)*c) * 16777619u;
+    const uint32_t hash = hnbrdf_hash32(HNBRDF_HASH32_START, s->names[k], strlen(s->names[k]));
     size_t at = hash & (slots - 1);
     for (; table[at] >= 0; at = (at + 1) & (slots - 1))
         if (strcmp(s->names[table[at]], s->names[k]) == 0)

@@ -1,6 +1,7 @@
 /* scene.c: one exported scene on one Vulkan device: compiled, run, timed. */
 #include "gpu/scene.h"
 
+#include "base/clock.h"
 #include "base/error.h"
 #include "gpu/compile.h"
 #include "hnbrdf/measured.h"
@@ -8,7 +9,6 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 /* The texts of shaders/verify.comp and shaders/hybrid_brdf.glsl. */
 extern const char hnbrdf_verify_comp[], hnbrdf_hybrid_brdf_glsl[];
@@ -19,13 +19,6 @@ typedef struct push_constants {
     uint32_t count;
     int32_t material;
 } push_constants;
-
-static double milliseconds(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec * 1e3 + (double)now.tv_nsec * 1e-6;
-}
 
 hnbrdf_result gpu_scene_buffers_open(const gpu_device *device, const gpu_scene *scene, size_t pairs,
                                      gpu_scene_buffers *buffers, hnbrdf_error *error)
@@ -65,11 +58,11 @@ hnbrdf_result gpu_scene_program(const gpu_device *device, const gpu_scene *scene
                                      &buffers->weights};
     uint32_t *spirv = NULL;
     size_t size = 0;
-    double started = milliseconds();
+    double started = hnbrdf_seconds();
     hnbrdf_result result =
         gpu_compile(hnbrdf_verify_comp, includes, 2, defines, &spirv, &size, error);
     if (compile_ms)
-        *compile_ms = milliseconds() - started;
+        *compile_ms = 1e3 * (hnbrdf_seconds() - started);
     if (spirv_bytes)
         *spirv_bytes = size;
     if (!result)
@@ -136,12 +129,12 @@ static hnbrdf_result upload_pairs(timer *t, uint64_t seed)
  * dispatch. */
 static hnbrdf_result open_timed_pipeline(timer *t, double *first_ms)
 {
-    double started = milliseconds();
+    double started = hnbrdf_seconds();
     hnbrdf_result result =
         gpu_pipeline_open(t->device, &t->program, CHECK_STAGE_VALUE, &t->value, t->error);
     if (!result)
         result = gpu_scene_run(t->device, &t->program, t->value, 0, 1, 1, NULL, t->error);
-    *first_ms = milliseconds() - started;
+    *first_ms = 1e3 * (hnbrdf_seconds() - started);
     return result;
 }
 

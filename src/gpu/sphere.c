@@ -2,13 +2,13 @@
  * second. */
 #include "gpu/sphere.h"
 
+#include "base/clock.h"
 #include "base/error.h"
 #include "gpu/compile.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 /* The texts of shaders/sphere.comp and shaders/hybrid_brdf.glsl. */
 extern const char hnbrdf_sphere_comp[], hnbrdf_hybrid_brdf_glsl[];
@@ -161,13 +161,6 @@ void gpu_sphere_close(gpu_sphere *s)
 
 /* ---- Rendering ------------------------------------------------------------------------------- */
 
-static double nanoseconds(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec * 1e9 + (double)now.tv_nsec;
-}
-
 static hnbrdf_result dispatch(gpu_sphere *s, const render_options *options, uint32_t first_pixel,
                               uint32_t pixels, uint32_t first_sample, uint32_t samples, double *ns,
                               hnbrdf_error *error)
@@ -186,10 +179,10 @@ static hnbrdf_result dispatch(gpu_sphere *s, const render_options *options, uint
                                  .frame2 = RENDER_FRAME * RENDER_FRAME,
                                  .distance = RENDER_DISTANCE,
                                  .scale = RENDER_SCALE};
-    double started = nanoseconds();
+    double started = hnbrdf_seconds();
     hnbrdf_result result =
         gpu_dispatch(s->device, &s->program, s->pipeline, &push, pixels, 1, ns, error);
-    *ns = isnan(*ns) ? nanoseconds() - started : *ns;
+    *ns = isnan(*ns) ? 1e9 * (hnbrdf_seconds() - started) : *ns;
     return result;
 }
 

@@ -1,13 +1,13 @@
 /* timed.c: exported scenes on one Vulkan device, compiled and ready to be timed again and again. */
 #include "gpu/timed.h"
 
+#include "base/clock.h"
 #include "base/error.h"
 #include "gpu/compile.h"
 #include "hnbrdf/measured.h"
 
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 /* The text of shaders/bench.comp. */
 extern const char hnbrdf_bench_comp[];
@@ -16,13 +16,6 @@ typedef struct push_constants {
     uint32_t count;
     int32_t material;
 } push_constants;
-
-static double milliseconds(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec * 1e3 + (double)now.tv_nsec * 1e-6;
-}
 
 /* ---- Buffers --------------------------------------------------------------------------------- */
 
@@ -77,10 +70,10 @@ static hnbrdf_result open_program(const gpu_device *device, const gpu_timed_buff
     const gpu_include include = {"scene.glsl", scene->text};
     const gpu_buffer *const bound[] = {&buffers->directions, &buffers->values, &timed->weights};
     uint32_t *spirv = NULL;
-    double started = milliseconds();
+    double started = hnbrdf_seconds();
     hnbrdf_result result =
         gpu_compile(hnbrdf_bench_comp, &include, 1, defines, &spirv, &timed->spirv_bytes, error);
-    timed->compile_ms = milliseconds() - started;
+    timed->compile_ms = 1e3 * (hnbrdf_seconds() - started);
     if (!result && scene->weights)
         result =
             gpu_uniform_open(device, scene->weights, scene->weights_size, &timed->weights, error);
@@ -96,11 +89,11 @@ static hnbrdf_result open_program(const gpu_device *device, const gpu_timed_buff
 static hnbrdf_result open_pipeline(const gpu_device *device, gpu_timed *timed, hnbrdf_error *error)
 {
     push_constants push = {1, 0};
-    double started = milliseconds();
+    double started = hnbrdf_seconds();
     hnbrdf_result result = gpu_pipeline_open(device, &timed->program, 0, &timed->pipeline, error);
     if (!result)
         result = gpu_dispatch(device, &timed->program, timed->pipeline, &push, 1, 1, NULL, error);
-    timed->first_ms = milliseconds() - started;
+    timed->first_ms = 1e3 * (hnbrdf_seconds() - started);
     return result;
 }
 

@@ -2,12 +2,12 @@
 #include "image/image.h"
 
 #include "base/error.h"
+#include "base/files.h"
 
 #include <errno.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 static size_t settle(size_t given, size_t most)
 {
@@ -126,7 +126,7 @@ static hnbrdf_result read_stream(FILE *file, const char *path, size_t limit, ren
 hnbrdf_result render_file_read(const char *path, size_t limit, render_bytes *bytes,
                                hnbrdf_error *error)
 {
-    FILE *file = fopen(path, "rb");
+    FILE *file = hnbrdf_open_to_read(path);
     if (!file)
         return hnbrdf_fail(error, HNBRDF_ERROR_IO, "%s: cannot be opened: %s", path,
                            strerror(errno));
@@ -156,29 +156,6 @@ hnbrdf_result render_image_read(const char *path, const render_limits *limits, r
     return result;
 }
 
-/* An old file stays whole until the new one is complete. */
-hnbrdf_result render_file_write(const char *path, const void *data, size_t size,
-                                hnbrdf_error *error)
-{
-    size_t length = strlen(path) + 32;
-    char *aside = malloc(length);
-    if (!aside)
-        return hnbrdf_fail(error, HNBRDF_ERROR_MEMORY, "%s: no memory for its name", path);
-    snprintf(aside, length, "%s.%ld.part", path, (long)getpid());
-    FILE *file = fopen(aside, "wb");
-    int written = file && fwrite(data, 1, size, file) == size;
-    int closed = file && fclose(file) == 0;
-    hnbrdf_result result = HNBRDF_OK;
-    if (!written || !closed || rename(aside, path) != 0) {
-        result =
-            hnbrdf_fail(error, HNBRDF_ERROR_IO, "%s: cannot be written: %s", path, strerror(errno));
-        if (file)
-            remove(aside);
-    }
-    free(aside);
-    return result;
-}
-
 hnbrdf_result render_image_write(const render_image *image, const char *path,
                                  const render_write_options *options, hnbrdf_error *error)
 {
@@ -194,7 +171,7 @@ hnbrdf_result render_image_write(const render_image *image, const char *path,
         result = hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT,
                              "%s: expected a name ending in .exr or .png", path);
     if (result == HNBRDF_OK)
-        result = render_file_write(path, bytes.data, bytes.size, error);
+        result = hnbrdf_write_file(path, bytes.data, bytes.size, error);
     free(bytes.data);
     return result;
 }

@@ -79,9 +79,6 @@ int render_bytes_put(render_bytes *bytes, size_t offset, const void *data, size_
 /* A whole file of at most `limit` bytes; bytes must be empty, its data is the caller's to free. */
 hnbrdf_result render_file_read(const char *path, size_t limit, render_bytes *bytes,
                                hnbrdf_error *error);
-/* Written aside and renamed. */
-hnbrdf_result render_file_write(const char *path, const void *data, size_t size,
-                                hnbrdf_error *error);
 
 /* ZIP-compressed scanlines, channels B, G, R (A) and those of the layers. */
 hnbrdf_result render_exr_encode(const render_image *image, const render_write_options *options,

@@ -4,6 +4,7 @@
 #include "measured/format.h"
 #include "measured/read_file.h"
 #include "base/error.h"
+#include "base/text.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -21,22 +22,14 @@ struct hnbrdf_measured {
 
 /* ---- Names ----------------------------------------------------------------------------------- */
 
-/* Bytes of the character at p, 0 if it is a control character or not UTF-8 (Unicode 15, table
- * 3-7). */
-static size_t utf8_length(const unsigned char *p)
+/* Bytes of the character at p, 0 if it is a control character or not UTF-8. p ends with NUL. */
+static size_t character_length(const char *p)
 {
-    unsigned first = p[0];
-    if (first < 0x80)
-        return first >= 0x20 && first != 0x7f;
-    unsigned low = first == 0xc2 || first == 0xe0 ? 0xa0 : first == 0xf0 ? 0x90 : 0x80;
-    unsigned high = first == 0xed ? 0x9f : first == 0xf4 ? 0x8f : 0xbf;
-    size_t length = first < 0xc2 || first > 0xf4 ? 0 : first < 0xe0 ? 2 : first < 0xf0 ? 3 : 4;
-    if (length == 0 || p[1] < low || p[1] > high)
-        return 0;
-    for (size_t i = 2; i < length; i++)
-        if ((p[i] & 0xc0) != 0x80)
-            return 0;
-    return length;
+    const unsigned char first = (unsigned char)*p;
+    const char *end = p;
+    while (end < p + 4 && *end)
+        end++;
+    return first < 0x20 || first == 0x7f ? 0 : hnbrdf_utf8_length(p, end);
 }
 
 /* Copies text[0..length), cut at a character to fit size - 1 bytes; what is not UTF-8 and what is a
@@ -45,7 +38,7 @@ static void copy_clean(char *out, size_t size, const char *text, size_t length)
 {
     size_t n = 0;
     for (size_t i = 0; i < length;) {
-        size_t step = utf8_length((const unsigned char *)text + i);
+        size_t step = character_length(text + i);
         if (n + (step ? step : 1) >= size)
             break;
         if (step)

@@ -2,6 +2,7 @@
  * it. */
 #include "measured/read_file.h"
 #include "base/error.h"
+#include "base/files.h"
 
 #include <stdint.h>
 #include <stdio.h>
@@ -47,7 +48,7 @@ static hnbrdf_result read_stream(FILE *stream, size_t limit, const char *label,
 hnbrdf_result hnbrdf_read_file(const char *path, size_t limit, const char *label,
                                unsigned char **bytes, size_t *size, hnbrdf_error *error)
 {
-    FILE *stream = fopen(path, "rb");
+    FILE *stream = hnbrdf_open_to_read(path);
     if (!stream)
         return hnbrdf_fail(error, HNBRDF_ERROR_IO, "%s: cannot be opened for reading", label);
     hnbrdf_result result = read_stream(stream, limit, label, bytes, size, error);

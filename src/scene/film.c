@@ -2,6 +2,7 @@
 #include "scene/film.h"
 
 #include "base/error.h"
+#include "base/files.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -133,7 +134,7 @@ hnbrdf_result render_film_save(const render_film *film, uint64_t fingerprint, co
     memcpy(bytes, &h, sizeof h);
     memcpy(bytes + sizeof h, film->samples, samples_size(film));
     memcpy(bytes + sizeof h + samples_size(film), film->sums, sums_size(film));
-    hnbrdf_result result = render_file_write(path, bytes, size, error);
+    hnbrdf_result result = hnbrdf_write_file(path, bytes, size, error);
     free(bytes);
     return result;
 }

@@ -1,21 +1,15 @@
 /* passes.c: render a scene pass by pass, until it is done, its time is over or someone stops it. */
 #include "scene/film.h"
 
+#include "base/clock.h"
 #include "base/error.h"
+#include "base/hash.h"
 #include "render/tiles.h"
 
 #include <stdlib.h>
-#include <time.h>
 #include <unistd.h>
 
 static const double save_seconds = 60.0; /* between two savings of the state */
-
-static double now(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
-}
 
 typedef struct job {
     const render_scene *scene;
@@ -51,7 +45,7 @@ static double share_done(const job *j)
 static int watch(void *user, double share_of_pass)
 {
     job *j = user;
-    double elapsed = now() - j->started, goal = (double)j->target / j->spp;
+    double elapsed = hnbrdf_seconds() - j->started, goal = (double)j->target / j->spp;
     double share = j->share + (goal - j->share) * share_of_pass, budget = j->options->seconds;
     if (budget > 0.0 && elapsed / budget > share)
         share = elapsed / budget < 1.0 ? elapsed / budget : 1.0;
@@ -64,7 +58,7 @@ static int watch(void *user, double share_of_pass)
 
 static hnbrdf_result save(job *j, hnbrdf_error *error)
 {
-    j->saved = now();
+    j->saved = hnbrdf_seconds();
     return j->options->state ? render_film_save(j->film, j->fingerprint, j->options->state, error)
                              : HNBRDF_OK;
 }
@@ -93,12 +87,12 @@ static hnbrdf_result run(job *j, hnbrdf_error *error)
     hnbrdf_result result = HNBRDF_OK;
     double pace = 0.0;
     while (result == HNBRDF_OK && !j->stopped && (j->share = share_done(j)) < 1.0) {
-        double before = now(), share = j->share;
+        double before = hnbrdf_seconds(), share = j->share;
         j->target = next_target(j, pace);
         render_tiles_run(&tiles);
         double gained = (share_done(j) - share) * j->spp;
-        pace = gained > 0.0 ? (now() - before) / gained : pace;
-        if (now() - j->saved >= save_seconds)
+        pace = gained > 0.0 ? (hnbrdf_seconds() - before) / gained : pace;
+        if (hnbrdf_seconds() - j->saved >= save_seconds)
             result = save(j, error);
     }
     return result == HNBRDF_OK ? save(j, error) : result;
@@ -108,8 +102,8 @@ static uint64_t fingerprint(const job *j)
 {
     const double numbers[] = {j->path.bounces, j->path.transparent, j->path.clamp,
                               j->path.strategy};
-    uint64_t hash = render_hash(render_scene_fingerprint(j->scene), numbers, sizeof numbers);
-    return render_hash(hash, &j->path.seed, sizeof j->path.seed);
+    uint64_t hash = hnbrdf_hash(render_scene_fingerprint(j->scene), numbers, sizeof numbers);
+    return hnbrdf_hash(hash, &j->path.seed, sizeof j->path.seed);
 }
 
 hnbrdf_result render_scene_run(const render_scene *scene, const render_scene_options *options,
@@ -122,7 +116,7 @@ hnbrdf_result render_scene_run(const render_scene *scene, const render_scene_opt
         return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT,
                            "%d samples a pixel, %d bounces: expected 1 to %d and 1 to %d", j.spp,
                            j.path.bounces, 1 << 24, RENDER_MAX_BOUNCES);
-    j.started = j.saved = now();
+    j.started = j.saved = hnbrdf_seconds();
     j.fingerprint = options->state ? fingerprint(&j) : 0;
     hnbrdf_result result = HNBRDF_OK;
     if (options->resume && options->state && access(options->state, F_OK) == 0)

@@ -2,6 +2,7 @@
 #include "scene/scene.h"
 
 #include "base/error.h"
+#include "base/hash.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -167,15 +168,6 @@ void render_scene_free(render_scene *scene)
 
 /* ---- Fingerprint ----------------------------------------------------------------------------- */
 
-/* FNV-1a. */
-uint64_t render_hash(uint64_t hash, const void *data, size_t size)
-{
-    const unsigned char *bytes = data;
-    for (size_t i = 0; i < size; i++)
-        hash = (hash ^ bytes[i]) * UINT64_C(1099511628211);
-    return hash;
-}
-
 /* What a surface does to some pairs of directions stands for the surface. */
 static uint64_t hash_surface(uint64_t hash, const render_surface *surface)
 {
@@ -186,7 +178,7 @@ static uint64_t hash_surface(uint64_t hash, const render_surface *surface)
         hnbrdf_sampler_draw(HNBRDF_SAMPLER_UNIFORM, &rng, wi, wo);
         surface->eval(surface, 1, wi, wo, values);
         values[3] = surface->pdf(surface, wi, wo);
-        hash = render_hash(hash, values, sizeof values);
+        hash = hnbrdf_hash(hash, values, sizeof values);
     }
     return hash;
 }
@@ -195,15 +187,15 @@ static uint64_t hash_shape(uint64_t hash, const render_shape *shape)
 {
     const render_mesh *mesh = &shape->mesh;
     const size_t parts = mesh->part_count ? mesh->part_count : 1;
-    hash = render_hash(hash, mesh->positions, mesh->position_count * sizeof *mesh->positions);
-    hash = render_hash(hash, mesh->normals, mesh->normal_count * sizeof *mesh->normals);
-    hash = render_hash(hash, mesh->uvs, mesh->uv_count * sizeof *mesh->uvs);
-    hash = render_hash(hash, mesh->triangles, mesh->triangle_count * sizeof *mesh->triangles);
-    hash = render_hash(hash, shape->surfaces, parts * sizeof *shape->surfaces);
-    hash = render_hash(hash, shape->centre, sizeof shape->centre);
-    hash = render_hash(hash, &shape->radius, sizeof shape->radius);
-    hash = render_hash(hash, shape->axes, sizeof shape->axes);
-    return render_hash(hash, shape->emission, sizeof shape->emission);
+    hash = hnbrdf_hash(hash, mesh->positions, mesh->position_count * sizeof *mesh->positions);
+    hash = hnbrdf_hash(hash, mesh->normals, mesh->normal_count * sizeof *mesh->normals);
+    hash = hnbrdf_hash(hash, mesh->uvs, mesh->uv_count * sizeof *mesh->uvs);
+    hash = hnbrdf_hash(hash, mesh->triangles, mesh->triangle_count * sizeof *mesh->triangles);
+    hash = hnbrdf_hash(hash, shape->surfaces, parts * sizeof *shape->surfaces);
+    hash = hnbrdf_hash(hash, shape->centre, sizeof shape->centre);
+    hash = hnbrdf_hash(hash, &shape->radius, sizeof shape->radius);
+    hash = hnbrdf_hash(hash, shape->axes, sizeof shape->axes);
+    return hnbrdf_hash(hash, shape->emission, sizeof shape->emission);
 }
 
 uint64_t render_scene_fingerprint(const render_scene *scene)
@@ -212,17 +204,17 @@ uint64_t render_scene_fingerprint(const render_scene *scene)
     const float camera[] = {c->from[0], c->from[1], c->from[2],      c->to[0],        c->to[1],
                             c->to[2],   c->up[0],   c->up[1],        c->up[2],        c->fov,
                             c->lens,    c->focus,   (float)c->width, (float)c->height};
-    uint64_t hash = render_hash(RENDER_HASH_START, camera, sizeof camera);
+    uint64_t hash = hnbrdf_hash(HNBRDF_HASH_START, camera, sizeof camera);
     for (int i = 0; i < scene->shape_count; i++)
         hash = hash_shape(hash, &scene->shapes[i]);
     for (int i = 0; i < scene->surface_count; i++)
         hash = hash_surface(hash, &scene->surfaces[i].surface);
     for (int i = 0; i < scene->portal_count; i++)
-        hash = render_hash(hash, &scene->portals[i], sizeof scene->portals[i]);
+        hash = hnbrdf_hash(hash, &scene->portals[i], sizeof scene->portals[i]);
     if (scene->environment) {
         const render_environment *e = scene->environment;
-        hash = render_hash(hash, e->rgb, 3 * sizeof *e->rgb * (size_t)e->width * (size_t)e->height);
-        hash = render_hash(hash, &e->rotation, sizeof e->rotation);
+        hash = hnbrdf_hash(hash, e->rgb, 3 * sizeof *e->rgb * (size_t)e->width * (size_t)e->height);
+        hash = hnbrdf_hash(hash, &e->rotation, sizeof e->rotation);
     }
     return hash;
 }

@@ -84,8 +84,6 @@ hnbrdf_result render_scene_build(render_scene *scene, hnbrdf_error *error);
 void render_scene_free(render_scene *scene);
 /* A number that depends on all that the picture depends on, but for seed and options. */
 uint64_t render_scene_fingerprint(const render_scene *scene);
-uint64_t render_hash(uint64_t hash, const void *data, size_t size);
-#define RENDER_HASH_START UINT64_C(14695981039346656037)
 
 /* ---- Rays ------------------------------------------------------------------------------------ */
 

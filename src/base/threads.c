@@ -1,64 +1,75 @@
-/* workers.c: a small pool of POSIX threads handing out indices through one atomic counter. */
+/* threads.c: a small pool of POSIX threads handing out pieces of work through one atomic counter. */
 #define _POSIX_C_SOURCE 200809L
-#include "fit/workers.h"
+#include "base/threads.h"
+
+#include "base/clock.h"
 
 #include <pthread.h>
 #include <stdatomic.h>
 #include <stdlib.h>
-#include <time.h>
+#ifdef _WIN32
+#define WIN32_LEAN_AND_MEAN
+#include <windows.h>
+#else
 #include <unistd.h>
+#endif
 
-enum { MAX_THREADS = 256 };
+enum { MAX_THREADS = 256, MAX_PROCESSORS = 1024 };
 
-struct fit_workers {
+struct hnbrdf_threads {
     pthread_mutex_t mutex;
     pthread_cond_t wake, done;
-    unsigned round; /* a new number wakes the threads */
-    int busy, quit, threads;
+    unsigned round;          /* a new number wakes the threads */
+    int busy, quit, threads; /* how many there are, with the caller */
     int count;
-    fit_work_fn work;
+    hnbrdf_work_fn work;
     void *context;
     atomic_int next;
     double worked[MAX_THREADS]; /* processor seconds, each written by its thread alone */
     pthread_t thread[MAX_THREADS];
     struct start {
-        fit_workers *workers;
+        hnbrdf_threads *threads;
         int worker;
     } start[MAX_THREADS];
 };
 
-double hnbrdf_fit_thread_seconds(void)
+int hnbrdf_processors(void)
 {
-    struct timespec t;
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+#ifdef _WIN32
+    SYSTEM_INFO about;
+    GetSystemInfo(&about);
+    const long count = (long)about.dwNumberOfProcessors;
+#else
+    const long count = sysconf(_SC_NPROCESSORS_ONLN);
+#endif
+    return count < 1 ? 1 : count > MAX_PROCESSORS ? MAX_PROCESSORS : (int)count;
 }
 
-double hnbrdf_fit_workers_busy(const fit_workers *workers)
+double hnbrdf_threads_busy(const hnbrdf_threads *threads)
 {
     double sum = 0.0;
-    for (int i = 0; i < workers->threads; i++)
-        sum += workers->worked[i];
+    for (int i = 0; i < threads->threads; i++)
+        sum += threads->worked[i];
     return sum;
 }
 
-double hnbrdf_fit_workers_busy_here(const fit_workers *workers)
+double hnbrdf_threads_busy_here(const hnbrdf_threads *threads)
 {
-    return workers->worked[0];
+    return threads->worked[0];
 }
 
-static void take(fit_workers *w, int worker)
+static void take(hnbrdf_threads *w, int worker)
 {
-    double started = hnbrdf_fit_thread_seconds();
+    double started = hnbrdf_thread_seconds();
     for (int index; (index = atomic_fetch_add(&w->next, 1)) < w->count;)
         w->work(w->context, index, worker);
-    w->worked[worker] += hnbrdf_fit_thread_seconds() - started;
+    w->worked[worker] += hnbrdf_thread_seconds() - started;
 }
 
 static void *loop(void *argument)
 {
     struct start *start = argument;
-    fit_workers *w = start->workers;
+    hnbrdf_threads *w = start->threads;
     unsigned seen = 0;
     pthread_mutex_lock(&w->mutex);
     for (;;) {
@@ -77,23 +88,21 @@ static void *loop(void *argument)
     return NULL;
 }
 
-fit_workers *hnbrdf_fit_workers_start(int threads)
+hnbrdf_threads *hnbrdf_threads_start(int count)
 {
-    if (threads <= 0) {
-        long cores = sysconf(_SC_NPROCESSORS_ONLN);
-        threads = cores > 0 ? (int)(cores < MAX_THREADS ? cores : MAX_THREADS) : 1;
-    }
-    if (threads > MAX_THREADS)
-        threads = MAX_THREADS;
-    fit_workers *w = calloc(1, sizeof *w);
+    if (count <= 0)
+        count = hnbrdf_processors();
+    if (count > MAX_THREADS)
+        count = MAX_THREADS;
+    hnbrdf_threads *w = calloc(1, sizeof *w);
     if (!w)
         return NULL;
     pthread_mutex_init(&w->mutex, NULL);
     pthread_cond_init(&w->wake, NULL);
     pthread_cond_init(&w->done, NULL);
     w->threads = 1;
-    for (int i = 1; i < threads; i++) {
-        w->start[i].workers = w;
+    for (int i = 1; i < count; i++) {
+        w->start[i].threads = w;
         w->start[i].worker = i;
         if (pthread_create(&w->thread[i], NULL, loop, &w->start[i]))
             break; /* fewer threads: the same result, later */
@@ -102,12 +111,12 @@ fit_workers *hnbrdf_fit_workers_start(int threads)
     return w;
 }
 
-int hnbrdf_fit_workers_count(const fit_workers *workers)
+int hnbrdf_threads_count(const hnbrdf_threads *threads)
 {
-    return workers->threads;
+    return threads->threads;
 }
 
-void hnbrdf_fit_workers_run(fit_workers *w, int count, fit_work_fn work, void *context)
+void hnbrdf_threads_run(hnbrdf_threads *w, int count, hnbrdf_work_fn work, void *context)
 {
     pthread_mutex_lock(&w->mutex);
     w->work = work;
@@ -125,7 +134,7 @@ void hnbrdf_fit_workers_run(fit_workers *w, int count, fit_work_fn work, void *c
     pthread_mutex_unlock(&w->mutex);
 }
 
-void hnbrdf_fit_workers_stop(fit_workers *w)
+void hnbrdf_threads_stop(hnbrdf_threads *w)
 {
     if (!w)
         return;

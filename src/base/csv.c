@@ -1,14 +1,14 @@
 /* csv.c: read comma-separated text line by line (RFC 4180, one record a line), from people and
  * pipes. */
-#include "cli/csv.h"
+#include "base/csv.h"
 
-#include "cli/cli.h"
+#include "base/error.h"
 #include "base/text.h"
 
 #include <errno.h>
 #include <string.h>
 
-void csv_begin(csv_reader *reader, FILE *file, const char *name)
+void hnbrdf_csv_begin(hnbrdf_csv_reader *reader, FILE *file, const char *name)
 {
     reader->file = file;
     reader->name = name;
@@ -16,14 +16,14 @@ void csv_begin(csv_reader *reader, FILE *file, const char *name)
     reader->count = 0;
 }
 
-static int fail_line(const csv_reader *reader, const char *what)
+static int fail_line(const hnbrdf_csv_reader *reader, const char *what, hnbrdf_error *error)
 {
-    cli_fail("%s:%ld: %s", reader->name, reader->line, what);
+    hnbrdf_fail(error, HNBRDF_ERROR_FORMAT, "%s:%ld: %s", reader->name, reader->line, what);
     return -1;
 }
 
-/* One line into text, without its end: 1, 0 at the end of the file, -1 after a message. */
-static int read_line(csv_reader *reader)
+/* One line into text, without its end: 1, 0 at the end of the file, -1 with *error filled. */
+static int read_line(hnbrdf_csv_reader *reader, hnbrdf_error *error)
 {
     size_t length = 0;
     int c = getc(reader->file);
@@ -32,13 +32,13 @@ static int read_line(csv_reader *reader)
         return 0;
     for (; c != EOF && c != '\n'; c = getc(reader->file)) {
         if (c == '\0')
-            return fail_line(reader, "found a NUL byte, expected text");
-        if (length == CSV_LINE - 1)
-            return fail_line(reader, "the line is longer than 8191 bytes");
+            return fail_line(reader, "found a NUL byte, expected text", error);
+        if (length == HNBRDF_CSV_LINE - 1)
+            return fail_line(reader, "the line is longer than 8191 bytes", error);
         reader->text[length++] = (char)c;
     }
     if (ferror(reader->file)) {
-        cli_fail("%s: cannot read: %s", reader->name, strerror(errno));
+        hnbrdf_fail(error, HNBRDF_ERROR_IO, "%s: cannot read: %s", reader->name, strerror(errno));
         return -1;
     }
     if (length > 0 && reader->text[length - 1] == '\r')
@@ -85,59 +85,46 @@ static int take_quoted(char **in)
     return 0;
 }
 
-static int split(csv_reader *reader)
+static int split(hnbrdf_csv_reader *reader, hnbrdf_error *error)
 {
     char *in = reader->text;
     reader->count = 0;
     for (;;) {
         while (is_space(*in))
             in++;
-        if (reader->count == CSV_FIELDS)
-            return fail_line(reader, "found more than 256 fields");
+        if (reader->count == HNBRDF_CSV_FIELDS)
+            return fail_line(reader, "found more than 256 fields", error);
         reader->fields[reader->count++] = in;
         if (*in != '"')
             take_plain(&in);
         else if (take_quoted(&in) != 0)
-            return fail_line(reader, "a quoted field is not closed by '\"' and a comma");
+            return fail_line(reader, "a quoted field is not closed by '\"' and a comma", error);
         if (*in != ',')
             return 1;
         *in++ = '\0';
     }
 }
 
-int csv_next(csv_reader *reader)
+int hnbrdf_csv_next(hnbrdf_csv_reader *reader, hnbrdf_error *error)
 {
     for (;;) {
-        int result = read_line(reader);
+        int result = read_line(reader, error);
         if (result <= 0)
             return result;
         if (reader->text[strspn(reader->text, " \t")] != '\0')
-            return split(reader);
+            return split(reader, error);
     }
 }
 
-int csv_number(const csv_reader *reader, int index, const char *what, float *value)
+int hnbrdf_csv_number(const hnbrdf_csv_reader *reader, int index, const char *what, float *value,
+                      hnbrdf_error *error)
 {
     const char *text = reader->fields[index];
     const char *end = text + strlen(text);
     if (*text && hnbrdf_parse_float(text, end, value) == end)
         return 0;
-    cli_fail("%s:%ld: %s: found '%.40s', expected a finite decimal number", reader->name,
-             reader->line, what, text);
+    hnbrdf_fail(error, HNBRDF_ERROR_FORMAT,
+                "%s:%ld: %s: found '%.40s', expected a finite decimal number", reader->name,
+                reader->line, what, text);
     return -1;
-}
-
-void csv_write_text(FILE *file, const char *text)
-{
-    if (!text[strcspn(text, ",\"\r\n")] && *text) {
-        fputs(text, file);
-        return;
-    }
-    putc('"', file);
-    for (; *text; text++) {
-        if (*text == '"')
-            putc('"', file);
-        putc(*text, file);
-    }
-    putc('"', file);
 }
