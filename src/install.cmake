@@ -9,6 +9,7 @@ set(_headers_hnbrdf hnbrdf edit)
 set(_headers_hnbrdf_measured measured)
 set(_headers_hnbrdf_metrics metrics)
 set(_headers_hnbrdf_fit fit)
+set(_headers_hnbrdf_bake bake)
 foreach(part ${HNBRDF_PARTS})
   install(TARGETS ${part}_static ${part}_shared EXPORT hnbrdfTargets
     ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
@@ -40,6 +41,7 @@ set(_about_hnbrdf "evaluate, sample, load and export hybrid neural-microfacet BR
 set(_about_hnbrdf_measured "measured and procedural BRDFs behind one interface")
 set(_about_hnbrdf_metrics "errors of BRDF models against measurements")
 set(_about_hnbrdf_fit "fit hybrid neural-microfacet BRDFs to measurements")
+set(_about_hnbrdf_bake "the smallest network that is good enough for the materials of a scene")
 # In absolute paths blanks are escaped here; in its own place pkg-config does that itself.
 if(IS_ABSOLUTE "${CMAKE_INSTALL_LIBDIR}")
   string(REPLACE " " "\\ " PC_PREFIX "${CMAKE_INSTALL_PREFIX}")

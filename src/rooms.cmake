@@ -6,14 +6,15 @@ function(hnbrdf_room name)
 endfunction()
 
 hnbrdf_room(base
-  clock.c csv.c files.c files_posix.c files_windows.c interrupt.c json.c text.c text_buffer.c
+  clock.c csv.c files.c files_posix.c files_windows.c interrupt.c json.c probe.c text.c text_buffer.c
   threads.c write.c)
 # Each file of base that an installed library needs is in exactly one of the static ones: here what
-# libhnbrdf and libhnbrdf_fit hold. Shared libraries take what they need from hnbrdf_base and hide
+# libhnbrdf, libhnbrdf_fit and libhnbrdf_bake hold. Shared libraries take what they need from hnbrdf_base and hide
 # it.
 set(HNBRDF_BASE_HNBRDF src/base/files.c src/base/files_posix.c src/base/files_windows.c
   src/base/json.c src/base/text.c)
 set(HNBRDF_BASE_FIT src/base/clock.c src/base/threads.c)
+set(HNBRDF_BASE_BAKE src/base/probe.c)
 hnbrdf_room(core
   eval.c kernel_plain.c material.c network.c pack.c sample.c
   strerror.c variant.c)
@@ -53,16 +54,19 @@ hnbrdf_room(gpu
   verify.c)
 hnbrdf_room(edit
   materials.c)
+hnbrdf_room(bake
+  bake.c ggx.c half.c options.c rows.c search.c sizes.c teacher.c tell.c wave.c)
+hnbrdf_room(report
+  bake_plot.c bake_tables.c)
+hnbrdf_room(bench
+  measure.c models.c peak.c peer.c plot.c quality.c rows.c rows_cpu.c rows_gpu.c speed.c tables.c)
 hnbrdf_room(cli
-  bake_fit.c bake_half.c bake_plot.c bake_search.c bake_sizes.c bake_tables.c
-  bake_teacher.c bench_cpu.c bench_gpu.c bench_peer.c bench_plot.c bench_probe.c
-  bench_quality.c bench_write.c cli.c cmd_bake.c cmd_bench.c cmd_compare.c cmd_edit.c
+  cli.c cmd_bake.c cmd_bench.c cmd_compare.c cmd_edit.c
   cmd_eval.c cmd_export.c cmd_fit.c cmd_gallery.c cmd_import.c cmd_info.c cmd_lobes.c
   cmd_mix.c cmd_render.c cmd_report.c cmd_report_images.c cmd_report_sampling.c
   cmd_scene.c cmd_sheet.c cmd_stability.c cmd_verify.c compare_images.c fit_log.c
-  fit_speed.c gallery_choose.c gallery_pages.c gallery_strips.c info_physics.c
-  loss_plot.c main.c output.c peak.c picture.c progress.c reading.c render_gpu.c
-  render_mesh.c
+  gallery_choose.c gallery_pages.c gallery_strips.c info_physics.c
+  loss_plot.c main.c output.c picture.c progress.c reading.c render_gpu.c render_mesh.c
   report_fit.c report_ggx.c report_grid.c report_image_tables.c report_images.c
   report_options.c report_plot.c report_rows.c report_tables.c sampling_measure.c
   sampling_strips.c sampling_write.c scene_compare.c scene_job.c sources.c

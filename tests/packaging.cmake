@@ -10,7 +10,7 @@ endif()
 # Sanitizers change what a library needs and what its consumers must link.
 if(NOT HNBRDF_SANITIZE)
   add_test(NAME test_exports COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/test_exports.sh ${PROJECT_SOURCE_DIR}
-    ${PROJECT_BINARY_DIR} hnbrdf hnbrdf_measured hnbrdf_metrics hnbrdf_fit)
+    ${PROJECT_BINARY_DIR} hnbrdf hnbrdf_measured hnbrdf_metrics hnbrdf_fit hnbrdf_bake)
   add_test(NAME test_install COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/test_install.sh
     ${PROJECT_BINARY_DIR} ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}/install)
   set_tests_properties(test_install PROPERTIES SKIP_RETURN_CODE 77)

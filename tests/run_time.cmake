@@ -1,6 +1,6 @@
 # The benchmark: what it writes, and the peer that it makes.
 hnbrdf_cli_test(test_bench)
 if(HNBRDF_WITH_VULKAN)
-  hnbrdf_test(test_bench_peer test_bench_peer.c gpu_support.c ${PROJECT_SOURCE_DIR}/src/cli/bench_peer.c)
-  target_link_libraries(hnbrdf_test_bench_peer PRIVATE hnbrdf_gpu ${CMAKE_DL_LIBS})
+  hnbrdf_test(test_bench_peer test_bench_peer.c gpu_support.c)
+  target_link_libraries(hnbrdf_test_bench_peer PRIVATE hnbrdf_bench hnbrdf_gpu ${CMAKE_DL_LIBS})
 endif()

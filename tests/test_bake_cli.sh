@@ -98,6 +98,9 @@ bake "a time out of reach" 1 big.safetensors -m $names --max-ns 0.001 -o none.sa
 grep -q 'nothing takes at most 0.001 ns' err || fail "a time out of reach: the message"
 bake "time enough" 0 big.safetensors -m $names --max-ns 1e9 --steps 160 --restarts 1 --json ns.json -o ns.safetensors
 "$HNBRDF" info ns.safetensors | grep -q '^  kind *hybrid$' || fail "time enough, and yet no network"
+bake "size enough" 0 big.safetensors -m $names --max-mults 100 --steps 160 --restarts 1 --csv mults.csv -o mults.safetensors
+awk -F, 'NR > 1 && $5 > 100 { bad = 1 } $18 == 1 { picked = $5 } END { exit !(picked > 0 && !bad) }' mults.csv ||
+    fail "--max-mults: a network beyond it, or none"
 bake "the knee" 0 big.safetensors -m retro-tape,rough-clay --net auto --steps 160 --restarts 1 --plot auto.svg -o auto.safetensors
 "$HNBRDF" info auto.safetensors | grep -q '^  kind *hybrid$' || fail "--net auto gives no network"
 

@@ -3,7 +3,7 @@
  * Vulkan device or no glslangValidator. */
 #include "gpu_support.h"
 
-#include "cli/bench.h"
+#include "bench/bench.h"
 #include "gpu/compile.h"
 #include "gpu/timed.h"
 

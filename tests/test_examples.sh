@@ -37,6 +37,12 @@ done
 cmp "$scratch/edited.csv" "$scratch/mixed.csv" || fail "edit mixes otherwise than the command"
 ! "$examples/edit" "$model" gold-two-lobe nobody "$scratch/x" 2> "$scratch/message" || fail "edit knows nobody"
 
+# bake prints a row a model, GGX first, and keeps to the size it asks for.
+"$examples/bake" "$scratch/baked.safetensors" 100 > "$scratch/rows"
+awk 'NR == 1 && $1 != "ggx" { exit 1 } / multiplications / && $3 > 120 { exit 1 }
+     /^picked/ { seen = 1 } END { exit !(seen && NR > 3) }' "$scratch/rows" || fail "bake prints $(cat "$scratch/rows")"
+"$hnbrdf" info "$scratch/baked.safetensors" | grep -q '^  kind *hybrid$' || fail "bake saves no hybrid"
+
 for file in "$source"/examples/*.c "$source"/examples/*.frag; do
     [ "$(wc -l < "$file")" -le 100 ] || fail "$file is longer than 100 lines"
 done

@@ -31,7 +31,8 @@ for static in ON OFF; do
     cmake -S "$consumer" -B "$out" -DCMAKE_PREFIX_PATH="$prefix" -DHNBRDF_USE_STATIC_LIBS=$static \
         -DCMAKE_BUILD_TYPE=Release > "$scratch.log" 2>&1 &&
         cmake --build "$out" >> "$scratch.log" 2>&1 || { cat "$scratch.log"; fail "find_package consumer"; }
-    for program in c_static c_shared cxx_static cxx_shared fit_static fit_shared c_default fit_default; do
+    for program in c_static c_shared cxx_static cxx_shared fit_static fit_shared bake_static bake_shared \
+        c_default fit_default bake_default; do
         "$out/$program" || fail "find_package: $program fails"
     done
     needs=$(objdump -p "$out/c_default" | sed -n 's/ *NEEDED *//p')
@@ -63,16 +64,18 @@ libraries=$(pkg-config --variable=libdir hnbrdf)
     cc -std=c99 "$consumer/evaluate.c" $(pkg-config --cflags --libs hnbrdf) -o "$scratch/pc_c"
     c++ -std=c++11 "$consumer/evaluate.cpp" $(pkg-config --cflags --libs hnbrdf) -o "$scratch/pc_cxx"
     cc -std=c99 "$consumer/fit.c" $(pkg-config --cflags --libs hnbrdf_fit hnbrdf_metrics) -o "$scratch/pc_fit"
+    cc -std=c99 "$consumer/bake.c" $(pkg-config --cflags --libs hnbrdf_bake) -o "$scratch/pc_bake"
     cc -std=c99 -static "$consumer/evaluate.c" $(pkg-config --static --cflags --libs hnbrdf) -o "$scratch/pc_c_static"
     c++ -std=c++11 -static "$consumer/evaluate.cpp" $(pkg-config --static --cflags --libs hnbrdf) \
         -o "$scratch/pc_cxx_static"
     cc -std=c99 -static "$consumer/fit.c" $(pkg-config --static --cflags --libs hnbrdf_fit hnbrdf_metrics) \
         -o "$scratch/pc_fit_static"
+    cc -std=c99 -static "$consumer/bake.c" $(pkg-config --static --cflags --libs hnbrdf_bake) -o "$scratch/pc_bake_static"
 }
-for program in pc_c pc_cxx pc_fit; do
+for program in pc_c pc_cxx pc_fit pc_bake; do
     LD_LIBRARY_PATH=$libraries "$scratch/$program" || fail "pkg-config: $program fails"
 done
-for program in pc_c_static pc_cxx_static pc_fit_static; do
+for program in pc_c_static pc_cxx_static pc_fit_static pc_bake_static; do
     "$scratch/$program" || fail "pkg-config: $program fails"
 done
 rm -rf "$scratch" "$scratch.log"

@@ -1,44 +1,38 @@
 /* cmd_bake.c: `hnbrdf bake`: the smallest network that is good enough for the materials of one
  * scene. */
-#include "cli/bake.h"
+#include "base/interrupt.h"
+#include "cli/cli.h"
+#include "report/bake.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 static const cli_command command = {
     "bake",
-    "MODEL (--max-error E | --max-ns T | --net auto|HxN) [-m A,B] [--data DATA...] -o OUT",
-    "Refits a small network to only the materials that a scene uses. A network shared by a whole "
-    "database\n"
-    "is larger than a few of its materials need. They are learned from the measurements (--data), "
-    "else "
-    "from\n"
-    "MODEL itself. Prints what was tried: SMAPE of the whole and of the analytic part alone "
-    "against "
-    "what was\n"
-    "learned from, multiplications, and the time of an evaluation by the batch call on this "
-    "machine.\n"
-    "  --max-error E  the fewest multiplications whose SMAPE is at most E, on average over the "
-    "materials\n"
-    "                 (--worst: for each of them). Where GGX alone is within E the network is "
-    "dropped.\n"
-    "  --max-ns T     the lowest error with at most T ns an evaluation, batch call, one thread\n"
+    "MODEL (--max-error E | --max-ns T | --max-mults N | --net auto|HxN) "
+    "[-m A,B] [--data DATA...] -o OUT",
+    "Refits a small network to only the materials that a scene uses. A network shared by a\n"
+    "whole database is larger than a few of its materials need. They are learned from the\n"
+    "measurements (--data), else from MODEL itself. Prints what was tried: SMAPE of the whole\n"
+    "and of the analytic part alone against what was learned from, multiplications, and the\n"
+    "time of an evaluation by the batch call on this machine.\n"
+    "  --max-error E  the fewest multiplications whose SMAPE is at most E, on average over\n"
+    "                 the materials (--worst: for each of them). Where GGX alone is within E\n"
+    "                 the network is dropped.\n"
+    "  --max-ns T     the lowest error with at most T ns an evaluation, batch, one thread\n"
+    "  --max-mults N  the lowest error with at most N multiplications an evaluation\n"
     "  --net auto     the network with the lowest product of error and time\n"
     "  --net HxN      this network\n"
-    "Candidates get a short fit first, in order of their size; those that come near get a full one "
-    "from\n"
-    "several seeds. kd, eta and alpha stay MODEL's when it is the teacher, edits included, and are "
-    "fitted\n"
-    "anew to measurements; --analytic decides otherwise. The network never takes them over.\n"
-    "The exit code is 0 only if what is saved is what was asked for. Otherwise, after Ctrl-C too, "
-    "the "
-    "best of\n"
-    "what was tried is saved, if a network was.",
-    "hnbrdf bake rgl.safetensors -m vch_silk_blue,cc_nothern_aurora --max-error 0.15 -o "
-    "scene.safetensors\n"
-    "hnbrdf bake rgl.safetensors -m vch_silk_blue --max-ns 60 --data rgl/ -o scene.safetensors\n"
-    "hnbrdf bake merl.safetensors --net auto --seconds 120 --csv b.csv --plot b.svg -o "
-    "scene.safetensors\n"
+    "Candidates get a short fit first, in order of their size; those that come near get a\n"
+    "full one from several seeds. kd, eta and alpha stay MODEL's when it is the teacher, edits\n"
+    "included, and are fitted anew to measurements; --analytic decides otherwise. The network\n"
+    "never takes them over.\n"
+    "The exit code is 0 only if what is saved is what was asked for. Otherwise, after Ctrl-C\n"
+    "too, the best of what was tried is saved, if a network was.",
+    "hnbrdf bake rgl.safetensors -m vch_silk_blue --max-error 0.15 -o scene.safetensors\n"
+    "hnbrdf bake rgl.safetensors -m vch_silk_blue --max-ns 60 --data rgl/ -o s.safetensors\n"
+    "hnbrdf bake merl.safetensors --net auto --seconds 120 --plot b.svg -o s.safetensors\n"
     "hnbrdf bake rgl.safetensors --net 8x2 --latent 4 -o scene.safetensors",
 };
 
@@ -46,163 +40,159 @@ typedef struct outputs {
     const char *model, *csv, *json, *plot;
 } outputs;
 
-static int told(const bake *b, const bake_row *row)
-{
-    if (b->row_count == 1)
-        bake_print_heading(b);
-    bake_print_row(b, row);
-    return CLI_OK;
-}
+/* ---- Progress -------------------------------------------------------------------------------- */
 
-/* ---- What is learned from -------------------------------------------------------------------- */
+typedef struct watch {
+    const char *path; /* of the model */
+    cli_progress line;
+    char what[64]; /* shown on it; "": no line */
+} watch;
 
-/* The measurements of the chosen materials, by name; they stay data's. */
-static int take_measurements(bake *b, const cli_data *data)
+static void name_stage(const hnbrdf_bake_progress *p, char text[64])
 {
-    for (int m = 0; m < b->count; m++) {
-        const char *name = hnbrdf_model_material_name(b->model, b->chosen[m]);
-        const hnbrdf_measured *found = cli_find_data(data, name);
-        if (!found)
-            return cli_fail("no measurement of %s among the %d of --data: materials go by the "
-                            "names of their files",
-                            name, data->count);
-        for (int k = 0; k < data->count; k++)
-            if (data->items[k] == found)
-                b->reference[m] = data->items[k];
+    char first[16], last[16];
+    if (!p->first) {
+        snprintf(text, 64, "%s", p->stage == HNBRDF_BAKE_TIMING ? "timing" : "GGX");
+        return;
     }
-    return CLI_OK;
+    hnbrdf_bake_size_name(p->first, first);
+    hnbrdf_bake_size_name(p->last, last);
+    snprintf(text, 64, "%s fits of %s%s%s", p->stage == HNBRDF_BAKE_FULL_FITS ? "full" : "short",
+             first, strcmp(first, last) ? " to " : "", strcmp(first, last) ? last : "");
 }
 
-static int make_teachers(bake *b)
+static void end_line(watch *w)
 {
-    for (int m = 0; m < b->count; m++)
-        if (bake_teacher(b->model, b->chosen[m], &b->reference[m]) != CLI_OK)
-            return CLI_FAILURE;
-    return CLI_OK;
+    if (w->what[0])
+        cli_progress_end(&w->line);
+    w->what[0] = '\0';
+}
+
+static int show(void *user, const hnbrdf_bake_progress *p)
+{
+    watch *w = user;
+    char what[64], detail[64] = "";
+    if (p->new_row) {
+        end_line(w);
+        if (p->report->row_count == 1) {
+            report_bake_heading(p->report, w->path, stdout);
+            cli_print_reading();
+            report_bake_columns(p->report, stdout);
+        }
+        report_bake_row(p->report, &p->report->rows[p->report->row_count - 1], stdout);
+        fflush(stdout);
+        return hnbrdf_interrupted();
+    }
+    name_stage(p, what);
+    if (strcmp(what, w->what) != 0) {
+        end_line(w);
+        memcpy(w->what, what, sizeof what);
+        cli_progress_begin(&w->line, w->what);
+    }
+    if (p->stage == HNBRDF_BAKE_GGX)
+        snprintf(detail, sizeof detail, "%s", p->done < 0.5 ? "drawing data" : "fitting");
+    else if (isfinite(p->loss))
+        snprintf(detail, sizeof detail, "loss %.4f", p->loss);
+    cli_progress_update(&w->line, p->done, detail);
+    return hnbrdf_interrupted();
 }
 
 /* ---- Results --------------------------------------------------------------------------------- */
 
-static int write_file(const bake *b, const char *path, void (*write)(const bake *b, FILE *file))
+static int write_file(const hnbrdf_bake_report *r, const char *path,
+                      void (*write)(const void *r, FILE *file))
 {
     cli_output output;
     if (!path)
         return CLI_OK;
     if (cli_output_open(path, &output) != CLI_OK)
         return CLI_FAILURE;
-    write(b, output.file);
+    write(r, output.file);
     return cli_output_close(&output);
 }
 
 /* Why the result is not what was asked for: CLI_FAILURE after a message; CLI_OK if it is. */
-static int answer(const bake *b, const char *output)
+static int answer(const hnbrdf_bake_report *r, double seconds, const char *output)
 {
-    if (b->stopped && bake_interrupted())
+    if (r->end == HNBRDF_BAKE_STOPPED)
         return cli_fail("interrupted; %s has the best of what was tried", output);
-    if (b->met)
+    if (r->met)
         return CLI_OK;
-    if (b->stopped)
-        return cli_fail("the %g s are over; %s has the best of what was tried", b->seconds, output);
-    if (b->wish == BAKE_ERROR && !b->from_data)
-        return cli_fail(
-            "no network that is clearly smaller than the model's comes within %g of it; %s "
-            "has the most "
-            "accurate one",
-            b->max_error, output);
-    if (b->wish == BAKE_ERROR)
-        return cli_fail("no network tried is within %g; %s has the most accurate one", b->max_error,
+    if (r->end == HNBRDF_BAKE_OUT_OF_TIME)
+        return cli_fail("the %g s are over; %s has the best of what was tried", seconds, output);
+    if (r->wish == HNBRDF_BAKE_ERROR && !r->from_data)
+        return cli_fail("no network that is clearly smaller than the model's comes within %g of "
+                        "it; %s has the most accurate one",
+                        r->max_error, output);
+    if (r->wish == HNBRDF_BAKE_ERROR)
+        return cli_fail("no network tried is within %g; %s has the most accurate one", r->max_error,
                         output);
-    return cli_fail("nothing takes at most %g ns here; %s has GGX alone", b->max_ns, output);
+    return cli_fail("nothing takes at most %g ns here; %s has GGX alone", r->max_ns, output);
 }
 
-/* An old output is not replaced by GGX alone only because Ctrl-C came early. */
-static int save(bake *b, const outputs *o)
+static int save(const hnbrdf_model *baked, const hnbrdf_bake_report *r, double seconds,
+                const outputs *o)
 {
     hnbrdf_error error;
-    const bake_row *row = &b->rows[b->picked];
-    if (b->stopped && !b->met && row->candidate->hidden == 0)
-        return cli_fail("%s before a network was fitted; %s is as it was",
-                        bake_interrupted() ? "interrupted" : "the time was over", o->model);
-    if (hnbrdf_model_save(row->model, o->model, &error) != HNBRDF_OK)
+    if (hnbrdf_model_save(baked, o->model, &error) != HNBRDF_OK)
         return cli_fail("%s", error.text);
-    b->half = bake_half_error(b);
-    bake_print_result(b, o->model);
-    int code = write_file(b, o->csv, bake_write_csv);
+    report_bake_result(r, o->model, stdout);
+    int code = write_file(r, o->csv, report_bake_csv);
     if (code == CLI_OK)
-        code = write_file(b, o->json, bake_write_json);
+        code = write_file(r, o->json, report_bake_json);
     if (code == CLI_OK)
-        code = write_file(b, o->plot, bake_write_plot);
+        code = write_file(r, o->plot, report_bake_plot);
     fflush(stdout);
-    return code == CLI_OK ? answer(b, o->model) : code;
-}
-
-static void release(bake *b)
-{
-    for (int k = 0; k < b->row_count; k++) {
-        free(b->rows[k].errors);
-        hnbrdf_model_free(b->rows[k].model);
-    }
-    free(b->rows);
-    free(b->candidates);
-    free(b->analytic);
-    for (int m = 0; b->reference && !b->from_data && m < b->count; m++)
-        hnbrdf_measured_close(b->reference[m]);
-    free(b->reference);
+    return code == CLI_OK ? answer(r, seconds, o->model) : code;
 }
 
 /* ---- Command --------------------------------------------------------------------------------- */
 
-static int search(bake *b, const cli_data *data, const outputs *o)
+static int bake(const hnbrdf_model *model, hnbrdf_bake_options *options, const char *path,
+                const outputs *o)
 {
-    b->reference = calloc((size_t)b->count, sizeof *b->reference);
-    int code = b->reference ? CLI_OK : cli_fail("out of memory");
-    if (code == CLI_OK)
-        code = b->from_data ? take_measurements(b, data) : make_teachers(b);
-    bake_catch_interrupts(1);
-    if (code == CLI_OK)
-        code = bake_make_candidates(b);
-    if (code == CLI_OK)
-        code = bake_search(b);
-    bake_catch_interrupts(0);
-    if (code == CLI_OK)
-        code = save(b, o);
-    release(b);
+    watch w = {.path = path};
+    hnbrdf_model *baked;
+    hnbrdf_bake_report report;
+    hnbrdf_error error;
+    options->progress = show;
+    options->progress_user = &w;
+    hnbrdf_catch_interrupts(1);
+    hnbrdf_result result = hnbrdf_bake(model, options, &baked, &report, &error);
+    hnbrdf_catch_interrupts(0);
+    end_line(&w);
+    if (result == HNBRDF_ERROR_CANCELLED)
+        return cli_fail("%s; %s is as it was", error.text, o->model);
+    if (result)
+        return cli_fail("%s", error.text);
+    int code = save(baked, &report, options->seconds, o);
+    hnbrdf_bake_report_free(&report);
+    hnbrdf_model_free(baked);
     return code;
 }
 
-static int check_outputs(const outputs *o)
+static int run(const char *path, const char *list, char *const *data_arguments, int data_count,
+               hnbrdf_bake_options *options, const outputs *o)
 {
-    const char *const all[] = {o->model, o->csv, o->json, o->plot};
-    for (size_t k = 0; k < sizeof all / sizeof all[0]; k++)
-        if (all[k] && cli_output_check(all[k]) != CLI_OK)
-            return CLI_FAILURE;
-    return CLI_OK;
-}
-
-static int run(bake *b, const char *list, int analytic, char *const *data_arguments, int data_count,
-               const outputs *o)
-{
+    const char *const paths[] = {o->model, o->csv, o->json, o->plot};
     cli_source source = {NULL, NULL};
     cli_data data = {NULL, 0};
-    int *chosen = NULL, code = check_outputs(o);
+    int *chosen = NULL, code = CLI_OK;
+    for (size_t k = 0; k < 4 && code == CLI_OK; k++)
+        code = paths[k] ? cli_output_check(paths[k]) : CLI_OK;
     if (code == CLI_OK)
-        code = cli_open_source(b->path, &source);
+        code = cli_open_source(path, &source);
     if (code == CLI_OK && !source.model)
-        code = cli_fail("%s: measured data, expected a model file", b->path);
+        code = cli_fail("%s: measured data, expected a model file", path);
     if (code == CLI_OK)
-        code = cli_choose_materials(source.model, list, &chosen, &b->count);
+        code = cli_choose_materials(source.model, list, &chosen, &options->material_count);
     if (code == CLI_OK && data_count > 0)
         code = cli_open_data(data_arguments, data_count, &data);
     if (code == CLI_OK) {
-        hnbrdf_model_desc desc;
-        hnbrdf_model_describe(source.model, &desc);
-        b->model = source.model;
-        b->chosen = chosen;
-        b->from_data = data_count > 0;
-        b->keep = analytic < 0 ? !b->from_data && desc.kind != HNBRDF_KIND_NEURAL : analytic == 0;
-        code = b->keep && desc.kind == HNBRDF_KIND_NEURAL
-                   ? cli_fail("%s: a neural model has no analytic part to keep", b->path)
-                   : search(b, &data, o);
+        options->materials = chosen;
+        options->data = (const hnbrdf_measured *const *)data.items;
+        options->data_count = data.count;
+        code = bake(source.model, options, path, o);
     }
     free(chosen);
     cli_close_data(&data);
@@ -211,90 +201,89 @@ static int run(bake *b, const char *list, int analytic, char *const *data_argume
 }
 
 /* "auto" or "HxN" with --net, and that exactly one wish is there: -1 to go on, or the exit code. */
-static int read_wish(bake *b, const char *net)
+static int read_wish(hnbrdf_bake_options *o, const char *net)
 {
     int length = 0;
-    if ((b->max_error > 0.0) + (b->max_ns > 0.0) + (net != NULL) != 1)
-        return cli_usage(&command,
-                         "expected exactly one of --max-error E, --max-ns T and --net auto|HxN");
-    b->wish = b->max_error > 0.0 ? BAKE_ERROR : b->max_ns > 0.0 ? BAKE_TIME : BAKE_AUTO;
+    int limits = (o->max_error > 0.0) + (o->max_ns > 0.0) + (o->max_multiplications > 0);
+    if (limits + (net != NULL) != 1)
+        return cli_usage(&command, "expected exactly one of --max-error E, --max-ns T, "
+                                   "--max-mults N and --net auto|HxN");
+    o->wish = o->max_error > 0.0 ? HNBRDF_BAKE_ERROR
+              : o->max_ns > 0.0  ? HNBRDF_BAKE_TIME
+              : !net             ? HNBRDF_BAKE_SIZE
+                                 : HNBRDF_BAKE_AUTO;
     if (!net || strcmp(net, "auto") == 0)
         return -1;
-    if (sscanf(net, "%2dx%1d%n", &b->net[0], &b->net[1], &length) != 2 || net[length] ||
-        b->net[0] < 1 || b->net[0] > HNBRDF_MAX_HIDDEN || b->net[1] < 1 ||
-        b->net[1] > HNBRDF_MAX_LAYERS)
+    if (sscanf(net, "%2dx%1d%n", &o->hidden, &o->layers, &length) != 2 || net[length] ||
+        o->hidden < 1 || o->hidden > HNBRDF_MAX_HIDDEN || o->layers < 1 ||
+        o->layers > HNBRDF_MAX_LAYERS)
         return cli_usage(&command,
                          "--net %s, expected auto or HxN with H from 1 to %d and N from 1 to %d",
                          net, HNBRDF_MAX_HIDDEN, HNBRDF_MAX_LAYERS);
-    b->wish = BAKE_NET;
+    o->wish = HNBRDF_BAKE_NET;
     return -1;
 }
 
-/* The index of an encoding's name or -1. */
-static int find_encoding(const char *text)
+static int is_encoding(const char *text)
 {
     const char *name;
     for (int i = 0; (name = hnbrdf_encoding_name((hnbrdf_encoding)i)); i++)
         if (strcmp(text, name) == 0)
-            return i;
-    return -1;
+            return 1;
+    return 0;
 }
 
 int cmd_bake(int argc, char **argv)
 {
-    bake b = {.sampler = HNBRDF_SAMPLER_GRID,
-              .encoding = -1,
-              .latent = -1,
-              .pairs = 200000,
-              .steps = 32000,
-              .restarts = 4,
-              .seed = 1,
-              .picked = -1,
-              .told = told};
+    hnbrdf_bake_options b = {.steps = 0};
     outputs o = {NULL, NULL, NULL, NULL};
-    const char *materials = NULL, *net = NULL, *data = NULL, *encoding = NULL;
-    int analytic = -1, given;
-    long latent = -1;
+    const char *materials = NULL, *net = NULL, *data = NULL;
+    int analytic = -1, sampler = HNBRDF_SAMPLER_GRID, worst = 0, given;
+    long latent = -1, mults = 0, restarts = 0, pairs = 0, pool = 0, seed = 1, threads = 0;
+    /* clang-format off */
     const cli_option options[] = {
         {"output", 'o', CLI_TEXT, &o.model, 0, 0, "FILE", "the model file to write (required)"},
         {"materials", 'm', CLI_TEXT, &materials, 0, 0, "LIST",
          "materials of MODEL to keep (default all)"},
         {"max-error", 0, CLI_REAL, &b.max_error, 1e-6, 2, "E", "the SMAPE that is accepted"},
-        {"worst", 0, CLI_FLAG, &b.worst, 0, 0, NULL,
+        {"worst", 0, CLI_FLAG, &worst, 0, 0, NULL,
          "errors are judged by the worst material (default: by the mean)"},
         {"max-ns", 0, CLI_REAL, &b.max_ns, 1e-3, 1e9, "T",
          "the ns an evaluation may take, batch call, one thread of this machine"},
+        {"max-mults", 0, CLI_INT, &mults, 1, 1e9, "N",
+         "the multiplications of the network that are accepted"},
         {"net", 0, CLI_TEXT, &net, 0, 0, "HxN", "N hidden layers of H units, or auto"},
         {"latent", 0, CLI_INT, &latent, 0, HNBRDF_MAX_LATENT, "L",
          "floats of latent code (default: by the number of materials, at most 8)"},
         {"data", 0, CLI_TEXT, &data, 0, 0, "DATA...",
          "measurements to learn from and be judged by; further ones behind it, MODEL before"},
         {"analytic", 0, CLI_CHOICE, &analytic, 0, 0, "keep|fit",
-         "kd, eta, alpha: MODEL's, or fitted to what is learned from (default keep, with --data "
-         "fit)"},
-        {"encoding", 0, CLI_TEXT, &encoding, 0, 0, "NAME",
+         "kd, eta, alpha: MODEL's, or fitted to what is learned from (default keep, with "
+         "--data fit)"},
+        {"encoding", 0, CLI_TEXT, &b.encoding, 0, 0, "NAME",
          "as of `fit` (default: by what is learned from)"},
         {"seconds", 0, CLI_REAL, &b.seconds, 1, 1e7, "S",
          "about the time for all fits (default: by steps)"},
         {"steps", 0, CLI_INT, &b.steps, 1, 1e9, "N",
          "training steps of a full fit; of a short one an eighth (default 32000)"},
-        {"restarts", 0, CLI_INT, &b.restarts, 1, 32, "N",
+        {"restarts", 0, CLI_INT, &restarts, 1, 32, "N",
          "seeds of a full fit, the best counts (default 4)"},
-        {"sampler", 0, CLI_CHOICE, &b.sampler, 0, 0, "uniform|cosine|grid",
+        {"sampler", 0, CLI_CHOICE, &sampler, 0, 0, "uniform|cosine|grid",
          "of the pairs that errors are measured on (default grid)"},
-        {"pairs", 'n', CLI_INT, &b.pairs, 1, 1e9, "N",
+        {"pairs", 'n', CLI_INT, &pairs, 1, 1e9, "N",
          "pairs a material that errors are measured on (default 200000; short fits 20000)"},
-        {"pool", 0, CLI_INT, &b.pool, 64, 1 << 26, "N",
+        {"pool", 0, CLI_INT, &pool, 64, 1 << 26, "N",
          "pairs drawn a material for training (default 131072, short fits 32768)"},
-        {"seed", 0, CLI_INT, &b.seed, 0, 9e15, "N",
+        {"seed", 0, CLI_INT, &seed, 0, 9e15, "N",
          "the first seed of everything random (default 1)"},
         {"csv", 0, CLI_TEXT, &o.csv, 0, 0, "FILE", "write what was tried, a row a model"},
         {"json", 0, CLI_TEXT, &o.json, 0, 0, "FILE", "the same with the errors of each material"},
         {"plot", 0, CLI_TEXT, &o.plot, 0, 0, "FILE", "write error against time as an SVG"},
-        {"threads", 't', CLI_INT, &b.threads, 1, 256, "N", "threads (default one a core)"},
+        {"threads", 't', CLI_INT, &threads, 1, 256, "N", "threads (default one a core)"},
         CLI_READING_OPTIONS,
         {0},
     };
+    /* clang-format on */
     int code = cli_parse(&command, options, argc, argv, &given);
     if (code >= 0)
         return code;
@@ -306,18 +295,26 @@ int cmd_bake(int argc, char **argv)
                          given);
     if (!o.model)
         return cli_usage(&command, "no output file given, expected -o SCENE.safetensors");
+    b.max_multiplications = (size_t)mults;
     if ((code = read_wish(&b, net)) >= 0)
         return code;
-    if (encoding && (b.encoding = find_encoding(encoding)) < 0)
+    if (b.encoding && !is_encoding(b.encoding))
         return cli_usage(&command,
                          "--encoding %s, expected angles, angles-anisotropic, angles-directed, "
                          "half-difference or directions",
-                         encoding);
-    b.path = argv[1];
-    b.latent = (int)latent;
-    b.short_steps = b.steps / 8 > 0 ? b.steps / 8 : 1;
-    b.started = cli_seconds();
+                         b.encoding);
+    b.judge = worst ? HNBRDF_BAKE_WORST : HNBRDF_BAKE_MEAN;
+    b.analytic = (hnbrdf_bake_analytic)(analytic + 1);
+    b.sampler = (hnbrdf_sampler)sampler;
+    b.latent = latent > 0 ? (int)latent : 0;
+    b.latent_none = latent == 0;
+    b.restarts = (int)restarts;
+    b.pairs = (size_t)pairs;
+    b.pool = (int)pool;
+    b.seed = (uint64_t)seed;
+    b.threads = (int)threads;
+    const char *path = argv[1];
     if (data)
         argv[1] = (char *)data; /* points into argv, as the others do */
-    return run(&b, materials, analytic, argv + 1, data ? given : 0, &o);
+    return run(path, materials, argv + 1, data ? given : 0, &b, &o);
 }

@@ -1,7 +1,7 @@
 /* cmd_fit.c: hnbrdf fit: measured materials in, one model file out. */
 #include "cli/cli.h"
 #include "cli/fit_log.h"
-#include "cli/fit_speed.h"
+#include "bench/speed.h"
 #include "cli/loss_plot.h"
 #include "hnbrdf/fit.h"
 
@@ -166,14 +166,14 @@ static void tell_about_training(const hnbrdf_fit_report *r)
 
 static int write_speed(const job *j, const hnbrdf_fit_report *report)
 {
-    fit_speed speed = fit_speed_of(report);
-    fit_speed_print(&speed);
+    bench_speed speed = bench_speed_of(report);
+    bench_speed_print(&speed, stdout);
     if (!j->json)
         return CLI_OK;
     cli_output output;
     if (cli_output_open(j->json, &output) != CLI_OK)
         return CLI_FAILURE;
-    fit_speed_write_json(&speed, output.file);
+    bench_speed_write_json(&speed, output.file);
     return cli_output_close(&output);
 }
 

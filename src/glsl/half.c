@@ -2,22 +2,7 @@
 #include "glsl/half.h"
 
 /* 66 roundings of 2^-10 each may add 6.7 %: 60000 leaves 9 % to 65504. */
-static const float LARGEST_SUM = 60000.0f, LARGEST_WEIGHT = 2048.0f, LARGEST_BIAS = 8192.0f;
-
-static float rounded(float x, float largest)
-{
-    return hnbrdf_round_to_half(fminf(fmaxf(x, -largest), largest));
-}
-
-float hnbrdf_half_weight(const hnbrdf_model_desc *desc, int layer, float weight)
-{
-    return layer < desc->layers ? rounded(weight, LARGEST_WEIGHT) : weight;
-}
-
-float hnbrdf_half_bias(const hnbrdf_model_desc *desc, int layer, float bias)
-{
-    return layer < desc->layers ? rounded(bias, LARGEST_BIAS) : bias;
-}
+static const float LARGEST_SUM = 60000.0f;
 
 /* The largest half not above x, which is at least 2^-14. */
 static float round_down(float x)

@@ -1,6 +1,7 @@
-/* bench_write.c: the rows of `hnbrdf bench` as a table, CSV and JSON. */
-#include "cli/bench.h"
-#include "cli/csv.h"
+/* tables.c: the rows of `hnbrdf bench` as a table, CSV and JSON. */
+#include "base/threads.h"
+#include "base/write.h"
+#include "bench/bench.h"
 
 #include <math.h>
 #include <string.h>
@@ -42,96 +43,100 @@ static const char *encoding_of(const bench_row *row)
 /* ---- For people ------------------------------------------------------------------------------ */
 
 /* A number with `digits` decimals in `width` columns; a dash where it is unknown. */
-static void print_number(int width, int digits, double value)
+static void print_number(FILE *file, int width, int digits, double value)
 {
     if (isfinite(value))
-        printf("  %*.*f", width, digits, value);
+        fprintf(file, "  %*.*f", width, digits, value);
     else
-        printf("  %*s", width, "-");
+        fprintf(file, "  %*s", width, "-");
 }
 
-static void print_row(const bench *b, const bench_row *row, int name, int backend)
+static void print_row(const bench *b, const bench_row *row, int name, int backend, FILE *file)
 {
     char net[16];
     figures f = figures_of(b, row);
-    printf("%-*s  %-5s  %-18s  %-*s  %-7s  %-15s  %-5s", name, row->model->name,
-           bench_net(row->model, net), encoding_of(row), backend, row->backend, row->variant,
-           row->weights, row->precision);
-    print_number(8, 2, f.ns);
-    print_number(7, 2, f.per_second * 1e-6);
-    print_number(7, 2, f.ratio);
-    print_number(6, 1, 100.0 * f.peak_fraction);
-    print_number(8, 2, f.network_ns);
-    print_number(6, 1, 100.0 * f.network_peak_fraction);
-    print_number(6, 2, f.io_ns);
-    print_number(7, 0, row->compile_ms);
-    print_number(7, 0, row->first_ms);
-    printf("  %7zu", row->bytes);
-    print_number(6, 4, row->smape);
-    print_number(5, 2, row->psnr);
-    printf("\n");
+    fprintf(file, "%-*s  %-5s  %-18s  %-*s  %-7s  %-15s  %-5s", name, row->model->name,
+            bench_net(row->model, net), encoding_of(row), backend, row->backend, row->variant,
+            row->weights, row->precision);
+    print_number(file, 8, 2, f.ns);
+    print_number(file, 7, 2, f.per_second * 1e-6);
+    print_number(file, 7, 2, f.ratio);
+    print_number(file, 6, 1, 100.0 * f.peak_fraction);
+    print_number(file, 8, 2, f.network_ns);
+    print_number(file, 6, 1, 100.0 * f.network_peak_fraction);
+    print_number(file, 6, 2, f.io_ns);
+    print_number(file, 7, 0, row->compile_ms);
+    print_number(file, 7, 0, row->first_ms);
+    fprintf(file, "  %7zu", row->bytes);
+    print_number(file, 6, 4, row->smape);
+    print_number(file, 5, 2, row->psnr);
+    fprintf(file, "\n");
 }
 
-static void print_heading(const bench *b)
+static void print_heading(const bench *b, FILE *file)
 {
-    printf("%s, %d threads in this machine; CPU rows on one thread, in its own CPU time\n", b->cpu,
-           cli_processors());
+    fprintf(file, "%s, %d threads in this machine; CPU rows on one thread, in its own CPU time\n",
+            b->cpu, hnbrdf_processors());
     for (int k = 0; k < b->peak_count; k++)
-        printf("%s %s: %.1f GFLOP/s fused, %.1f with additions apart",
-               k ? "," : "peak of one thread,", b->peaks[k].variant, b->peaks[k].fma * 1e-9,
-               b->peaks[k].muladd * 1e-9);
-    printf("\n");
-    printf("least of %ld rounds over all rows; ns/eval without buffers (io), network: the network "
-           "alone\n",
-           b->rounds);
+        fprintf(file, "%s %s: %.1f GFLOP/s fused, %.1f with additions apart",
+                k ? "," : "peak of one thread,", b->peaks[k].variant, b->peaks[k].fma * 1e-9,
+                b->peaks[k].muladd * 1e-9);
+    fprintf(file, "\n");
+    fprintf(file,
+            "least of %ld rounds over all rows; ns/eval without buffers (io), network: the network "
+            "alone\n",
+            b->rounds);
     if (isfinite(b->models[0].smape))
-        printf("SMAPE by the %s sampler, %ld pairs a material; PSNR in dB of spheres %ld pixels "
-               "wide, %ld "
-               "samples a pixel\n",
-               hnbrdf_sampler_name((hnbrdf_sampler)b->sampler), b->pairs, b->size, b->spp);
-    printf("\n");
+        fprintf(file,
+                "SMAPE by the %s sampler, %ld pairs a material; PSNR in dB of spheres %ld pixels "
+                "wide, %ld "
+                "samples a pixel\n",
+                hnbrdf_sampler_name(b->sampler), b->pairs, b->size, b->spp);
+    fprintf(file, "\n");
 }
 
 /* How the rows of one model stand against each other, which is what engineers compare. */
-static void print_ratios(const bench *b, const bench_row *row)
+static void print_ratios(const bench *b, const bench_row *row, FILE *file)
 {
     figures f = figures_of(b, row);
     if (!isfinite(f.network_ns) || !isfinite(f.ns))
         return;
-    printf("  %s, %s %s %s %s: whole BRDF %.2f times its network", row->model->name, row->backend,
-           row->variant, row->weights, row->precision, f.ns / f.network_ns);
+    fprintf(file, "  %s, %s %s %s %s: whole BRDF %.2f times its network", row->model->name,
+            row->backend, row->variant, row->weights, row->precision, f.ns / f.network_ns);
     if (isfinite(f.network_peak_fraction))
-        printf(", network at %.1f %% of the peak (%.1f %% of that without fusing)",
-               100.0 * f.network_peak_fraction, 100.0 * f.network_muladd_fraction);
+        fprintf(file, ", network at %.1f %% of the peak (%.1f %% of that without fusing)",
+                100.0 * f.network_peak_fraction, 100.0 * f.network_muladd_fraction);
     for (int k = 0; k < b->row_count; k++) {
         const bench_row *peer = &b->rows[k];
         if (strcmp(peer->weights, "published-style") == 0 && peer != row &&
             peer->model == row->model && strcmp(peer->backend, row->backend) == 0)
-            printf(", %.2f times the published style", f.ns / bench_ns(peer));
+            fprintf(file, ", %.2f times the published style", f.ns / bench_ns(peer));
     }
-    printf("\n");
+    fprintf(file, "\n");
 }
 
-void bench_print(const bench *b)
+void bench_print(const void *of, FILE *file)
 {
+    const bench *b = of;
     int name = (int)strlen("model"), backend = (int)strlen("backend");
     for (int k = 0; k < b->row_count; k++) {
         int length = (int)strlen(b->rows[k].model->name), other = (int)strlen(b->rows[k].backend);
         name = length > name ? length : name;
         backend = other > backend ? other : backend;
     }
-    print_heading(b);
-    printf("%-*s  %-5s  %-18s  %-*s  %-7s  %-15s  %-5s  %8s  %7s  %7s  %6s  %8s  %6s  %6s  %7s  "
-           "%7s  %7s  "
-           "%6s  %5s\n",
-           name, "model", "net", "encoding", backend, "backend", "variant", "weights", "prec.",
-           "ns/eval", "M/s", "x GGX", "% peak", "network", "% peak", "io", "compile", "first",
-           "bytes", "SMAPE", "PSNR");
+    print_heading(b, file);
+    fprintf(file,
+            "%-*s  %-5s  %-18s  %-*s  %-7s  %-15s  %-5s  %8s  %7s  %7s  %6s  %8s  %6s  %6s  %7s  "
+            "%7s  %7s  "
+            "%6s  %5s\n",
+            name, "model", "net", "encoding", backend, "backend", "variant", "weights", "prec.",
+            "ns/eval", "M/s", "x GGX", "% peak", "network", "% peak", "io", "compile", "first",
+            "bytes", "SMAPE", "PSNR");
     for (int k = 0; k < b->row_count; k++)
-        print_row(b, &b->rows[k], name, backend);
-    printf("\nratios:\n");
+        print_row(b, &b->rows[k], name, backend, file);
+    fprintf(file, "\nratios:\n");
     for (int k = 0; k < b->row_count; k++)
-        print_ratios(b, &b->rows[k]);
+        print_ratios(b, &b->rows[k], file);
 }
 
 /* ---- For programs ---------------------------------------------------------------------------- */
@@ -148,10 +153,10 @@ static void write_csv_row(const bench *b, const bench_row *row, FILE *file)
 {
     char net[16];
     figures f = figures_of(b, row);
-    csv_write_text(file, row->model->name);
+    hnbrdf_write_csv_text(file, row->model->name);
     fprintf(file, ",%s,%s,%d,", bench_net(row->model, net), encoding_of(row),
             row->model->desc.latent);
-    csv_write_text(file, row->backend);
+    hnbrdf_write_csv_text(file, row->backend);
     fprintf(file, ",%s,%s,%s", row->variant, row->weights, row->precision);
     const double before[] = {f.ns, f.per_second, f.peak_fraction, f.ratio, row->compile_ms};
     for (int k = 0; k < 5; k++)
@@ -166,8 +171,9 @@ static void write_csv_row(const bench *b, const bench_row *row, FILE *file)
     putc('\n', file);
 }
 
-void bench_write_csv(const bench *b, FILE *file)
+void bench_write_csv(const void *of, FILE *file)
 {
+    const bench *b = of;
     fprintf(file, "%s\n", columns);
     for (int k = 0; k < b->row_count; k++)
         write_csv_row(b, &b->rows[k], file);
@@ -176,7 +182,7 @@ void bench_write_csv(const bench *b, FILE *file)
 static void write_json_text(FILE *file, const char *name, const char *text)
 {
     fprintf(file, "\"%s\": ", name);
-    cli_write_json_text(file, text);
+    hnbrdf_write_json_text(file, text);
     fputs(", ", file);
 }
 
@@ -219,20 +225,21 @@ static void write_json_row(const bench *b, const bench_row *row, FILE *file)
             hnbrdf_model_multiplications(row->model->model));
 }
 
-void bench_write_json(const bench *b, FILE *file)
+void bench_write_json(const void *of, FILE *file)
 {
+    const bench *b = of;
     fputs("{\n  ", file);
     write_json_text(file, "command", b->command_line);
     write_json_text(file, "version", hnbrdf_version());
     write_json_text(file, "cpu", b->cpu);
-    write_json_number(file, "processors", cli_processors());
+    write_json_number(file, "processors", hnbrdf_processors());
     fputs("\"peaks\": [", file);
     for (int k = 0; k < b->peak_count; k++)
         fprintf(file, "%s{\"variant\": \"%s\", \"fma\": %.6g, \"muladd\": %.6g}", k ? ", " : "",
                 b->peaks[k].variant, b->peaks[k].fma, b->peaks[k].muladd);
     fputs("], ", file);
     write_json_number(file, "rounds", (double)b->rounds);
-    write_json_text(file, "sampler", hnbrdf_sampler_name((hnbrdf_sampler)b->sampler));
+    write_json_text(file, "sampler", hnbrdf_sampler_name(b->sampler));
     write_json_number(file, "pairs", (double)b->pairs);
     write_json_number(file, "sphere_pixels", (double)b->size);
     write_json_number(file, "sphere_samples", (double)b->spp);

@@ -1,15 +1,20 @@
-/* bench_quality.c: the errors that stand beside the run times: SMAPE of values, PSNR of rendered
+/* quality.c: the errors that stand beside the run times: SMAPE of values, PSNR of rendered
  * spheres. */
-#include "cli/bench.h"
-#include "cli/picture.h"
+#include "base/error.h"
 #include "base/threads.h"
+#include "bench/bench.h"
 #include "hnbrdf/metrics.h"
+#include "image/difference.h"
+#include "render/render.h"
 #ifdef HNBRDF_WITH_VULKAN
 #include "check/half.h"
 #endif
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
+
+static const char MEASURING[] = "measuring errors";
 
 /* A model that is measured, and where its means go. */
 typedef struct subject {
@@ -21,13 +26,13 @@ typedef struct subject {
 
 typedef struct quality {
     const bench *b;
-    const cli_data *data;
+    hnbrdf_measured *const *data;
+    int data_count;
     subject subjects[3 * BENCH_MODELS];
     int count;
     double *smape, *psnr; /* [subjects][materials]; NaN where a model has no such material */
     render_environment environment;
     hnbrdf_model *guide;
-    cli_progress line;
 } quality;
 
 /* ---- Half precision, as the exported shaders compute where + and * round correctly ----------- */
@@ -53,7 +58,7 @@ static double smape_added_by_half(const quality *q, const hnbrdf_model *model,
     hnbrdf_rng_seed(&rng, 1, 0x636f6d70617265u); /* its sequence */
     for (long draws = 0; valid < HALF_PAIRS && draws < 1000L * HALF_PAIRS; draws++) {
         float wi[3], wo[3], half[3], f[3], reference[3];
-        hnbrdf_sampler_draw((hnbrdf_sampler)q->b->sampler, &rng, wi, wo);
+        hnbrdf_sampler_draw(q->b->sampler, &rng, wi, wo);
         if (!hnbrdf_measured_eval(measured, wi, wo, reference))
             continue;
         EVAL_HALF(model, material, wi, wo, half);
@@ -92,8 +97,7 @@ static void choose_subjects(quality *q, bench *b, int peers)
 static const hnbrdf_material *material_of(const quality *q, int s, int m)
 {
     const hnbrdf_model *model = q->subjects[s].model;
-    return hnbrdf_model_material(model,
-                                 hnbrdf_model_find(model, hnbrdf_measured_name(q->data->items[m])));
+    return hnbrdf_model_material(model, hnbrdf_model_find(model, hnbrdf_measured_name(q->data[m])));
 }
 
 /* ---- SMAPE ----------------------------------------------------------------------------------- */
@@ -101,50 +105,88 @@ static const hnbrdf_material *material_of(const quality *q, int s, int m)
 static void compare_one(void *context, int index, int worker)
 {
     quality *q = context;
-    int s = index / q->data->count, m = index % q->data->count;
+    int s = index / q->data_count, m = index % q->data_count;
     const hnbrdf_material *material = material_of(q, s, m);
     hnbrdf_comparison error;
     (void)worker;
-    if (material && hnbrdf_compare(q->subjects[s].model, material, q->data->items[m],
-                                   (hnbrdf_sampler)q->b->sampler, (size_t)q->b->pairs, 1, &error,
-                                   NULL) == HNBRDF_OK)
+    if (material && hnbrdf_compare(q->subjects[s].model, material, q->data[m], q->b->sampler,
+                                   (size_t)q->b->pairs, 1, &error, NULL) == HNBRDF_OK)
         q->smape[index] =
-            error.smape + (q->subjects[s].half ? smape_added_by_half(q, q->subjects[s].model,
-                                                                     material, q->data->items[m])
-                                               : 0.0);
+            error.smape + (q->subjects[s].half
+                               ? smape_added_by_half(q, q->subjects[s].model, material, q->data[m])
+                               : 0.0);
 }
 
-static int measure_smape(quality *q)
+static hnbrdf_result measure_smape(quality *q, hnbrdf_error *error)
 {
-    hnbrdf_threads *workers = hnbrdf_threads_start(0);
-    if (!workers)
-        return cli_fail("out of memory");
+    hnbrdf_threads *threads = hnbrdf_threads_start(0);
+    if (!threads)
+        return hnbrdf_fail(error, HNBRDF_ERROR_MEMORY, "out of memory");
     for (int s = 0; s < q->count; s++)
-        for (int m = 0; m < q->data->count; m++)
-            q->smape[s * q->data->count + m] = (double)NAN;
-    hnbrdf_threads_run(workers, q->count * q->data->count, compare_one, q);
-    hnbrdf_threads_stop(workers);
-    return CLI_OK;
+        for (int m = 0; m < q->data_count; m++)
+            q->smape[s * q->data_count + m] = (double)NAN;
+    hnbrdf_threads_run(threads, q->count * q->data_count, compare_one, q);
+    hnbrdf_threads_stop(threads);
+    return HNBRDF_OK;
 }
 
 /* ---- PSNR ------------------------------------------------------------------------------------ */
 
-static int render(quality *q, const render_surface *surface, render_image *image)
+static hnbrdf_result render(const quality *q, const render_surface *surface, render_image *image,
+                            hnbrdf_error *error)
 {
-    hnbrdf_error error;
     const render_options options = {.size = (int)q->b->size, .spp = (int)q->b->spp, .seed = 1};
-    if (render_sphere(surface, &q->environment, &options, image, &error) != HNBRDF_OK)
-        return cli_fail("%s", error.text);
-    return CLI_OK;
+    return render_sphere(surface, &q->environment, &options, image, error);
+}
+
+/* The pixels of `image` that render_covered() counts, one after the other; returns how many. */
+static size_t pack(const render_image *image, const render_image *a, const render_image *b,
+                   float *out)
+{
+    size_t pixels = (size_t)image->width * (size_t)image->height, count = 0;
+    for (size_t i = 0; i < pixels; i++)
+        if (render_covered(a, b, i))
+            memcpy(out + 3 * count++, image->rgb + 3 * i, 3 * sizeof(float));
+    return count;
+}
+
+static hnbrdf_result compare_images(const render_image *image, const render_image *reference,
+                                    double *psnr, hnbrdf_error *error)
+{
+    hnbrdf_image_error difference;
+    size_t values = 3 * (size_t)image->width * (size_t)image->height;
+    float *packed = malloc(2 * values * sizeof *packed);
+    if (!packed)
+        return hnbrdf_fail(error, HNBRDF_ERROR_MEMORY, "out of memory");
+    size_t pixels = pack(image, image, reference, packed);
+    pack(reference, image, reference, packed + values);
+    hnbrdf_image_compare(packed, packed + values, 3 * pixels, &difference);
+    *psnr = difference.psnr;
+    free(packed);
+    return HNBRDF_OK;
+}
+
+/* The PSNR of a surface's sphere. */
+static hnbrdf_result measure_sphere(const quality *q, const render_surface *surface,
+                                    const render_image *reference, double *psnr,
+                                    hnbrdf_error *error)
+{
+    render_image image = {0};
+    hnbrdf_result result = render(q, surface, &image, error);
+    if (!result)
+        result = compare_images(&image, reference, psnr, error);
+    render_image_free(&image);
+    return result;
 }
 
 /* Spheres of one material: the measurement, then every subject, along the same random directions.
  * */
-static int compare_spheres(quality *q, int m, render_surface *surfaces, const render_surface **all)
+static hnbrdf_result compare_spheres(quality *q, int m, render_surface *surfaces,
+                                     const render_surface **all, hnbrdf_error *error)
 {
     int count = 0;
     render_image reference = {0};
-    surfaces[0] = render_surface_measured(q->data->items[m]);
+    surfaces[0] = render_surface_measured(q->data[m]);
     all[count++] = &surfaces[0];
     for (int s = 0; s < q->count; s++)
         if (material_of(q, s, m) && q->subjects[s].psnr) {
@@ -154,38 +196,36 @@ static int compare_spheres(quality *q, int m, render_surface *surfaces, const re
     render_guide guide = render_guide_fit(all, count, q->guide);
     for (int s = 0; s <= q->count; s++)
         render_surface_guide(&surfaces[s], &guide);
-    int code = render(q, &surfaces[0], &reference);
-    for (int s = 0; s < q->count && code == CLI_OK; s++) {
-        render_image image = {0};
-        hnbrdf_image_error error = {.psnr = (double)NAN};
-        if (material_of(q, s, m) && q->subjects[s].psnr &&
-            (code = render(q, &surfaces[s + 1], &image)) == CLI_OK)
-            code = picture_compare(&image, &reference, &error);
-        q->psnr[s * q->data->count + m] = error.psnr;
-        render_image_free(&image);
-        cli_progress_update(&q->line, (m + (s + 1.0) / q->count) / q->data->count,
-                            hnbrdf_measured_name(q->data->items[m]));
+    hnbrdf_result result = render(q, &surfaces[0], &reference, error);
+    for (int s = 0; s < q->count && !result; s++) {
+        double *psnr = &q->psnr[s * q->data_count + m];
+        *psnr = (double)NAN;
+        if (material_of(q, s, m) && q->subjects[s].psnr)
+            result = measure_sphere(q, &surfaces[s + 1], &reference, psnr, error);
+        if (!result)
+            result = bench_show(&q->b->watch, MEASURING, (m + (s + 1.0) / q->count) / q->data_count,
+                                hnbrdf_measured_name(q->data[m]), error);
     }
     render_image_free(&reference);
-    return code;
+    return result;
 }
 
-static int measure_psnr(quality *q)
+static hnbrdf_result measure_psnr(quality *q, hnbrdf_error *error)
 {
-    picture_options light = PICTURE_DEFAULTS(0);
-    hnbrdf_error error;
-    if (picture_open_light(&light, &q->environment) != CLI_OK)
-        return CLI_FAILURE;
-    if (render_guide_model(&q->guide, &error) != HNBRDF_OK)
-        return cli_fail("%s", error.text);
+    hnbrdf_result result = render_environment_open("sky", 0.0, &q->environment, error);
+    if (!result)
+        result = render_guide_model(&q->guide, error);
+    if (result)
+        return result;
     render_surface *surfaces = calloc((size_t)q->count + 1, sizeof *surfaces);
     const render_surface **all = calloc((size_t)q->count + 1, sizeof *all);
-    int code = surfaces && all ? CLI_OK : cli_fail("out of memory");
-    for (int m = 0; m < q->data->count && code == CLI_OK; m++)
-        code = compare_spheres(q, m, surfaces, all);
+    if (!surfaces || !all)
+        result = hnbrdf_fail(error, HNBRDF_ERROR_MEMORY, "out of memory");
+    for (int m = 0; m < q->data_count && !result; m++)
+        result = compare_spheres(q, m, surfaces, all, error);
     free(surfaces);
     free(all);
-    return code;
+    return result;
 }
 
 /* ---- Both ------------------------------------------------------------------------------------ */
@@ -203,25 +243,26 @@ static double mean(const double *values, int count)
     return known ? sum / known : (double)NAN;
 }
 
-int bench_measure_quality(bench *b, const cli_data *data, int peers)
+hnbrdf_result bench_measure_quality(bench *b, hnbrdf_measured *const *data, int count, int peers,
+                                    hnbrdf_error *error)
 {
-    quality q = {.b = b, .data = data};
+    quality q = {.b = b, .data = data, .data_count = count};
     choose_subjects(&q, b, peers);
-    size_t items = (size_t)q.count * (size_t)data->count;
+    size_t items = (size_t)q.count * (size_t)count;
     q.smape = malloc(items * sizeof *q.smape);
     q.psnr = malloc(items * sizeof *q.psnr);
-    int code = q.smape && q.psnr ? CLI_OK : cli_fail("out of memory");
-    cli_progress_begin(&q.line, "measuring errors");
-    if (code == CLI_OK)
-        code = measure_smape(&q);
-    if (code == CLI_OK)
-        code = measure_psnr(&q);
-    cli_progress_end(&q.line);
+    hnbrdf_result result = bench_show(&b->watch, MEASURING, 0.0, NULL, error);
+    if (!q.smape || !q.psnr)
+        result = hnbrdf_fail(error, HNBRDF_ERROR_MEMORY, "out of memory");
+    if (!result)
+        result = measure_smape(&q, error);
+    if (!result)
+        result = measure_psnr(&q, error);
     for (int s = 0; s < q.count; s++) {
-        if (code == CLI_OK) {
-            *q.subjects[s].smape = mean(q.smape + s * data->count, data->count);
+        if (!result) {
+            *q.subjects[s].smape = mean(q.smape + s * count, count);
             if (q.subjects[s].psnr)
-                *q.subjects[s].psnr = mean(q.psnr + s * data->count, data->count);
+                *q.subjects[s].psnr = mean(q.psnr + s * count, count);
         }
         hnbrdf_model_free(q.subjects[s].owned);
     }
@@ -229,5 +270,5 @@ int bench_measure_quality(bench *b, const cli_data *data, int peers)
     hnbrdf_model_free(q.guide);
     free(q.smape);
     free(q.psnr);
-    return code;
+    return result;
 }

@@ -1,8 +1,7 @@
-/* fit_speed.c: how fast a fit was, how near to the machine's limit, and what bounds it. */
-#include "cli/fit_speed.h"
+/* speed.c: how fast a fit was, how near to the machine's limit, and what bounds it. */
+#include "bench/speed.h"
 
-#include "cli/cli.h"
-#include "cli/peak.h"
+#include "bench/peak.h"
 
 #include <math.h>
 
@@ -27,13 +26,13 @@ static void list_parts(const hnbrdf_fit_times *t, part parts[PARTS])
         parts[k] = all[k];
 }
 
-fit_speed fit_speed_of(const hnbrdf_fit_report *report)
+bench_speed bench_speed_of(const hnbrdf_fit_report *report)
 {
-    fit_speed speed = {.report = report};
+    bench_speed speed = {.report = report};
     if (report->flops > 0.0 && report->times.network > 0.0) {
         speed.kernel_flops = report->flops / report->times.network * report->threads;
-        speed.peak = cli_fma_peak(report->threads);
-        speed.muladd = cli_muladd_peak(report->threads);
+        speed.peak = bench_fma_peak(report->threads);
+        speed.muladd = bench_muladd_peak(report->threads);
     }
     return speed;
 }
@@ -43,28 +42,31 @@ static double share(double some, double whole)
     return whole > 0.0 ? some / whole : 0.0;
 }
 
-void fit_speed_print(const fit_speed *speed)
+void bench_speed_print(const bench_speed *speed, FILE *file)
 {
     const hnbrdf_fit_report *r = speed->report;
     part parts[PARTS];
     double all = r->threads * r->seconds;
     list_parts(&r->times, parts);
     if (r->pairs > 0.0) {
-        printf(
+        fprintf(
+            file,
             "speed: %.2f M pairs/s everything included, %.2f in the network stage, %d thread%s\n",
             share(r->pairs, r->seconds) * 1e-6, r->pairs_per_s * 1e-6, r->threads,
             r->threads == 1 ? "" : "s");
-        printf(
+        fprintf(
+            file,
             "network kernels (%s): %.1f GFLOP/s, %.0f %% of the FMA peak of %.0f (%s), %.0f %% of "
             "separate multiplications and additions\n",
             r->instructions, speed->kernel_flops * 1e-9,
-            100.0 * share(speed->kernel_flops, speed->peak), speed->peak * 1e-9, cli_peak_name(),
+            100.0 * share(speed->kernel_flops, speed->peak), speed->peak * 1e-9, bench_peak_name(),
             100.0 * share(speed->kernel_flops, speed->muladd));
     }
-    printf("time:");
+    fprintf(file, "time:");
     for (int k = 0; k < PARTS; k++)
-        printf("%s %.0f %% %s", k ? "," : "", 100.0 * share(parts[k].seconds, all), parts[k].title);
-    printf("\n");
+        fprintf(file, "%s %.0f %% %s", k ? "," : "", 100.0 * share(parts[k].seconds, all),
+                parts[k].title);
+    fprintf(file, "\n");
 }
 
 /* JSON knows no NaN. */
@@ -76,7 +78,7 @@ static void write_number(double value, FILE *file)
         fputs("null", file);
 }
 
-void fit_speed_write_json(const fit_speed *speed, FILE *file)
+void bench_speed_write_json(const bench_speed *speed, FILE *file)
 {
     const hnbrdf_fit_report *r = speed->report;
     part parts[PARTS];

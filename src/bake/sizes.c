@@ -1,8 +1,9 @@
-/* bake_sizes.c: which networks `bake` may try, and what an evaluation with each of them costs
- * here. */
-#include "cli/bake.h"
-#include "cli/bench.h"
+/* sizes.c: which networks a bake may try, and what an evaluation with each of them costs here. */
+#include "bake/task.h"
+#include "base/clock.h"
+#include "base/probe.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -17,53 +18,53 @@ static const int nets[][2] = {{4, 1},  {4, 2},  {6, 2},  {8, 2},  {8, 3},  {10, 
                               {32, 3}, {48, 2}, {48, 3}, {64, 2}, {64, 3}};
 enum { NETS = sizeof nets / sizeof nets[0] };
 
-void bake_size_name(const bake_candidate *candidate, char text[16])
+int hnbrdf_bake_same_size(const hnbrdf_bake_size *x, const hnbrdf_bake_size *y)
 {
-    if (candidate->hidden)
-        snprintf(text, 16, "%dx%d", candidate->hidden, candidate->layers);
-    else
-        snprintf(text, 16, "ggx");
+    return x->hidden == y->hidden && x->layers == y->layers && x->latent == y->latent;
 }
 
-static void add(bake *b, int hidden, int layers, int latent)
+static void add(bake_task *b, int hidden, int layers, int latent)
 {
     size_t h = (size_t)hidden, in = INPUTS + (size_t)latent, n = (size_t)layers;
-    bake_candidate *c = &b->candidates[b->candidate_count++];
+    hnbrdf_bake_size *c = &b->candidates[b->candidate_count++];
     memset(c, 0, sizeof *c);
     if (!hidden)
         return;
     c->hidden = hidden;
     c->layers = layers;
     c->latent = latent;
-    c->mults = h * in + h * h * (n - 1) + OUTPUTS * h;
-    c->weights = c->mults + h * n + OUTPUTS;
+    c->multiplications = h * in + h * h * (n - 1) + OUTPUTS * h;
+    c->weights = c->multiplications + h * n + OUTPUTS;
 }
 
 static int by_mults(const void *a, const void *b)
 {
-    const bake_candidate *x = a, *y = b;
-    return x->mults < y->mults ? -1 : x->mults > y->mults ? 1 : y->latent - x->latent;
+    const hnbrdf_bake_size *x = a, *y = b;
+    return x->multiplications < y->multiplications   ? -1
+           : x->multiplications > y->multiplications ? 1
+                                                     : y->latent - x->latent;
 }
 
 /* A latent code of one float less than there are materials lets the network treat each of them as
  * it likes; half of that, where they resemble each other, does too. */
-static void add_latents(bake *b, int hidden, int layers)
+static void add_latents(bake_task *b, int hidden, int layers)
 {
     size_t h = (size_t)hidden, fixed = h * (INPUTS + OUTPUTS) + h * h * ((size_t)layers - 1);
-    if (!b->from_data && b->wish != BAKE_NET && fixed * 10 > b->reference_size.mults * WORTH)
+    if (!b->from_data && b->options.wish != HNBRDF_BAKE_NET &&
+        fixed * 10 > b->report.model.multiplications * WORTH)
         return; /* the model itself costs hardly more and has no error */
     int most = b->count - 1 < 8 ? b->count - 1 : 8;
     if (b->latent >= 0)
         most = b->latent;
     add(b, hidden, layers, most);
-    if (b->latent < 0 && most / 2 > 0 && b->wish == BAKE_ERROR)
+    if (b->latent < 0 && most / 2 > 0 && b->options.wish == HNBRDF_BAKE_ERROR)
         add(b, hidden, layers, most / 2);
 }
 
 /* ---- Time ------------------------------------------------------------------------------------ */
 
 /* A network of this size with weights that mean nothing: time does not depend on them. */
-static hnbrdf_model *make_dummy(const bake *b, const bake_candidate *c)
+static hnbrdf_model *make_dummy(const bake_task *b, const hnbrdf_bake_size *c)
 {
     static const char *const names[] = {"timed"};
     enum { MOST = HNBRDF_MAX_HIDDEN * HNBRDF_MAX_HIDDEN }; /* of one matrix; all layers share it */
@@ -104,48 +105,47 @@ typedef struct act {
 static double run(void *context, long repeats)
 {
     act *a = context;
-    double started = bench_thread_ns();
+    double started = 1e9 * hnbrdf_thread_seconds();
     for (long k = 0; k < repeats; k++)
         hnbrdf_eval_batch(a->model, a->material, TIMED_PAIRS, a->on->wi[0], 0, a->on->wo[0], 0,
                           a->on->f[0], 0);
-    return bench_thread_ns() - started;
+    return 1e9 * hnbrdf_thread_seconds() - started;
 }
 
-static void between(void *user, double share)
+static int between(void *user, double share)
 {
-    cli_progress_update(user, share, NULL);
+    const hnbrdf_bake_progress progress = {
+        .stage = HNBRDF_BAKE_TIMING, .done = share, .loss = (double)NAN};
+    return hnbrdf_bake_tell(user, &progress);
 }
 
 /* All sizes in turn, the model last: `models` and `acts` have a place for each. */
-static void time_models(bake *b, stage *on, hnbrdf_model *const *models, act *acts,
-                        bench_probe *probes, bench_probe **list)
+static void time_models(bake_task *b, stage *on, hnbrdf_model *const *models, act *acts,
+                        hnbrdf_probe *probes, hnbrdf_probe **list)
 {
-    cli_progress line;
-    const bench_timing timing = {SAMPLE_NS, ROUNDS, between, &line};
+    const hnbrdf_timing timing = {SAMPLE_NS, ROUNDS, between, b};
     int count = b->candidate_count;
     for (int k = 0; k <= count; k++) {
         acts[k] = (act){on, k < count ? models[k] : b->model,
                         hnbrdf_model_material(b->model, b->chosen[0])};
-        probes[k] = bench_probe_make(run, &acts[k], TIMED_PAIRS);
+        probes[k] = hnbrdf_probe_make(run, &acts[k], TIMED_PAIRS);
         list[k] = &probes[k];
     }
-    cli_progress_begin(&line, "timing");
-    bench_time(&timing, list, count + 1);
-    cli_progress_end(&line);
+    hnbrdf_time_probes(&timing, list, count + 1);
     for (int k = 0; k < count; k++)
         b->candidates[k].ns = probes[k].ns;
-    b->reference_size.ns = probes[count].ns;
+    b->report.model.ns = probes[count].ns;
 }
 
-static int time_all(bake *b)
+static hnbrdf_result time_all(bake_task *b, hnbrdf_error *error)
 {
     hnbrdf_rng rng;
     size_t count = (size_t)b->candidate_count;
     stage *on = malloc(sizeof *on);
     hnbrdf_model **models = calloc(count, sizeof *models);
     act *acts = calloc(count + 1, sizeof *acts);
-    bench_probe *probes = calloc(count + 1, sizeof *probes),
-                **list = calloc(count + 1, sizeof *list);
+    hnbrdf_probe *probes = calloc(count + 1, sizeof *probes),
+                 **list = calloc(count + 1, sizeof *list);
     int ready = on && models && acts && probes && list;
     hnbrdf_rng_seed(&rng, 1, 0);
     for (int k = 0; ready && k < TIMED_PAIRS; k++)
@@ -161,26 +161,26 @@ static int time_all(bake *b)
     free(probes);
     free(list);
     free(on);
-    return ready ? CLI_OK : cli_fail("out of memory");
+    return ready ? HNBRDF_OK : hnbrdf_fail(error, HNBRDF_ERROR_MEMORY, "out of memory");
 }
 
-int bake_make_candidates(bake *b)
+hnbrdf_result hnbrdf_bake_make_candidates(bake_task *b, hnbrdf_error *error)
 {
     hnbrdf_model_desc desc;
     hnbrdf_model_describe(b->model, &desc);
-    b->reference_size.hidden = desc.hidden;
-    b->reference_size.layers = desc.layers;
-    b->reference_size.latent = desc.latent;
-    b->reference_size.mults = hnbrdf_model_multiplications(b->model);
-    b->reference_size.weights = hnbrdf_model_weight_count(b->model);
+    b->report.model.hidden = desc.hidden;
+    b->report.model.layers = desc.layers;
+    b->report.model.latent = desc.latent;
+    b->report.model.multiplications = hnbrdf_model_multiplications(b->model);
+    b->report.model.weights = hnbrdf_model_weight_count(b->model);
     b->candidates = calloc(2 * NETS + 3, sizeof *b->candidates);
     if (!b->candidates)
-        return cli_fail("out of memory");
+        return hnbrdf_fail(error, HNBRDF_ERROR_MEMORY, "out of memory");
     add(b, 0, 0, 0);
-    if (b->wish == BAKE_NET)
-        add_latents(b, b->net[0], b->net[1]);
-    for (int k = 0; k < NETS && b->wish != BAKE_NET; k++)
+    if (b->options.wish == HNBRDF_BAKE_NET)
+        add_latents(b, b->options.hidden, b->options.layers);
+    for (int k = 0; k < NETS && b->options.wish != HNBRDF_BAKE_NET; k++)
         add_latents(b, nets[k][0], nets[k][1]);
     qsort(b->candidates, (size_t)b->candidate_count, sizeof *b->candidates, by_mults);
-    return time_all(b);
+    return time_all(b, error);
 }

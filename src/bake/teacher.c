@@ -1,6 +1,5 @@
-/* bake_teacher.c: a material of a model, to be learned from and compared with like a measurement.
- * */
-#include "cli/bake.h"
+/* teacher.c: a material of a model, to be learned from and compared with like a measurement. */
+#include "bake/task.h"
 
 #include <stdlib.h>
 
@@ -27,12 +26,12 @@ static int is_isotropic(const teacher *t)
            (desc.kind == HNBRDF_KIND_GGX || desc.encoding != HNBRDF_ENCODING_ANGLES_ANISOTROPIC);
 }
 
-int bake_teacher(const hnbrdf_model *model, int material, hnbrdf_measured **measured)
+hnbrdf_result hnbrdf_bake_teacher(const hnbrdf_model *model, int material,
+                                  hnbrdf_measured **measured, hnbrdf_error *error)
 {
-    hnbrdf_error error;
     teacher *t = malloc(sizeof *t);
     if (!t)
-        return cli_fail("out of memory");
+        return hnbrdf_fail(error, HNBRDF_ERROR_MEMORY, "out of memory");
     t->model = model;
     t->material = hnbrdf_model_material(model, material);
     hnbrdf_measured_custom custom = {.name = hnbrdf_model_material_name(model, material),
@@ -41,8 +40,8 @@ int bake_teacher(const hnbrdf_model *model, int material, hnbrdf_measured **meas
                                      .eval = eval,
                                      .release = free,
                                      .user = t};
-    if (hnbrdf_measured_create_custom(&custom, measured, &error) == HNBRDF_OK)
-        return CLI_OK;
-    free(t);
-    return cli_fail("%s", error.text);
+    hnbrdf_result result = hnbrdf_measured_create_custom(&custom, measured, error);
+    if (result)
+        free(t);
+    return result;
 }

@@ -1,6 +1,8 @@
-/* bench_cpu.c: what the C library takes on one thread: single evaluations, batches, the network
+/* rows_cpu.c: what the C library takes on one thread: single evaluations, batches, the network
  * alone. */
-#include "cli/bench.h"
+#include "base/clock.h"
+#include "base/error.h"
+#include "bench/bench.h"
 #include "core/network.h"
 
 #include <math.h>
@@ -34,54 +36,54 @@ static double run_single(void *context, long repeats)
 {
     cpu_work *w = context;
     struct bench_cpu *cpu = w->cpu;
-    double started = bench_thread_ns();
+    double started = hnbrdf_thread_seconds();
     for (long n = 0; n < repeats; n++)
         for (int k = 0; k < PAIRS; k++)
             hnbrdf_eval(w->model, w->material, cpu->wi[k], cpu->wo[k], cpu->f[k]);
-    return bench_thread_ns() - started;
+    return 1e9 * (hnbrdf_thread_seconds() - started);
 }
 
 static double run_prepared(void *context, long repeats)
 {
     cpu_work *w = context;
     struct bench_cpu *cpu = w->cpu;
-    double started = bench_thread_ns();
+    double started = hnbrdf_thread_seconds();
     for (long n = 0; n < repeats; n++)
         for (int k = 0; k < PAIRS; k++)
             hnbrdf_prepared_eval(&w->prepared, cpu->wi[k], cpu->wo[k], cpu->f[k]);
-    return bench_thread_ns() - started;
+    return 1e9 * (hnbrdf_thread_seconds() - started);
 }
 
 static double run_batch(void *context, long repeats)
 {
     cpu_work *w = context;
     struct bench_cpu *cpu = w->cpu;
-    double started = bench_thread_ns();
+    double started = hnbrdf_thread_seconds();
     for (long n = 0; n < repeats; n++)
         hnbrdf_eval_batch(w->model, w->material, PAIRS, cpu->wi[0], 0, cpu->wo[0], 0, cpu->f[0], 0);
-    return bench_thread_ns() - started;
+    return 1e9 * (hnbrdf_thread_seconds() - started);
 }
 
 static double run_many(void *context, long repeats)
 {
     cpu_work *w = context;
     struct bench_cpu *cpu = w->cpu;
-    double started = bench_thread_ns();
+    double started = hnbrdf_thread_seconds();
     for (long n = 0; n < repeats; n++)
         hnbrdf_eval_many(w->model, w->table, w->index, PAIRS, cpu->wi[0], 0, cpu->wo[0], 0,
                          cpu->f[0], 0);
-    return bench_thread_ns() - started;
+    return 1e9 * (hnbrdf_thread_seconds() - started);
 }
 
 static double run_network(void *context, long repeats)
 {
     cpu_work *w = context;
     struct bench_cpu *cpu = w->cpu;
-    double started = bench_thread_ns();
+    double started = hnbrdf_thread_seconds();
     for (long n = 0; n < repeats; n++)
         for (int k = 0; k < BLOCKS; k++)
             hnbrdf_network_block(&w->prepared, cpu->inputs[k], cpu->outputs);
-    return bench_thread_ns() - started;
+    return 1e9 * (hnbrdf_thread_seconds() - started);
 }
 
 /* ---- Rows ------------------------------------------------------------------------------------ */
@@ -112,84 +114,79 @@ static void fill_table(cpu_work *work)
         work->index[k] = (int)(hnbrdf_rng_u32(&rng) % (uint32_t)(count < TABLE ? count : TABLE));
 }
 
-/* NULL after a message. */
-static cpu_work *add_work(struct bench_cpu *cpu, const bench_model *model, hnbrdf_variant variant)
+static hnbrdf_result add_work(struct bench_cpu *cpu, const bench_model *model,
+                              hnbrdf_variant variant, cpu_work **made, hnbrdf_error *error)
 {
     hnbrdf_model_desc desc = model->desc;
-    hnbrdf_error error;
-    cpu_work *work = calloc(1, sizeof *work);
-    if (!work) {
-        cli_fail("out of memory");
-        return NULL;
-    }
+    cpu_work *work = *made = calloc(1, sizeof *work);
+    if (!work)
+        return hnbrdf_fail(error, HNBRDF_ERROR_MEMORY, "out of memory");
     work->next = cpu->works;
     cpu->works = work;
     work->cpu = cpu;
     desc.variant = variant;
-    if (hnbrdf_model_create(&desc, NULL, &work->model, &error)) {
-        cli_fail("%s", error.text);
-        return NULL;
-    }
+    hnbrdf_result result = hnbrdf_model_create(&desc, NULL, &work->model, error);
+    if (result)
+        return result;
     work->material = hnbrdf_model_material(work->model, 0);
     hnbrdf_prepare(work->model, work->material, &work->prepared);
     fill_table(work);
-    return work;
+    return HNBRDF_OK;
 }
 
 typedef double (*runner)(void *context, long repeats);
 
-static int add_row(bench *b, const bench_model *model, cpu_work *work, hnbrdf_variant variant,
-                   const char *backend, runner whole, int with_network)
+static hnbrdf_result add_row(bench *b, const bench_model *model, cpu_work *work,
+                             hnbrdf_variant variant, const char *backend, runner whole,
+                             int with_network, hnbrdf_error *error)
 {
-    bench_row *row =
-        bench_add_row(b, model, backend, hnbrdf_variant_name(variant), "model", "float");
-    if (!row)
-        return CLI_FAILURE;
+    bench_row *row;
+    hnbrdf_result result = bench_add_row(b, model, backend, hnbrdf_variant_name(variant), "model",
+                                         "float", &row, error);
+    if (result)
+        return result;
     row->threads = 1;
     row->bytes = hnbrdf_model_weight_count(model->model) * sizeof(float);
-    row->whole = bench_probe_make(whole, work, PAIRS);
+    row->whole = hnbrdf_probe_make(whole, work, PAIRS);
     if (with_network && model->desc.kind != HNBRDF_KIND_GGX)
-        row->network = bench_probe_make(run_network, work, PAIRS);
-    return CLI_OK;
+        row->network = hnbrdf_probe_make(run_network, work, PAIRS);
+    return HNBRDF_OK;
 }
 
 /* Batches with every variant, the rest with the one that is in use. */
-static int add_model(bench *b, struct bench_cpu *cpu, const bench_model *model)
+static hnbrdf_result add_model(bench *b, struct bench_cpu *cpu, const bench_model *model,
+                               hnbrdf_error *error)
 {
-    int code = CLI_OK;
-    for (int v = HNBRDF_VARIANT_PLAIN; hnbrdf_variant_name((hnbrdf_variant)v) && code == CLI_OK;
-         v++) {
+    hnbrdf_result result = HNBRDF_OK;
+    for (int v = HNBRDF_VARIANT_PLAIN; hnbrdf_variant_name((hnbrdf_variant)v) && !result; v++) {
         hnbrdf_variant variant = (hnbrdf_variant)v;
         int in_use = variant == model->desc.variant;
         if (!hnbrdf_variant_available(variant))
             continue;
-        cpu_work *work = add_work(cpu, model, variant);
-        if (!work)
-            return CLI_FAILURE;
-        if (in_use)
-            code = add_row(b, model, work, variant, "c-single", run_single, 0);
-        if (in_use && code == CLI_OK)
-            code = add_row(b, model, work, variant, "c-single-prepared", run_prepared, 0);
-        if (code == CLI_OK)
-            code = add_row(b, model, work, variant, "c-batch", run_batch, 1);
-        if (in_use && code == CLI_OK)
-            code = add_row(b, model, work, variant, "c-many", run_many, 1);
+        cpu_work *work;
+        result = add_work(cpu, model, variant, &work, error);
+        if (in_use && !result)
+            result = add_row(b, model, work, variant, "c-single", run_single, 0, error);
+        if (in_use && !result)
+            result = add_row(b, model, work, variant, "c-single-prepared", run_prepared, 0, error);
+        if (!result)
+            result = add_row(b, model, work, variant, "c-batch", run_batch, 1, error);
+        if (in_use && !result)
+            result = add_row(b, model, work, variant, "c-many", run_many, 1, error);
     }
-    return code;
+    return result;
 }
 
-bench_cpu *bench_cpu_open(bench *b)
+hnbrdf_result bench_cpu_open(bench *b, bench_cpu **opened, hnbrdf_error *error)
 {
-    struct bench_cpu *cpu = calloc(1, sizeof *cpu);
-    int code = cpu ? CLI_OK : cli_fail("out of memory");
-    if (code == CLI_OK)
-        fill(cpu);
-    for (int k = 0; k < b->model_count && code == CLI_OK; k++)
-        code = add_model(b, cpu, &b->models[k]);
-    if (code == CLI_OK)
-        return cpu;
-    bench_cpu_close(cpu);
-    return NULL;
+    struct bench_cpu *cpu = *opened = calloc(1, sizeof *cpu);
+    hnbrdf_result result = HNBRDF_OK;
+    if (!cpu)
+        return hnbrdf_fail(error, HNBRDF_ERROR_MEMORY, "out of memory");
+    fill(cpu);
+    for (int k = 0; k < b->model_count && !result; k++)
+        result = add_model(b, cpu, &b->models[k], error);
+    return result;
 }
 
 void bench_cpu_close(bench_cpu *cpu)
@@ -203,15 +200,15 @@ void bench_cpu_close(bench_cpu *cpu)
     free(cpu);
 }
 
-const char *bench_cpu_name(void)
+const char *bench_cpu_name(char name[BENCH_NAME])
 {
-    static char name[BENCH_NAME] = "unknown processor";
     char line[256];
+    snprintf(name, BENCH_NAME, "unknown processor");
     FILE *file = fopen("/proc/cpuinfo", "r");
     while (file && fgets(line, sizeof line, file)) {
         const char *value = strchr(line, ':');
         if (value && strncmp(line, "model name", 10) == 0) {
-            snprintf(name, sizeof name, "%.*s", (int)strcspn(value + 2, "\n"), value + 2);
+            snprintf(name, BENCH_NAME, "%.*s", (int)strcspn(value + 2, "\n"), value + 2);
             break;
         }
     }

@@ -1,7 +1,7 @@
 /* peak.c: chains of multiply-adds that never leave the registers, for every instruction set. */
-#include "cli/peak.h"
+#include "bench/peak.h"
 
-#include "cli/cli.h"
+#include "base/clock.h"
 #include "base/threads.h"
 
 #include <string.h>
@@ -137,8 +137,9 @@ static double measure(float (*chain)(void), int width, int threads)
     volatile float results[256];
     run r = {chain, results};
     int count = hnbrdf_threads_count(workers);
-    double begun = cli_seconds(), best = 1e9;
-    for (int runs = 0; runs < PEAK_RUNS_AT_LEAST || cli_seconds() - begun < PEAK_SECONDS; runs++) {
+    double begun = hnbrdf_seconds(), best = 1e9;
+    for (int runs = 0; runs < PEAK_RUNS_AT_LEAST || hnbrdf_seconds() - begun < PEAK_SECONDS;
+         runs++) {
         double before = hnbrdf_threads_busy(workers);
         hnbrdf_threads_run(workers, count, run_one, &r);
         double seconds = (hnbrdf_threads_busy(workers) - before) / count;
@@ -148,26 +149,26 @@ static double measure(float (*chain)(void), int width, int threads)
     return best > 0.0 ? 2.0 * count * width * PEAK_CHAINS * (double)PEAK_STEPS / best : 0.0;
 }
 
-double cli_fma_peak(int threads)
+double bench_fma_peak(int threads)
 {
     const peak_chains *chains = choose(NULL);
     return measure(chains->fma, chains->width, threads);
 }
 
-double cli_muladd_peak(int threads)
+double bench_muladd_peak(int threads)
 {
     const peak_chains *chains = choose(NULL);
     return measure(chains->muladd, chains->width, threads);
 }
 
-void cli_peaks_of(const char *name, double *fma, double *muladd)
+void bench_peaks_of(const char *name, double *fma, double *muladd)
 {
     const peak_chains *chains = choose(name);
     *fma = chains ? measure(chains->fma, chains->width, 1) : 0.0;
     *muladd = chains ? measure(chains->muladd, chains->width, 1) : 0.0;
 }
 
-const char *cli_peak_name(void)
+const char *bench_peak_name(void)
 {
     return choose(NULL)->name;
 }

@@ -1,7 +1,7 @@
-/* bench_peer.c: a shader in the style of the published ones, to have a peer in every run of the
+/* peer.c: a shader in the style of the published ones, to have a peer in every run of the
  * benchmark: mat4 times vec4 chains, literals of three decimals, the microfacet formulas written
  * out as they stand. */
-#include "cli/bench.h"
+#include "bench/bench.h"
 #include "base/text_buffer.h"
 
 #include <math.h>

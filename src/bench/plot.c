@@ -1,6 +1,6 @@
-/* bench_plot.c: error against run time: a pair of panels (SMAPE, PSNR) for each backend, with
+/* plot.c: error against run time: a pair of panels (SMAPE, PSNR) for each backend, with
  * Pareto fronts. */
-#include "cli/bench.h"
+#include "bench/bench.h"
 #include "plot/svg.h"
 
 #include <math.h>
@@ -171,8 +171,7 @@ static void draw_panel(const bench *b, const char *backend, int psnr, double lef
     char title[64];
     plot_panel panel;
     choose_points(b, backend, psnr, &panel);
-    snprintf(title, sizeof title, "SMAPE, %s sampler",
-             hnbrdf_sampler_name((hnbrdf_sampler)b->sampler));
+    snprintf(title, sizeof title, "SMAPE, %s sampler", hnbrdf_sampler_name(b->sampler));
     svg_panel axes = {.left = left,
                       .top = top,
                       .width = WIDTH,
@@ -228,8 +227,9 @@ static void title_of(const bench *b, const char *backend, char *text, size_t siz
         snprintf(text, size, "%s, one thread, %s", backend, b->cpu);
 }
 
-void bench_write_plot(const bench *b, FILE *file)
+void bench_write_plot(const void *of, FILE *file)
 {
+    const bench *b = of;
     const char *backends[PLOT_BACKENDS];
     char text[160];
     int count = choose_backends(b, backends);

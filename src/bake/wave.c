@@ -1,0 +1,196 @@
+/* wave.c: fits candidates to the reference, several at once, and keeps the best seed of each. */
+#include "bake/task.h"
+#include "base/threads.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    SHORT_PAIRS = 20000, /* measured of a short fit, at most */
+    SHORT_POOL = 32768,  /* drawn a material for one, unless asked for */
+    FULL_POOL = 131072,
+    LEAST_STEPS = 100, /* a fit that was stopped sooner is not worth a row */
+    WHOLE = 1000       /* shares are counted in parts of this */
+};
+#define MEMORY 1.5e9    /* bytes of training data that all fits together may take */
+#define PAIR_BYTES 72.0 /* of one pair in the trainer's pool */
+
+typedef struct wave wave;
+
+typedef struct task {
+    wave *of;
+    const bake_job *job;
+    atomic_int done; /* of WHOLE */
+    hnbrdf_bake_row row;
+    hnbrdf_model *model;
+    hnbrdf_result result;
+    hnbrdf_error error;
+} task;
+
+struct wave {
+    bake_task *b;
+    task *tasks;
+    int count, width;
+    double seconds;
+};
+
+static int pool_of(const bake_task *b, int full)
+{
+    return b->options.pool ? b->options.pool : full ? FULL_POOL : SHORT_POOL;
+}
+
+static int threads_of(const bake_task *b)
+{
+    return b->options.threads ? b->options.threads : hnbrdf_processors();
+}
+
+int hnbrdf_bake_width(const bake_task *b, int full)
+{
+    double most = MEMORY / ((double)b->count * (double)pool_of(b, full) * PAIR_BYTES);
+    int threads = threads_of(b);
+    return most < 1.0 ? 1 : most < threads ? (int)most : threads;
+}
+
+/* ---- One fit --------------------------------------------------------------------------------- */
+
+static int show(void *user, const hnbrdf_fit_progress *p)
+{
+    task *t = user;
+    wave *w = t->of;
+    long done = 0;
+    if (strcmp(p->stage, "network") == 0)
+        atomic_store(&t->done, (int)(p->done * WHOLE));
+    for (int k = 0; k < w->count; k++)
+        done += atomic_load(&w->tasks[k].done);
+    const hnbrdf_bake_progress progress = {.stage = t->job->full ? HNBRDF_BAKE_FULL_FITS
+                                                                 : HNBRDF_BAKE_SHORT_FITS,
+                                           .done = (double)done / WHOLE / w->count,
+                                           .loss = p->loss,
+                                           .first = w->tasks[0].job->size,
+                                           .last = w->tasks[w->count - 1].job->size};
+    return hnbrdf_bake_tell(w->b, &progress);
+}
+
+static hnbrdf_fit_options fit_options(const bake_task *b, task *t)
+{
+    const bake_job *job = t->job;
+    int threads = threads_of(b), width = t->of->width;
+    return (hnbrdf_fit_options){.kind = HNBRDF_KIND_HYBRID,
+                                .hidden = job->size->hidden,
+                                .layers = job->size->layers,
+                                .latent = job->size->latent,
+                                .latent_none = job->size->latent == 0,
+                                .encoding = b->options.encoding,
+                                .materials = b->analytic,
+                                .steps = job->full                  ? b->options.steps
+                                         : b->options.steps / 8 > 0 ? b->options.steps / 8
+                                                                    : 1,
+                                .seconds = t->of->seconds,
+                                .pool = pool_of(b, job->full),
+                                .seed = job->seed,
+                                .threads = threads > width ? threads / width : 1,
+                                .progress = show,
+                                .progress_user = t};
+}
+
+static hnbrdf_result fit(const bake_task *b, task *t)
+{
+    hnbrdf_fit_report report;
+    const hnbrdf_fit_options options = fit_options(b, t);
+    hnbrdf_result result =
+        hnbrdf_fit(b->reference, b->count, &options, &t->model, &report, &t->error);
+    if (result)
+        return result;
+    t->row = (hnbrdf_bake_row){.size = *t->job->size,
+                               .full = t->job->full,
+                               .seed = t->job->seed,
+                               .steps = report.steps,
+                               .seconds = report.seconds,
+                               .errors = calloc((size_t)b->count, sizeof *t->row.errors)};
+    if (report.stopped && report.steps < LEAST_STEPS)
+        return HNBRDF_ERROR_CANCELLED;
+    size_t pairs = b->options.pairs;
+    if (!(t->job->full && !report.stopped) && pairs > SHORT_PAIRS)
+        pairs = SHORT_PAIRS;
+    if (!t->row.errors)
+        return hnbrdf_fail(&t->error, HNBRDF_ERROR_MEMORY, "out of memory");
+    result = hnbrdf_bake_measure(b, t->model, NULL, pairs, t->row.errors, &t->error);
+    if (!result)
+        hnbrdf_bake_summarise(b, &t->row);
+    return result;
+}
+
+static void run_task(void *context, int index, int worker)
+{
+    wave *w = context;
+    task *t = &w->tasks[index];
+    (void)worker;
+    t->result = hnbrdf_bake_is_stopped(w->b) ? HNBRDF_ERROR_CANCELLED : fit(w->b, t);
+    atomic_store(&t->done, WHOLE);
+}
+
+/* ---- All of them ----------------------------------------------------------------------------- */
+
+static void drop(task *t)
+{
+    free(t->row.errors);
+    hnbrdf_model_free(t->model);
+    t->row.errors = NULL;
+    t->model = NULL;
+}
+
+/* A row for each candidate, the best of its seeds. */
+static hnbrdf_result collect(wave *w, hnbrdf_error *error)
+{
+    hnbrdf_result result = HNBRDF_OK;
+    for (int k = 0; k < w->count; k++) {
+        const hnbrdf_bake_report *r = &w->b->report;
+        task *best = NULL;
+        for (int i = 0; i < w->count; i++) {
+            task *t = &w->tasks[i];
+            if (t->job->size == w->tasks[k].job->size && t->model && t->result == HNBRDF_OK &&
+                (!best || hnbrdf_bake_judged(r, &t->row) < hnbrdf_bake_judged(r, &best->row)))
+                best = t;
+        }
+        if (best && !result) {
+            const hnbrdf_bake_row row = best->row;
+            hnbrdf_model *model = best->model;
+            best->model = NULL;
+            best->row.errors = NULL;
+            result = hnbrdf_bake_add_row(w->b, &row, model,
+                                         row.full ? HNBRDF_BAKE_FULL_FITS : HNBRDF_BAKE_SHORT_FITS,
+                                         error);
+        }
+        for (int i = 0; i < w->count; i++) /* the other seeds have had their turn */
+            if (w->tasks[i].job->size == w->tasks[k].job->size)
+                drop(&w->tasks[i]);
+    }
+    for (int k = 0; k < w->count && !result; k++)
+        if (w->tasks[k].result != HNBRDF_OK && w->tasks[k].result != HNBRDF_ERROR_CANCELLED)
+            result = hnbrdf_fail(error, w->tasks[k].result, "%s", w->tasks[k].error.text);
+    return result;
+}
+
+hnbrdf_result hnbrdf_bake_wave(bake_task *b, const bake_job *jobs, int count, double seconds,
+                               hnbrdf_error *error)
+{
+    int width = hnbrdf_bake_width(b, jobs[0].full);
+    wave w = {.b = b, .count = count, .seconds = seconds, .width = width < count ? width : count};
+    w.tasks = calloc((size_t)count, sizeof *w.tasks);
+    hnbrdf_threads *threads = hnbrdf_threads_start(w.width);
+    if (!w.tasks || !threads) {
+        free(w.tasks);
+        hnbrdf_threads_stop(threads);
+        return hnbrdf_fail(error, HNBRDF_ERROR_MEMORY, "out of memory");
+    }
+    for (int k = 0; k < count; k++) {
+        w.tasks[k].of = &w;
+        w.tasks[k].job = &jobs[k];
+    }
+    hnbrdf_threads_run(threads, count, run_task, &w);
+    hnbrdf_threads_stop(threads);
+    hnbrdf_result result = collect(&w, error);
+    free(w.tasks);
+    return result;
+}

@@ -1,0 +1,22 @@
+/* bake.h: what a bake tried and picked, for people, as CSV, as JSON and as a picture. */
+#ifndef HNBRDF_REPORT_BAKE_H
+#define HNBRDF_REPORT_BAKE_H
+
+#include "hnbrdf/bake.h"
+
+#include <stdio.h>
+
+/* For people, in this order: what is baked (path: of the model), the columns and the model's own
+ * row (once the report has its first row), each row, the result. */
+void report_bake_heading(const hnbrdf_bake_report *report, const char *path, FILE *file);
+void report_bake_columns(const hnbrdf_bake_report *report, FILE *file);
+void report_bake_row(const hnbrdf_bake_report *report, const hnbrdf_bake_row *row, FILE *file);
+void report_bake_result(const hnbrdf_bake_report *report, const char *output, FILE *file);
+
+/* For programs; the argument is an hnbrdf_bake_report. */
+void report_bake_csv(const void *report, FILE *file);
+void report_bake_json(const void *report, FILE *file);
+/* SVG: error against time of every row, the limit, and the picked one. */
+void report_bake_plot(const void *report, FILE *file);
+
+#endif

@@ -1,0 +1,203 @@
+/* bake_tables.c: what `bake` tried and picked, for people, as CSV and as JSON. */
+#include "base/write.h"
+#include "report/bake.h"
+
+#include <inttypes.h>
+#include <math.h>
+
+static double ratio_to_ggx(const hnbrdf_bake_report *r, const hnbrdf_bake_size *size)
+{
+    return size->ns / r->rows[0].size.ns;
+}
+
+/* ---- For people ------------------------------------------------------------------------------ */
+
+void report_bake_heading(const hnbrdf_bake_report *r, const char *path, FILE *file)
+{
+    fprintf(file, "%d material%s of %s; %s sampler, %zu pairs a material, seed %" PRIu64 "\n",
+            r->material_count, r->material_count == 1 ? "" : "s", path,
+            hnbrdf_sampler_name(r->sampler), r->pairs, r->seed);
+    fprintf(file, "learned from and judged by %s; GGX part %s\n",
+            r->from_data ? "the measurements" : "the model",
+            r->kept        ? "kept from the model"
+            : r->from_data ? "fitted to the measurements"
+                           : "fitted to the model");
+}
+
+/* The columns that models and rows share. */
+static void print_size(const hnbrdf_bake_report *r, const hnbrdf_bake_size *s, const char *fit,
+                       FILE *file)
+{
+    char name[16];
+    fprintf(file, "%-6s %6d  %6zu  %7zu  %8.1f  %6.2f  %-5s  ", hnbrdf_bake_size_name(s, name),
+            s->latent, s->multiplications, s->weights, s->ns, ratio_to_ggx(r, s), fit);
+}
+
+void report_bake_columns(const hnbrdf_bake_report *r, FILE *file)
+{
+    fprintf(file, "\n%-6s %6s  %6s  %7s  %8s  %6s  %-5s  %7s  %7s  %8s  %7s\n", "net", "latent",
+            "mults", "numbers", "ns/eval", "x GGX", "fit", "SMAPE", "worst", "analytic", "seconds");
+    print_size(r, &r->model, "model", file);
+    if (r->from_data)
+        fprintf(file, "%7.4f  %7.4f\n", r->model_smape, r->model_worst);
+    else
+        fprintf(file, "%7s  %7s\n", "-", "-");
+}
+
+void report_bake_row(const hnbrdf_bake_report *r, const hnbrdf_bake_row *row, FILE *file)
+{
+    print_size(r, &row->size, row->full ? "full" : "short", file);
+    fprintf(file, "%7.4f  %7.4f  %8.4f  %7.1f\n", row->smape, row->worst, row->analytic,
+            row->seconds);
+}
+
+static const char *judge_name(const hnbrdf_bake_report *r)
+{
+    return r->judge == HNBRDF_BAKE_WORST ? "highest" : "mean";
+}
+
+static void print_reason(const hnbrdf_bake_report *r, const hnbrdf_bake_row *row, FILE *file)
+{
+    const char *within = r->met ? "within" : "NOT within";
+    switch (r->wish) {
+    case HNBRDF_BAKE_ERROR:
+        if (r->reason == HNBRDF_BAKE_GGX_IS_ENOUGH)
+            fprintf(file, "GGX alone is within the error: the network is dropped (kind ggx)\n");
+        else
+            fprintf(file, "%s error %.4f, %s %.4f\n", judge_name(r), hnbrdf_bake_judged(r, row),
+                    within, r->max_error);
+        break;
+    case HNBRDF_BAKE_TIME:
+        fprintf(file, "%.1f ns, %s %.1f\n", row->size.ns, within, r->max_ns);
+        break;
+    case HNBRDF_BAKE_SIZE:
+        fprintf(file, "%zu multiplications, within %zu\n", row->size.multiplications,
+                r->max_multiplications);
+        break;
+    case HNBRDF_BAKE_AUTO:
+        fprintf(file, "the lowest error times ns of those tried: %.2f\n",
+                hnbrdf_bake_judged(r, row) * row->size.ns);
+        break;
+    case HNBRDF_BAKE_NET:
+        break;
+    }
+}
+
+void report_bake_result(const hnbrdf_bake_report *r, const char *output, FILE *file)
+{
+    const hnbrdf_bake_row *row = &r->rows[r->picked];
+    const hnbrdf_bake_size *s = &row->size;
+    char name[16];
+    fprintf(file, "\n%s: %s", output, hnbrdf_bake_size_name(s, name));
+    if (s->hidden)
+        fprintf(file, ", l = %d, %s, %zu multiplications", s->latent,
+                hnbrdf_encoding_name(row->encoding), s->multiplications);
+    if (s->hidden && r->model.multiplications)
+        fprintf(file, ", %.1f times fewer than the model's",
+                (double)r->model.multiplications / (double)s->multiplications);
+    fprintf(file, "\n");
+    print_reason(r, row, file);
+    fprintf(file, "\n%-32s  %7s  %8s\n", "material", "SMAPE", "analytic");
+    for (int m = 0; m < r->material_count; m++)
+        fprintf(file, "%-32s  %7.4f  %8.4f\n", r->names[m], row->errors[m].smape,
+                row->errors[m].smape_analytic);
+    fprintf(file, "%-32s  %7.4f  %8.4f\n", "mean", row->smape, row->analytic);
+    if (s->hidden)
+        fprintf(file, "\nweights in half precision (export --precision half): %s error %.4f\n",
+                judge_name(r), r->half_smape);
+    fprintf(file, "\nns/eval: hnbrdf_eval_batch(), one material, one thread of this machine, the "
+                  "least of several interleaved rounds\n");
+}
+
+/* ---- CSV ------------------------------------------------------------------------------------- */
+
+void report_bake_csv(const void *report, FILE *file)
+{
+    const hnbrdf_bake_report *r = report;
+    char name[16];
+    fputs("net,latent,encoding,backend,mults,weights,ns_per_eval,ratio_to_ggx,fit,steps,seed,"
+          "seconds,sampler,reference,smape,smape_worst,smape_analytic,picked\n",
+          file);
+    for (int k = 0; k < r->row_count; k++) {
+        const hnbrdf_bake_row *row = &r->rows[k];
+        const hnbrdf_bake_size *s = &row->size;
+        fprintf(
+            file,
+            "%s,%d,%s,c-batch,%zu,%zu,%.2f,%.3f,%s,%ld,%" PRIu64 ",%.2f,%s,%s,%.6f,%.6f,%.6f,%d\n",
+            hnbrdf_bake_size_name(s, name), s->latent,
+            s->hidden ? hnbrdf_encoding_name(row->encoding) : "", s->multiplications, s->weights,
+            s->ns, ratio_to_ggx(r, s), row->full ? "full" : "short", row->steps, row->seed,
+            row->seconds, hnbrdf_sampler_name(r->sampler), r->from_data ? "data" : "model",
+            row->smape, row->worst, row->analytic, k == r->picked);
+    }
+}
+
+/* ---- JSON ------------------------------------------------------------------------------------ */
+
+static void write_row(const hnbrdf_bake_report *r, const hnbrdf_bake_row *row, FILE *file)
+{
+    char name[16];
+    const hnbrdf_bake_size *s = &row->size;
+    fprintf(file, "    {\"net\": \"%s\", \"latent\": %d, ", hnbrdf_bake_size_name(s, name),
+            s->latent);
+    if (s->hidden)
+        fprintf(file, "\"encoding\": \"%s\", ", hnbrdf_encoding_name(row->encoding));
+    fprintf(file,
+            "\"mults\": %zu, \"weights\": %zu, \"ns_per_eval\": %.2f, \"ratio_to_ggx\": %.3f, "
+            "\"fit\": \"%s\", \"steps\": %ld, \"seed\": %" PRIu64
+            ", \"seconds\": %.2f, \"smape\": %.6f, \"smape_worst\": %.6f, "
+            "\"smape_analytic\": %.6f,\n     \"errors\": [",
+            s->multiplications, s->weights, s->ns, ratio_to_ggx(r, s), row->full ? "full" : "short",
+            row->steps, row->seed, row->seconds, row->smape, row->worst, row->analytic);
+    for (int m = 0; m < r->material_count; m++)
+        fprintf(file, "%s[%.6f, %.6f]", m ? ", " : "", row->errors[m].smape,
+                row->errors[m].smape_analytic);
+    fprintf(file, "]}");
+}
+
+static const char *wish_name(hnbrdf_bake_wish wish)
+{
+    switch (wish) {
+    case HNBRDF_BAKE_AUTO:
+        return "auto";
+    case HNBRDF_BAKE_ERROR:
+        return "max-error";
+    case HNBRDF_BAKE_TIME:
+        return "max-ns";
+    case HNBRDF_BAKE_SIZE:
+        return "max-mults";
+    case HNBRDF_BAKE_NET:
+        return "net";
+    }
+    return "";
+}
+
+void report_bake_json(const void *report, FILE *file)
+{
+    const hnbrdf_bake_report *r = report;
+    fprintf(file, "{\n  \"wish\": \"%s\", \"met\": %s, \"stopped\": %s, \"picked\": %d,\n",
+            wish_name(r->wish), r->met ? "true" : "false",
+            r->end != HNBRDF_BAKE_COMPLETE ? "true" : "false", r->picked);
+    fprintf(
+        file,
+        "  \"sampler\": \"%s\", \"pairs\": %zu, \"reference\": \"%s\", \"backend\": \"c-batch\",\n",
+        hnbrdf_sampler_name(r->sampler), r->pairs, r->from_data ? "data" : "model");
+    fprintf(file, "  \"model\": {\"mults\": %zu, \"weights\": %zu, \"ns_per_eval\": %.2f",
+            r->model.multiplications, r->model.weights, r->model.ns);
+    if (r->from_data)
+        fprintf(file, ", \"smape\": %.6f, \"smape_worst\": %.6f", r->model_smape, r->model_worst);
+    fputs("},\n", file);
+    if (!isnan(r->half_smape))
+        fprintf(file, "  \"smape_half\": %.6f,\n", r->half_smape);
+    fputs("  \"materials\": [", file);
+    for (int m = 0; m < r->material_count; m++) {
+        fputs(m ? ", " : "", file);
+        hnbrdf_write_json_text(file, r->names[m]);
+    }
+    fputs("],\n  \"rows\": [\n", file);
+    for (int k = 0; k < r->row_count; k++) {
+        write_row(r, &r->rows[k], file);
+        fputs(k + 1 < r->row_count ? ",\n" : "\n", file);
+    }
+    fputs("  ]\n}\n", file);
+}
