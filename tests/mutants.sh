@@ -142,7 +142,7 @@ prepare() {
         "$root/tests/CMakeLists.txt" > "$1/tests/CMakeLists.txt" || return 1
     traps=-fsanitize=bounds,shift,integer-divide-by-zero
     cmake -S "$1" -B "$1/build" -G Ninja -DCMAKE_BUILD_TYPE=Debug \
-        -DCMAKE_C_FLAGS_DEBUG="-O1 -w $traps -fsanitize-undefined-trap-on-error" \
+        -DCMAKE_C_FLAGS_DEBUG="-O1 -w $traps -fsanitize-undefined-trap-on-error -include $1/tests/mutant.h" \
         -DHNBRDF_WITH_VULKAN=OFF -DHNBRDF_WITH_EMBREE=OFF -DHNBRDF_WITH_OPENEXR=OFF \
         -DHNBRDF_BUILD_EXAMPLES=OFF -DHNBRDF_BUILD_TESTS=ON -DHNBRDF_WERROR=OFF \
         -DHNBRDF_WITH_VARIANTS=$variants -DHNBRDF_COMPILES_SSE2=OFF -DHNBRDF_COMPILES_AVX512=OFF > "$1.log" 2>&1
@@ -191,20 +191,25 @@ known_tests() { # copy file
     done
 }
 
-# All tests pass before anything is changed; how long each takes sets its limit.
-rehearse() { # copy
+# Which tests cover the files, and what to build for them.
+find_tests() { # copy
     for file in $(cut -f1 "$scratch/todo" | sort -u); do
         tests=$(known_tests "$1" "$file")
         [ -n "$tests" ] || { echo "$file: no test covers it: see tests/mutants_tests.txt" >&2; return 1; }
         echo "$tests" > "$1.tests.$(echo "$file" | tr / .)"
         for test in $tests; do
-            [ ! -f "$1.limit.$test" ] || continue
             [ -n "$build_command" ] || target_of "$1" "$test" > "$1.target.$test"
-            build_one "$1" "$test" || { cat "$1.log" >&2; return 1; }
-            began=$(date +%s)
-            test_one "$1" "$test" 600 || { tail -n 40 "$1.log" >&2; return 1; }
-            echo $((10 + 5 * ($(date +%s) - began))) > "$1.limit.$test"
         done
+    done
+}
+
+# All tests pass before anything is changed; how long each takes sets its limit.
+rehearse() { # copy
+    for test in $(cat "$1".tests.* | sort -u); do
+        build_one "$1" "$test" || { cat "$1.log" >&2; return 1; }
+        began=$(date +%s)
+        test_one "$1" "$test" 600 || { tail -n 40 "$1.log" >&2; return 1; }
+        echo $((10 + 5 * ($(date +%s) - began))) > "$1.limit.$test"
     done
 }
 
@@ -216,16 +221,109 @@ judge() { # copy file: noticed by ..., survived or uncompiled
     echo survived
 }
 
+# ---- Many changes in one build -------------------------------------------------------------------
+
+# The variable that chooses, read from the environment of the copies alone.
+add_variable() { # copy
+    cat >> "$1/src/core/strerror.c" <<'END'
+#include <stdlib.h>
+int hnbrdf_mutant = -1;
+__attribute__((constructor)) static void choose_mutant(void)
+{
+    const char *text = getenv("HNBRDF_MUTANT");
+    if (text)
+        hnbrdf_mutant = atoi(text);
+}
+END
+}
+
+leave_apart() { # list: what is in list.apart goes from list.in
+    awk -F'\t' -v apart="$1.apart" '
+        BEGIN { while ((getline line < apart) > 0) { split(line, f, "\t"); gone[f[6]] = 1 } }
+        !($6 in gone)' "$1.in" > "$1.left"
+    mv "$1.left" "$1.in"
+}
+
+# Sources with all changes of list.in in them; what cannot be switched goes to list.apart.
+write_switches() { # copy list
+    for file in $(cut -f1 "$2" | sort -u); do
+        awk -F'\t' -v file="$file" '$1 == file { print $2, $6 }' "$2.in" |
+            "$scratch/mutate" switch 0 "$root/$file" > "$1/$file" 2> "$2.not"
+        awk -F'\t' -v file="$file" -v not="$2.not" '
+            BEGIN { while ((getline line < not) > 0) apart[line] = 1 }
+            $1 == file && $2 in apart' "$2.in" >> "$2.apart"
+    done
+    leave_apart "$2"
+}
+
+# Lines that do not compile with their switches, and after some rounds those around them, are left to
+# builds of their own.
+build_switches() { # copy list
+    targets=$(cat "$1".target.* | sort -u)
+    round=0
+    while :; do
+        write_switches "$1" "$2"
+        # shellcheck disable=SC2086
+        ninja -C "$1/build" -j1 -k0 $targets > "$1.log" 2>&1 && return 0
+        sed -n 's|^.*\(src/[^:]*\):\([0-9]*\):[0-9]*: error.*|\1\t\2|p' "$1.log" | sort -u > "$2.lines"
+        [ -s "$2.lines" ] && [ "$round" -lt 12 ] || return 1
+        awk -F'\t' -v lines="$2.lines" -v reach="$((round / 4))" '
+            BEGIN { while ((getline line < lines) > 0) {
+                        split(line, f, "\t")
+                        for (d = -reach; d <= reach; d++) bad[f[1], f[2] + d] = 1 } }
+            ($1, $3) in bad' "$2.in" >> "$2.apart"
+        leave_apart "$2"
+        round=$((round + 1))
+    done
+}
+
+note() { # verdict file number line change text
+    printf '%s\t%s\t%s\t%s\t%s\t%s\n' "$@" >> "$results"
+}
+
+judge_switched() { # copy id file
+    for test in $(cat "$1.tests.$(echo "$3" | tr / .)"); do
+        HNBRDF_MUTANT=$2 test_one "$1" "$test" "$(cat "$1.limit.$test")" ||
+            { echo "noticed by $test"; return; }
+    done
+    echo survived
+}
+
+# Those that can be switched; the others stay in list.apart.
+work_switched() { # copy list
+    awk -F'\t' -v OFS='\t' '{ print $1, $2, $3, $4, $5, NR }' "$2" > "$2.in"
+    : > "$2.apart"
+    if build_switches "$1" "$2"; then
+        rehearse "$1" || return 1
+        touch "$1.rehearsed"
+        while IFS="$tab" read -r file number line change text id; do
+            note "$(judge_switched "$1" "$id" "$file")" "$file" "$number" "$line" "$change" "$text"
+        done < "$2.in"
+    else
+        awk -F'\t' -v OFS='\t' '{ print $1, $2, $3, $4, $5, NR }' "$2" > "$2.apart"
+    fi
+    for file in $(cut -f1 "$2" | sort -u); do
+        cp "$root/$file" "$1/$file"
+    done
+    [ -f "$1.rehearsed" ] || rehearse "$1"
+}
+
 work() { # copy list
     prepare "$1" || { cat "$1.log" >&2; return 1; }
-    rehearse "$1" || return 1
-    while IFS="$tab" read -r file number line change text; do
+    [ -n "$build_command" ] || add_variable "$1"
+    find_tests "$1" || return 1
+    cp "$2" "$2.apart"
+    if [ -n "$build_command" ]; then
+        rehearse "$1" || return 1
+    else
+        work_switched "$1" "$2" || return 1
+    fi
+    while IFS="$tab" read -r file number line change text id; do
         "$scratch/mutate" apply "$number" "$root/$file" > "$1/$file"
         verdict=$(judge "$1" "$file")
         cp "$root/$file" "$1/$file"
-        printf '%s\t%s\t%s\t%s\t%s\t%s\n' "$verdict" "$file" "$number" "$line" "$change" "$text" \
-            >> "$results"
-    done < "$2"
+        note "$verdict" "$file" "$number" "$line" "$change" "$text"
+    done < "$2.apart"
 }
 
 if [ -s "$scratch/todo" ]; then

@@ -2,6 +2,8 @@
  *
  *   mutate list SEED FILE      one line a change: number, order, line, before, after, text
  *   mutate apply NUMBER FILE   the file with that change, to standard output
+ *   mutate switch 0 FILE       the file with many changes that a variable switches on; which ones: lines of
+ *                              `number id` from standard input
  *
  * The fields of a list are separated by tabs; `order` is a number made from seed and change, to
  * choose some of them by. A change is one token: a comparison, an operator, a sign, a constant; or
@@ -131,17 +133,11 @@ static void split(void)
 
 /* ---- Structure ------------------------------------------------------------------------------- */
 
-static const char *const quiet_calls[] = {"assert",
-                                          "static_assert",
-                                          "_Static_assert",
-                                          "__attribute__",
-                                          "hnbrdf_fail",
-                                          "hnbrdf_fail_memory",
-                                          "sizeof",
-                                          "print_message",
-                                          "fprintf",
-                                          "_Alignas",
-                                          NULL};
+static const char *const quiet_calls[] = {
+    "assert",      "static_assert",      "_Static_assert", "__attribute__",
+    "hnbrdf_fail", "hnbrdf_fail_memory", "sizeof",         "print_message",
+    "fprintf",     "_Alignas",           "UINT64_C",       "INT64_C",
+    NULL};
 static const char *const not_expressions[] = {
     "return", "goto",   "case",     "default",  "if",    "for",    "while",
     "do",     "switch", "else",     "struct",   "union", "enum",   "const",
@@ -338,6 +334,226 @@ static void find_changes(void)
     }
 }
 
+/* ---- Switches -------------------------------------------------------------------------------- */
+
+/* Many changes in one build, each made where the variable hnbrdf_mutant has its number: the text
+ * then only gets something before and behind a span. Macros are in tests/mutant.h. What stands in
+ * constants, sizes and labels, and operators of bits and truth, cannot be switched like this. */
+typedef struct span {
+    size_t from, to; /* of the text */
+    char open[3 * MOST_WORD], close[MOST_WORD];
+    int replaces; /* 1: open stands for the text from..to */
+} span;
+
+static span spans[MOST_TOKENS];
+static size_t span_count;
+
+static span *add_span(size_t from, size_t to)
+{
+    span *s = &spans[span_count++];
+    *s = (span){.from = from, .to = to};
+    return s;
+}
+
+static size_t end_of(size_t k)
+{
+    return tokens[k].at + tokens[k].size;
+}
+
+static const char *const ends[] = {
+    "&&", "||", "?",  ":",  ",",  ";",  "=",  "==",     "!=",   "&",  "|",    "^", "+=",
+    "-=", "*=", "/=", "%=", "&=", "|=", "^=", "return", "else", "do", "case", NULL};
+static const char *const opening[] = {"(", "[", "{", NULL}, *const close_any[] = {")", "]", "}",
+                                                                                  NULL};
+
+/* The first or last token of the operand that ends or begins beside token k. */
+static size_t operand_first(size_t k)
+{
+    int depth = 0;
+    for (; k > 0; k--) {
+        if (depth == 0 && (is_any(k - 1, ends) || is_any(k - 1, opening)))
+            break;
+        depth += is_any(k - 1, close_any) - is_any(k - 1, opening);
+    }
+    return k;
+}
+
+static size_t operand_last(size_t k, const char *const *stops)
+{
+    int depth = 0;
+    for (; k + 1 < count; k++) {
+        if (depth == 0 && (is_any(k + 1, stops) || is_any(k + 1, close_any)))
+            break;
+        depth += is_any(k + 1, opening) - is_any(k + 1, close_any);
+    }
+    return k;
+}
+
+/* The last token of the number, name, call or parentheses that begin at k; 0 for others. */
+static size_t factor_last(size_t k)
+{
+    while (is(k, "-") || is(k, "!"))
+        k++;
+    if (is(k, "(")) {
+        k = closing(k, "(", ")");
+        if (k + 1 < count && (tokens[k + 1].kind != 'p' || is(k + 1, "("))) /* a cast */
+            return factor_last(k + 1);
+    } else if (tokens[k].kind == 'p' || is(k, "sizeof")) {
+        return 0;
+    }
+    for (;;)
+        if (is(k + 1, "."))
+            k += 2;
+        else if (is(k + 1, "->"))
+            k += 2;
+        else if (is(k + 1, "["))
+            k = closing(k + 1, "[", "]");
+        else if (is(k + 1, "("))
+            k = closing(k + 1, "(", ")");
+        else
+            return k;
+}
+
+static int switch_comparison(size_t k, const change *c, int id)
+{
+    static const char *const names[][2] = {{"<", "LT"},  {">", "GT"},  {"<=", "LE"},
+                                           {">=", "GE"}, {"==", "EQ"}, {"!=", "NE"}};
+    static const char *const stops[] = {"&&", "||", "?", ":",  ",",  ";",  "&",  "|",
+                                        "^",  "<",  ">", "<=", ">=", "==", "!=", NULL};
+    for (size_t n = 0; n < sizeof names / sizeof names[0]; n++) {
+        if (!is(k, names[n][0]))
+            continue;
+        size_t first = operand_first(k), last = operand_last(k, stops);
+        int negates = strlen(c->after) == 2 && (n < 2 ? c->after[0] != names[n][0][0] : n > 3);
+        span *s = add_span(tokens[first].at, end_of(last));
+        snprintf(s->open, sizeof s->open, "MUTANT_%s_%s(", names[n][1], negates ? "NOT" : "EDGE");
+        snprintf(s->close, sizeof s->close, ", %d)", id);
+        s = add_span(tokens[k].at, end_of(k));
+        s->replaces = 1;
+        strcpy(s->open, ",");
+        return 1;
+    }
+    return 0;
+}
+
+static int switch_operator(size_t k, int id)
+{
+    static const char *const stops[] = {",", ";", NULL};
+    size_t last = is(k, "*") || is(k, "/") ? factor_last(k + 1) : operand_last(k, stops);
+    span *s;
+    if (is(k, "!") && !is(k - 1, "==") && !is(k - 1, "!=")) {
+        s = add_span(tokens[k].at, end_of(k));
+        snprintf(s->open, sizeof s->open, "(hnbrdf_mutant != %d) == !", id);
+    } else if ((is(k, "+") || is(k, "-")) && tokens[k].spaced) {
+        s = add_span(tokens[k].at, end_of(k));
+        snprintf(s->open, sizeof s->open, "%c (hnbrdf_mutant == %d ? -1 : 1) *", text[tokens[k].at],
+                 id);
+    } else if (is(k, "-") && !is(k - 1, "*") && !is(k - 1, "/") && !is(k - 1, "%")) {
+        s = add_span(tokens[k].at, end_of(k));
+        snprintf(s->open, sizeof s->open, "(hnbrdf_mutant == %d ? 1 : -1) *", id);
+    } else if (is(k, "+=") || is(k, "-=")) {
+        s = add_span(tokens[k + 1].at, end_of(last));
+        snprintf(s->open, sizeof s->open, "(hnbrdf_mutant == %d ? -1 : 1) * (", id);
+        strcpy(s->close, ")");
+        return 1;
+    } else if ((is(k, "*") || is(k, "/") || is(k, "*=") || is(k, "/=")) && last > 0) {
+        s = add_span(tokens[k + 1].at, end_of(last));
+        strcpy(s->open, "MUTANT_INVERSE(");
+        snprintf(s->close, sizeof s->close, ", %d)", id);
+        return 1;
+    } else {
+        return 0;
+    }
+    s->replaces = 1;
+    return 1;
+}
+
+/* Constants, labels and what only one change of a comparison can have. */
+static int is_fixed(size_t k)
+{
+    size_t start = k;
+    if (!tokens[k].in_code || tokens[k].declares_size || tokens[k].off)
+        return 1;
+    while (start > 0 && !tokens[start].starts)
+        start--;
+    return is(start, "static") || is(start, "enum") || is(start, "case");
+}
+
+static int switch_change(const change *c, int id)
+{
+    size_t k = 0;
+    while (k < count && tokens[k].at != c->at)
+        k++;
+    if (k == count || k == 0 || is_fixed(k))
+        return 0;
+    if (c->size > tokens[k].size) { /* a statement */
+        if (tokens[k].kind != 'i' && !is(k, "*"))
+            return 0;
+        span *s = add_span(c->at, c->at + c->size);
+        snprintf(s->open, sizeof s->open, "hnbrdf_mutant == %d ? (void)0 : (void)(", id);
+        strcpy(s->close, ")");
+        return 1;
+    }
+    if (tokens[k].kind == 'n') {
+        span *s = add_span(c->at, c->at + c->size);
+        snprintf(s->open, sizeof s->open, "(hnbrdf_mutant == %d ? %s : %.*s)", id, c->after,
+                 (int)c->size, text + c->at);
+        s->replaces = 1;
+        return 1;
+    }
+    return tokens[k].kind == 'p' && (switch_comparison(k, c, id) || switch_operator(k, id));
+}
+
+/* Wider spans open first and close last. */
+static int by_start(const void *a, const void *b)
+{
+    const span *x = a, *y = b;
+    if (x->from != y->from)
+        return x->from < y->from ? -1 : 1;
+    return x->to > y->to ? -1 : x->to < y->to;
+}
+
+static void print_switched(void)
+{
+    static size_t open[MOST_TOKENS];
+    size_t depth = 0, next = 0;
+    qsort(spans, span_count, sizeof spans[0], by_start);
+    for (size_t at = 0; at <= length; at++) {
+        while (depth > 0 && spans[open[depth - 1]].to == at)
+            fputs(spans[open[--depth]].close, stdout);
+        size_t skip = 0;
+        for (; next < span_count && spans[next].from == at; next++) {
+            fputs(spans[next].open, stdout);
+            if (spans[next].replaces)
+                skip = spans[next].to - at;
+            else
+                open[depth++] = next;
+        }
+        if (skip > 0) {
+            at += skip - 1;
+            continue;
+        }
+        if (at < length)
+            putchar(text[at]);
+    }
+}
+
+/* Lines of `number id` from standard input; those that cannot be switched go to standard error. At
+ * most one change a token. */
+static void switch_all(void)
+{
+    static char taken[MOST_TEXT];
+    unsigned long number;
+    int id;
+    while (scanf("%lu %d", &number, &id) == 2)
+        if (number < change_count && !taken[changes[number].at] &&
+            switch_change(&changes[number], id))
+            taken[changes[number].at] = 1;
+        else
+            fprintf(stderr, "%lu\n", number);
+    print_switched();
+}
+
 /* ---- Program --------------------------------------------------------------------------------- */
 
 static uint64_t mix(uint64_t h, uint64_t value)
@@ -388,8 +604,10 @@ static void print_list(uint64_t seed, const char *path)
 int main(int argc, char **argv)
 {
     FILE *file = argc == 4 ? fopen(argv[3], "rb") : NULL;
-    if (!file || (strcmp(argv[1], "list") && strcmp(argv[1], "apply"))) {
-        fprintf(stderr, "usage: mutate list SEED FILE | mutate apply NUMBER FILE\n");
+    if (!file ||
+        (strcmp(argv[1], "list") && strcmp(argv[1], "apply") && strcmp(argv[1], "switch"))) {
+        fprintf(stderr, "usage: mutate list SEED FILE | mutate apply NUMBER FILE | "
+                        "mutate switch 0 FILE\n");
         return 2;
     }
     length = fread(text, 1, MOST_TEXT - 8, file);
@@ -400,6 +618,10 @@ int main(int argc, char **argv)
     unsigned long long number = strtoull(argv[2], NULL, 10);
     if (!strcmp(argv[1], "list")) {
         print_list(number, argv[3]);
+        return 0;
+    }
+    if (!strcmp(argv[1], "switch")) {
+        switch_all();
         return 0;
     }
     if (number >= change_count) {
