@@ -77,7 +77,14 @@ done
     fail "--build and --test go together"
 
 scratch=$(mktemp -d "${TMPDIR:-/tmp}/hnbrdf-mutants.XXXXXX") || fail "no scratch folder"
-trap 'rm -rf "$scratch"' EXIT
+workers=''
+stop() {
+    # shellcheck disable=SC2086
+    [ -z "$workers" ] || kill $workers 2> /dev/null
+    wait
+    rm -rf "$scratch"
+}
+trap stop EXIT
 trap 'exit 2' INT TERM HUP
 ${CC:-cc} -std=c11 -O1 "$root/tests/mutate.c" -o "$scratch/mutate" || fail "mutate.c does not compile"
 
@@ -214,6 +221,7 @@ rehearse() { # copy
 }
 
 judge() { # copy file: noticed by ..., survived or uncompiled
+    [ -d "$1/src" ] || exit 2
     for test in $(cat "$1.tests.$(echo "$2" | tr / .)"); do
         build_one "$1" "$test" || { echo uncompiled; return; }
         test_one "$1" "$test" "$(cat "$1.limit.$test")" || { echo "noticed by $test"; return; }
@@ -327,7 +335,7 @@ work() { # copy list
 }
 
 if [ -s "$scratch/todo" ]; then
-    job=0 workers=''
+    job=0
     while [ "$job" -lt "$jobs" ]; do
         awk -v n="$jobs" -v k="$job" 'NR % n == k' "$scratch/todo" > "$scratch/todo.$job"
         work "$scratch/tree.$job" "$scratch/todo.$job" &
