@@ -8,5 +8,7 @@ hnbrdf_test(test_sampling_density test_sampling_density.c sampling_statistics.c 
 target_compile_definitions(hnbrdf_test_sampling_density PRIVATE
   HNBRDF_EXAMPLE_MODEL="${PROJECT_SOURCE_DIR}/examples/models/rgl_32x2.safetensors")
 hnbrdf_test(test_lobes test_lobes.c core_support.c)
+target_compile_definitions(hnbrdf_test_lobes PRIVATE
+  HNBRDF_EXAMPLE_MODEL="${PROJECT_SOURCE_DIR}/examples/models/rgl_32x2.safetensors")
 hnbrdf_test(test_core_variants test_core_variants.c variants_sweep.c)
 hnbrdf_test(test_variant_choice test_variant_choice.c)

@@ -345,6 +345,7 @@ if [ -s "$scratch/todo" ]; then
     for worker in $workers; do
         wait "$worker" || fail "the unchanged tree does not build or pass its tests"
     done
+    workers=''
 fi
 
 # ---- Report --------------------------------------------------------------------------------------

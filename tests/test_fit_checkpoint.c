@@ -33,8 +33,7 @@ static hnbrdf_fit_options tiny(void)
     return (hnbrdf_fit_options){.hidden = 5,
                                 .layers = 2,
                                 .latent = 3,
-                                .encoding = HNBRDF_ENCODING_ANGLES,
-                                .encoding_set = 1,
+                                .encoding = "angles",
                                 .steps = 200,
                                 .batch = 1024,
                                 .pool = 2048,
@@ -224,7 +223,7 @@ static void change_option(hnbrdf_fit_options *o, int k)
         o->latent++;
         break;
     case 4:
-        o->encoding = HNBRDF_ENCODING_DIRECTIONS;
+        o->encoding = "directions";
         break;
     case 5:
         o->floor = 0.01f;
