@@ -99,6 +99,35 @@ grep -q ' 5 are explained' "$work/report" || { cat "$work/report"; fail "explain
 sh tests/mutants.sh --build "$build" --test false src/add.c > "$work/report" 2>&1
 [ $? -eq 2 ] || { cat "$work/report"; fail "a failing unchanged tree is not an error"; }
 
+# ---- Many changes in one build behave as each alone ----------------------------------------------
+
+$cc -std=c11 -O1 tests/mutate.c -o mutate || fail "mutate.c does not compile"
+cp "$root/tests/mutant.h" tests/ || exit 1
+cat > tests/choose.c <<'END'
+#include <stdlib.h>
+int hnbrdf_mutant = -1;
+__attribute__((constructor)) static void choose(void)
+{
+    const char *text = getenv("HNBRDF_MUTANT");
+    if (text)
+        hnbrdf_mutant = atoi(text);
+}
+END
+seq 0 15 | sed 's/.*/& &/' | ./mutate switch 0 src/add.c > src/switched.c 2> apart
+$cc -fsanitize=bounds -fsanitize-undefined-trap-on-error -include tests/mutant.h tests/main.c \
+    src/switched.c tests/choose.c -o t || fail "the switched file does not compile"
+./t || fail "nothing is switched, but the values are others"
+switched=0
+for number in $(seq 0 15); do
+    ! grep -qx "$number" apart || continue
+    verdict=survived
+    HNBRDF_MUTANT=$number ./t 2> /dev/null || verdict=noticed
+    grep -q "^$verdict.*	src/add.c	$number	" "$work/results" ||
+        fail "change $number is $verdict when switched, otherwise alone"
+    switched=$((switched + 1))
+done
+[ "$switched" -ge 12 ] || fail "only $switched of 16 changes could be switched"
+
 # ---- Every planted change of a file of the core is noticed ---------------------------------------
 
 cd "$root" || exit 1
