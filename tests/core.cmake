@@ -12,3 +12,5 @@ target_compile_definitions(hnbrdf_test_lobes PRIVATE
   HNBRDF_EXAMPLE_MODEL="${PROJECT_SOURCE_DIR}/examples/models/rgl_32x2.safetensors")
 hnbrdf_test(test_core_variants test_core_variants.c variants_sweep.c)
 hnbrdf_test(test_variant_choice test_variant_choice.c)
+# Sentences of the public headers that no other test holds.
+hnbrdf_test(test_contracts test_contracts.c core_support.c)

@@ -2,6 +2,7 @@
  * no failure on the way leaks, crashes or spoils the file that was there. */
 #include "model_support.h"
 
+#include <fcntl.h>
 #include <locale.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -295,6 +296,33 @@ static void a_full_disk_is_noticed(void **state)
     }
 }
 
+/* A pipe stays one: it is not replaced by a file. The model fits its buffer. */
+static void a_pipe_is_written_as_it_is(void **state)
+{
+    char path[256], aside[256];
+    unsigned char buffer[65536];
+    hnbrdf_model *model = example(2);
+    bytes b = model_bytes(model);
+    struct stat info;
+    (void)state;
+    in_directory("pipe", path);
+    in_directory("pipe.tmp", aside);
+    assert_true(b.size < 4096);
+    assert_int_equal(mkfifo(path, 0600), 0);
+    const int reader = open(path, O_RDONLY | O_NONBLOCK);
+    assert_true(reader >= 0);
+    assert_int_equal(hnbrdf_model_save(model, path, NULL), HNBRDF_OK);
+    assert_int_equal(read(reader, buffer, sizeof buffer), (int)b.size);
+    assert_memory_equal(buffer, b.data, b.size);
+    assert_int_equal(stat(path, &info), 0);
+    assert_true(S_ISFIFO(info.st_mode));
+    assert_false(exists(aside));
+    close(reader);
+    remove(path);
+    free_bytes(&b);
+    hnbrdf_model_free(model);
+}
+
 static int refuse(void *user, const void *data, size_t size)
 {
     long *left = user;
@@ -421,6 +449,7 @@ int main(void)
         cmocka_unit_test(missing_files_and_directories_are_io_errors),
         cmocka_unit_test(what_cannot_be_saved_to_is_refused),
         cmocka_unit_test(a_full_disk_is_noticed),
+        cmocka_unit_test(a_pipe_is_written_as_it_is),
         cmocka_unit_test(a_write_callback_can_stop_anywhere),
         cmocka_unit_test(every_failed_allocation_is_reported_without_a_leak),
         cmocka_unit_test(saving_allocates_nothing),
