@@ -16,7 +16,7 @@ set(HNBRDF_BASE_HNBRDF src/base/files.c src/base/files_posix.c src/base/files_wi
 set(HNBRDF_BASE_FIT src/base/clock.c src/base/threads.c)
 set(HNBRDF_BASE_BAKE src/base/probe.c)
 hnbrdf_room(core
-  eval.c kernel_plain.c material.c network.c pack.c sample.c
+  eval.c kernel_plain.c material.c network.c pack.c prepare.c sample.c
   strerror.c variant.c)
 hnbrdf_room(model check_name.c choose_kernel.c create.c)
 hnbrdf_room(file
@@ -24,7 +24,7 @@ hnbrdf_room(file
 hnbrdf_room(import
   brdf_network.c brdf_text.c import_brdf.c)
 hnbrdf_room(glsl
-  export_evaluate.c export_glsl.c export_library.c export_loops.c export_material.c
+  export_evaluate.c export_glsl.c export_input.c export_library.c export_loops.c export_material.c
   export_network.c export_scene.c export_unpack.c export_weights.c half.c printer.c)
 hnbrdf_room(lobes
   fit_lobes.c)
@@ -34,18 +34,18 @@ hnbrdf_room(measured
 hnbrdf_room(metrics
   compare.c image.c physics.c)
 hnbrdf_room(fit
-  kernel_avx2.c kernel_avx512.c adam.c checkpoint.c fit.c ggx.c judge.c kernel.c kernel_double.c pool.c
-  train.c)
+  kernel_avx2.c kernel_avx512.c adam.c checkpoint.c fit.c ggx.c gradient.c judge.c kernel.c kernel_double.c pool.c
+  stage.c train.c)
 hnbrdf_room(check
   backends.c bounds.c cases.c half.c maps.c oracle.c pairs.c reference.c rounding.c
   rules.c run.c)
 hnbrdf_room(image
-  difference.c draw.c exr.c glyphs.c image.c label.c png.c radiance.c sheet.c)
+  difference.c draw.c exr.c glyphs.c image.c image_file.c label.c png.c radiance.c sheet.c)
 hnbrdf_room(render
   backdrop.c environment.c guide.c sequence.c shade.c sky.c sphere.c surface.c
   tabulated.c tiles.c)
 hnbrdf_room(scene
-  describe.c describe_shape.c film.c hit.c lights.c load.c mesh.c obj.c passes.c path.c
+  describe.c describe_lists.c describe_shape.c film.c hit.c lights.c load.c mesh.c obj.c passes.c patch.c path.c
   polygon.c portals.c scene.c shapes.c teapot.c trace.c words.c)
 hnbrdf_room(plot
   svg.c)

@@ -4,41 +4,6 @@
 #include "core/kernel.h"
 #include "core/prepared.h"
 
-/* ---- Prepared materials ---------------------------------------------------------------------- */
-
-void hnbrdf_prepare_analytic(const hnbrdf_model *model, const hnbrdf_material *material,
-                             hnbrdf_prepared *prepared)
-{
-    hnbrdf_frame frame = hnbrdf_frame_of(material);
-    prepared->model = model;
-    prepared->cosine = frame.cosine;
-    prepared->sine = frame.sine;
-    for (int k = 0; k < 2; k++)
-        prepared->alpha[k] = material->alpha[k];
-    prepared->area = hnbrdf_ggx_area(material->alpha[0], material->alpha[1]);
-    for (int c = 0; c < 4; c++) {
-        int channel = c < 3 ? c : 2;
-        prepared->diffuse[c] = material->kd[channel] * HNBRDF_INV_PI;
-        prepared->e[c] = hnbrdf_fresnel_e(material->eta[channel]);
-    }
-}
-
-/* All that evaluation needs. */
-static void prepare_eval(const hnbrdf_model *model, const hnbrdf_material *material,
-                         hnbrdf_prepared *prepared)
-{
-    hnbrdf_prepare_analytic(model, material, prepared);
-    if (model->desc.kind != HNBRDF_KIND_GGX)
-        model->kernel->fold(model, material->latent, prepared->first);
-}
-
-void hnbrdf_prepare(const hnbrdf_model *model, const hnbrdf_material *material,
-                    hnbrdf_prepared *prepared)
-{
-    prepare_eval(model, material, prepared);
-    hnbrdf_prepare_lobes(model, material, prepared);
-}
-
 /* ---- One pair -------------------------------------------------------------------------------- */
 
 void hnbrdf_prepared_eval(const hnbrdf_prepared *prepared, const float wi[3], const float wo[3],
@@ -55,7 +20,7 @@ void hnbrdf_eval(const hnbrdf_model *model, const hnbrdf_material *material, con
 {
     if (hnbrdf_above_horizon(wi, wo)) {
         hnbrdf_prepared prepared;
-        prepare_eval(model, material, &prepared);
+        hnbrdf_prepare_eval(model, material, &prepared);
         model->kernel->single(&prepared, wi, wo, f);
     } else {
         f[0] = f[1] = f[2] = 0.0f;
@@ -98,7 +63,7 @@ void hnbrdf_eval_batch(const hnbrdf_model *model, const hnbrdf_material *materia
 {
     const hnbrdf_pairs pairs = pairs_of(count, wi, wi_stride, wo, wo_stride, f, f_stride);
     hnbrdf_prepared prepared;
-    prepare_eval(model, material, &prepared);
+    hnbrdf_prepare_eval(model, material, &prepared);
     model->kernel->batch(&prepared, &pairs);
 }
 

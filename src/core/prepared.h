@@ -11,6 +11,10 @@
 void hnbrdf_prepare_analytic(const hnbrdf_model *model, const hnbrdf_material *material,
                              hnbrdf_prepared *prepared);
 
+/* All that evaluation needs: everything but the lobes. */
+void hnbrdf_prepare_eval(const hnbrdf_model *model, const hnbrdf_material *material,
+                         hnbrdf_prepared *prepared);
+
 /* Share of samples that go to the GGX lobe where no lobes were fitted: reflectance at normal
  * incidence, raised a little for what Fresnel adds towards grazing, against the diffuse albedo. 0
  * where there is no analytic part. */

@@ -31,28 +31,6 @@ enum { ASYMMETRY_PAIRS = 4096 };
 #define LEAST_VALID 0.01
 #define POOL_LIMIT 1.25e9 /* bytes of training data; beyond, fewer pairs a material */
 
-void hnbrdf_fit_stage_begin(trainer *t)
-{
-    atomic_store(&t->finished, 0);
-    t->stage_started = hnbrdf_seconds();
-    t->shown = 0.0;
-}
-
-void hnbrdf_fit_tell(trainer *t, const char *stage, double done, double loss, double pairs,
-                     int always)
-{
-    double now = hnbrdf_seconds(), elapsed = now - t->stage_started;
-    if (!t->options.progress || (!always && now - t->shown < 0.1 && done < 1.0))
-        return;
-    t->shown = now;
-    hnbrdf_fit_progress p = {stage, done,   loss, elapsed > 0.0 ? pairs / elapsed : 0.0,
-                             NAN,   t->step};
-    if (done > 0.01 || elapsed > 2.0)
-        p.seconds_left = elapsed * (1.0 - done) / fmax(done, 1e-6);
-    if (t->options.progress(t->options.progress_user, &p))
-        t->stopped = 1;
-}
-
 static void piece_done(trainer *t, const char *stage, int worker)
 {
     int done = atomic_fetch_add(&t->finished, 1) + 1;

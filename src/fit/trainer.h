@@ -55,7 +55,7 @@ void hnbrdf_fit_stage_begin(trainer *t);
 void hnbrdf_fit_tell(trainer *t, const char *stage, double done, double loss, double pairs,
                      int always);
 
-/* Loss and gradient of the mean over the pairs of tile_material and tile_index (train.c). */
+/* Loss and gradient of the mean over the pairs of tile_material and tile_index (gradient.c). */
 double hnbrdf_fit_step_gradient(trainer *t);
 
 /* judge.c: the start is the best state so far; a step was made, look at it if it is time; go back

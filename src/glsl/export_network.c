@@ -107,15 +107,6 @@ static void put_half_inputs(hnbrdf_printer *out, const hnbrdf_scene *s)
 
 /* ---- What all styles share ------------------------------------------------------------------- */
 
-void hnbrdf_put_input(hnbrdf_printer *out, const hnbrdf_scene *s, int i)
-{
-    int half = in_half(s, 0), x = i - s->desc->latent;
-    if (x < 0)
-        hnbrdf_put(out, half ? "z%d.%c" : "m.latent%d.%c", i / 4, "xyzw"[i % 4]);
-    else
-        hnbrdf_put(out, half ? "i%d.%c" : "x%d.%c", x / 3, "xyz"[x % 3]);
-}
-
 void hnbrdf_put_constant(hnbrdf_printer *out, const hnbrdf_scene *s, int which)
 {
     const float numbers[3] = {s->desc->scale, s->desc->shift, s->desc->floor};

@@ -1,10 +1,8 @@
-/* image.c: images in memory, and their way to and from files. */
+/* image.c: images in memory. */
 #include "image/image.h"
 
 #include "base/error.h"
-#include "base/files.h"
 
-#include <errno.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
@@ -103,75 +101,4 @@ int render_has_extension(const char *path, const char *extension)
         if (lower(path[length - count + i]) != lower(extension[i]))
             return 0;
     return 1;
-}
-
-/* ---- Files ----------------------------------------------------------------------------------- */
-
-static hnbrdf_result read_stream(FILE *file, const char *path, size_t limit, render_bytes *bytes,
-                                 hnbrdf_error *error)
-{
-    unsigned char block[65536];
-    size_t count;
-    while ((count = fread(block, 1, sizeof block, file)) > 0) {
-        if (bytes->size + count > limit)
-            return hnbrdf_fail(error, HNBRDF_ERROR_LIMIT, "%s: larger than %zu bytes", path, limit);
-        if (render_bytes_put(bytes, bytes->size, block, count))
-            return hnbrdf_fail(error, HNBRDF_ERROR_MEMORY, "%s: no memory for its bytes", path);
-    }
-    if (ferror(file))
-        return hnbrdf_fail(error, HNBRDF_ERROR_IO, "%s: cannot be read: %s", path, strerror(errno));
-    return HNBRDF_OK;
-}
-
-hnbrdf_result render_file_read(const char *path, size_t limit, render_bytes *bytes,
-                               hnbrdf_error *error)
-{
-    FILE *file = hnbrdf_open_to_read(path);
-    if (!file)
-        return hnbrdf_fail(error, HNBRDF_ERROR_IO, "%s: cannot be opened: %s", path,
-                           strerror(errno));
-    hnbrdf_result result = read_stream(file, path, limit, bytes, error);
-    fclose(file);
-    return result;
-}
-
-hnbrdf_result render_image_read(const char *path, const render_limits *limits, render_image *image,
-                                hnbrdf_error *error)
-{
-    render_bytes bytes = {0};
-    hnbrdf_result result =
-        render_file_read(path, render_limits_settle(limits).max_bytes, &bytes, error);
-    if (result == HNBRDF_OK) {
-        static const unsigned char exr_magic[4] = {0x76, 0x2f, 0x31, 0x01};
-        if (bytes.size >= 4 && memcmp(bytes.data, exr_magic, 4) == 0)
-            result = render_exr_decode(bytes.data, bytes.size, path, limits, image, error);
-        else if (bytes.size >= 2 && memcmp(bytes.data, "#?", 2) == 0)
-            result = render_radiance_decode(bytes.data, bytes.size, path, limits, image, error);
-        else
-            result =
-                hnbrdf_fail(error, HNBRDF_ERROR_FORMAT,
-                            "%s: neither OpenEXR nor Radiance .hdr (%zu bytes)", path, bytes.size);
-    }
-    free(bytes.data);
-    return result;
-}
-
-hnbrdf_result render_image_write(const render_image *image, const char *path,
-                                 const render_write_options *options, hnbrdf_error *error)
-{
-    static const render_write_options defaults;
-    options = options ? options : &defaults;
-    render_bytes bytes = {0};
-    hnbrdf_result result;
-    if (render_has_extension(path, ".exr"))
-        result = render_exr_encode(image, options, &bytes, error);
-    else if (render_has_extension(path, ".png"))
-        result = render_png_encode(image, options->exposure, &bytes, error);
-    else
-        result = hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT,
-                             "%s: expected a name ending in .exr or .png", path);
-    if (result == HNBRDF_OK)
-        result = hnbrdf_write_file(path, bytes.data, bytes.size, error);
-    free(bytes.data);
-    return result;
 }

@@ -78,14 +78,6 @@ static hnbrdf_result read_portal(words *in)
     return result;
 }
 
-int describe_find_material(const render_description *out, const char *name)
-{
-    for (int i = 0; i < out->material_count; i++)
-        if (strcmp(out->materials[i].name, name) == 0)
-            return i;
-    return -1;
-}
-
 static hnbrdf_result read_ggx(words *in, render_text_material *material)
 {
     hnbrdf_result result = HNBRDF_OK;
@@ -141,20 +133,6 @@ static hnbrdf_result read_source(words *in, render_text_material *material)
         result = words_unknown(in, "model, measured, builtin, ggx or diffuse");
     }
     return result;
-}
-
-/* Room for one more element of an array that doubles at powers of two. */
-void *describe_grown(void *array, int count, size_t element)
-{
-    if (count & (count - 1))
-        return array;
-    return realloc(array, (count ? 2 * (size_t)count : 1) * element);
-}
-
-hnbrdf_result describe_no_memory(const words *in)
-{
-    return hnbrdf_fail(in->error, HNBRDF_ERROR_MEMORY, "%s:%ld: no memory for what was read so far",
-                       in->name, in->line);
 }
 
 static hnbrdf_result read_material(words *in)

@@ -1,0 +1,75 @@
+/* prepare.c: what is computed once a material, so that evaluation, sampling and the density need
+ * not. */
+#include "core/compose.h"
+#include "core/kernel.h"
+#include "core/prepared.h"
+
+HNBRDF_DIVIDES_AS_IEEE
+float hnbrdf_specular_share(const hnbrdf_model *model, const hnbrdf_material *material)
+{
+    if (model->desc.kind == HNBRDF_KIND_NEURAL)
+        return 0.0f;
+    float specular = 0.05f, diffuse = 0.0f;
+    for (int c = 0; c < 3; c++) {
+        float r = (material->eta[c] - 1.0f) / (material->eta[c] + 1.0f);
+        specular += r * r * (1.0f / 3.0f);
+        diffuse += material->kd[c] * (1.0f / 3.0f);
+    }
+    return hnbrdf_clamp(specular / (specular + diffuse), 0.2f, 0.9f);
+}
+
+void hnbrdf_prepare_analytic(const hnbrdf_model *model, const hnbrdf_material *material,
+                             hnbrdf_prepared *prepared)
+{
+    hnbrdf_frame frame = hnbrdf_frame_of(material);
+    prepared->model = model;
+    prepared->cosine = frame.cosine;
+    prepared->sine = frame.sine;
+    for (int k = 0; k < 2; k++)
+        prepared->alpha[k] = material->alpha[k];
+    prepared->area = hnbrdf_ggx_area(material->alpha[0], material->alpha[1]);
+    for (int c = 0; c < 4; c++) {
+        int channel = c < 3 ? c : 2;
+        prepared->diffuse[c] = material->kd[channel] * HNBRDF_INV_PI;
+        prepared->e[c] = hnbrdf_fresnel_e(material->eta[channel]);
+    }
+}
+
+void hnbrdf_prepare_lobes(const hnbrdf_model *model, const hnbrdf_material *material,
+                          hnbrdf_prepared *prepared)
+{
+    int neural = model->desc.kind == HNBRDF_KIND_NEURAL;
+    prepared->lobes = material->lobes;
+    if (material->lobes.scale[0] == 0.0f) {
+        float share = hnbrdf_specular_share(model, material);
+        for (int j = 0; j < HNBRDF_LOBE_KNOTS; j++)
+            prepared->lobes.share[0][j] = share;
+        prepared->lobes.scale[0] = 1.0f;
+        prepared->lobes.scale[1] = 0.0f;
+    }
+    for (int k = 0; k < HNBRDF_LOBES; k++) {
+        float *alpha = prepared->lobe_alpha[k], *share = prepared->lobes.share[k];
+        for (int a = 0; a < 2; a++)
+            alpha[a] =
+                hnbrdf_clamp(fabsf(prepared->lobes.scale[k]) * (neural ? 1.0f : material->alpha[a]),
+                             HNBRDF_MIN_ALPHA, HNBRDF_MAX_ALPHA);
+        prepared->lobe_area[k] = hnbrdf_ggx_area(alpha[0], alpha[1]);
+        for (int j = 0; j < HNBRDF_LOBE_KNOTS && prepared->lobes.scale[k] == 0.0f; j++)
+            share[j] = 0.0f;
+    }
+}
+
+void hnbrdf_prepare_eval(const hnbrdf_model *model, const hnbrdf_material *material,
+                         hnbrdf_prepared *prepared)
+{
+    hnbrdf_prepare_analytic(model, material, prepared);
+    if (model->desc.kind != HNBRDF_KIND_GGX)
+        model->kernel->fold(model, material->latent, prepared->first);
+}
+
+void hnbrdf_prepare(const hnbrdf_model *model, const hnbrdf_material *material,
+                    hnbrdf_prepared *prepared)
+{
+    hnbrdf_prepare_eval(model, material, prepared);
+    hnbrdf_prepare_lobes(model, material, prepared);
+}
