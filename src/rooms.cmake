@@ -50,24 +50,24 @@ hnbrdf_room(scene
 hnbrdf_room(plot
   svg.c)
 hnbrdf_room(gpu
-  compile.c compute.c device.c evaluate.c probe.c probe_half.c scene.c sphere.c timed.c
+  compile.c compute.c device.c evaluate.c probe.c probe_half.c scene.c sphere.c stability.c timed.c
   verify.c)
 hnbrdf_room(edit
   materials.c)
 hnbrdf_room(bake
   bake.c ggx.c half.c options.c rows.c search.c sizes.c teacher.c tell.c wave.c)
 hnbrdf_room(report
-  bake_plot.c bake_tables.c)
+  bake_plot.c bake_tables.c compare.c compare_images.c fit_log.c grid.c grid_figures.c
+  grid_fit.c grid_ggx.c grid_image_tables.c grid_images.c grid_plot.c grid_rows.c
+  grid_tables.c info_physics.c loss_plot.c output.c picture.c sampling_measure.c
+  sampling_strips.c sampling_write.c stability_plot.c stability_report.c texels.c
+  verify_report.c)
 hnbrdf_room(bench
   measure.c models.c peak.c peer.c plot.c quality.c rows.c rows_cpu.c rows_gpu.c speed.c tables.c)
 hnbrdf_room(cli
-  cli.c cmd_bake.c cmd_bench.c cmd_compare.c cmd_edit.c
-  cmd_eval.c cmd_export.c cmd_fit.c cmd_gallery.c cmd_import.c cmd_info.c cmd_lobes.c
-  cmd_mix.c cmd_render.c cmd_report.c cmd_report_images.c cmd_report_sampling.c
-  cmd_scene.c cmd_sheet.c cmd_stability.c cmd_verify.c compare_images.c fit_log.c
-  gallery_choose.c gallery_pages.c gallery_strips.c info_physics.c
-  loss_plot.c main.c output.c picture.c progress.c reading.c render_gpu.c render_mesh.c
-  report_fit.c report_ggx.c report_grid.c report_image_tables.c report_images.c
-  report_options.c report_plot.c report_rows.c report_tables.c sampling_measure.c
-  sampling_strips.c sampling_write.c scene_compare.c scene_job.c sources.c
-  stability_gpu.c stability_plot.c stability_report.c texels.c verify_report.c)
+  cli.c cmd_bake.c cmd_bench.c cmd_compare.c cmd_edit.c cmd_eval.c cmd_export.c
+  cmd_fit.c cmd_gallery.c cmd_import.c cmd_info.c cmd_lobes.c cmd_mix.c cmd_render.c
+  cmd_report.c cmd_report_images.c cmd_report_sampling.c cmd_scene.c cmd_sheet.c
+  cmd_stability.c cmd_verify.c gallery_choose.c gallery_pages.c gallery_strips.c main.c
+  output.c picture.c progress.c reading.c render_gpu.c render_mesh.c report_options.c
+  scene_compare.c scene_job.c sources.c watch.c)

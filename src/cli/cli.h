@@ -2,10 +2,11 @@
 #ifndef HNBRDF_CLI_CLI_H
 #define HNBRDF_CLI_CLI_H
 
-#include "base/files.h"
 #include "hnbrdf/edit.h"
 #include "hnbrdf/hnbrdf.h"
 #include "hnbrdf/measured.h"
+#include "report/output.h"
+#include "report/watch.h"
 
 #include <stdio.h>
 
@@ -156,20 +157,17 @@ int cli_choose_material(const hnbrdf_model *model, const char *name);
 int cli_choose_materials(const hnbrdf_model *model, const char *list, int **indices, int *count);
 
 /* ---- Output -------------------------------------------------------------------------------------
- * Files are written aside and renamed when complete, as base/files.h has it; "-" is stdout. */
-typedef struct cli_output {
-    FILE *file;           /* write here */
-    hnbrdf_output output; /* unless it is stdout */
-} cli_output;
-int cli_output_open(const char *path, cli_output *output); /* 0, or CLI_FAILURE after a message */
-int cli_output_close(cli_output *output);                  /* flush, check, rename; likewise */
-/* can it be written? before long work; likewise */
-int cli_output_check(const char *path);
+ * As report/output.h has it, with a message where it fails. Each: 0, or CLI_FAILURE. */
+typedef report_output cli_output;
+int cli_output_open(const char *path, cli_output *output);
+int cli_output_close(cli_output *output);    /* flush, check, rename */
+int cli_output_check(const char *path);      /* can it be written? before long work; NULL: yes */
 void cli_output_discard(cli_output *output); /* drop what was written */
-int cli_make_folder(const char *path);       /* unless it is there; likewise */
-
-/* Text as a JSON string with its quotes. */
-void cli_write_json_text(FILE *file, const char *text);
+int cli_make_folder(const char *path);       /* unless it is there */
+/* Opens, writes and closes; nothing if path is NULL. */
+int cli_write_file(const char *path, void (*write)(const void *what, FILE *file), const void *what);
+/* 1 if path is "-". */
+int cli_is_stdout(const char *path);
 
 /* ---- Progress -----------------------------------------------------------------------------------
  * One line  * on stderr, rewritten in place on a terminal, a line every 10 s elsewhere; nothing
@@ -185,5 +183,10 @@ void cli_progress_end(cli_progress *progress);
 int cli_progress_show(void *progress, double share, const char *detail);
 /* Monotonic seconds. */
 double cli_seconds(void);
+
+/* For functions that show how far they are on this line and stop when interrupted. */
+report_watch cli_watch(cli_progress *progress);
+/* The exit code for a result, after its message. */
+int cli_code(hnbrdf_result result, const hnbrdf_error *error);
 
 #endif

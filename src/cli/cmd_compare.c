@@ -1,11 +1,8 @@
 /* cmd_compare.c: `hnbrdf compare`: how far a model is from measured materials, one row for each. */
-#include "cli/compare_images.h"
-#include "cli/csv.h"
 #include "cli/picture.h"
-#include "hnbrdf/metrics.h"
-#include "base/text.h"
+#include "report/compare.h"
+#include "report/compare_images.h"
 
-#include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -47,251 +44,6 @@ static const cli_command command = {
     "hnbrdf compare --images hybrid.exr reference.exr --difference where.png",
 };
 
-typedef struct row {
-    const hnbrdf_measured *measured;
-    int material, material_against; /* numbers in the models */
-    hnbrdf_comparison error, error_against;
-} row;
-
-typedef struct job {
-    const char *path, *path_against; /* the second one NULL when there is only one model */
-    hnbrdf_model *model, *against;
-    hnbrdf_sampler sampler;
-    long pairs, seed;
-    row *rows;
-    int count;
-    hnbrdf_comparison mean, mean_against;
-
-    pthread_mutex_t mutex; /* over what follows */
-    int next, done;
-    hnbrdf_result result;
-    hnbrdf_error message;
-    cli_progress progress;
-} job;
-
-/* ---- Measuring ------------------------------------------------------------------------------- */
-
-static hnbrdf_result measure(const job *j, row *r, hnbrdf_error *message)
-{
-    hnbrdf_result result =
-        hnbrdf_compare(j->model, hnbrdf_model_material(j->model, r->material), r->measured,
-                       j->sampler, (size_t)j->pairs, (uint64_t)j->seed, &r->error, message);
-    if (result == HNBRDF_OK && j->against)
-        result = hnbrdf_compare(j->against, hnbrdf_model_material(j->against, r->material_against),
-                                r->measured, j->sampler, (size_t)j->pairs, (uint64_t)j->seed,
-                                &r->error_against, message);
-    return result;
-}
-
-static void *work(void *argument)
-{
-    job *j = argument;
-    pthread_mutex_lock(&j->mutex);
-    while (j->next < j->count && j->result == HNBRDF_OK) {
-        hnbrdf_error message;
-        row *r = &j->rows[j->next++];
-        pthread_mutex_unlock(&j->mutex);
-        hnbrdf_result result = measure(j, r, &message);
-        pthread_mutex_lock(&j->mutex);
-        if (result != HNBRDF_OK && j->result == HNBRDF_OK) {
-            j->result = result;
-            j->message = message;
-        }
-        j->done++;
-        cli_progress_update(&j->progress, (double)j->done / j->count,
-                            hnbrdf_measured_name(r->measured));
-    }
-    pthread_mutex_unlock(&j->mutex);
-    return NULL;
-}
-
-static void add_to_mean(hnbrdf_comparison *mean, const hnbrdf_comparison *error, int count)
-{
-    mean->smape += error->smape / count;
-    mean->smape_analytic += error->smape_analytic / count;
-    mean->mae += error->mae / count;
-    mean->mse += error->mse / count;
-    mean->pairs += error->pairs;
-}
-
-/* Materials are shared out to threads; each has its own sequence of pairs, so the threads do not
- * change a digit. */
-static int measure_all(job *j, int threads)
-{
-    pthread_t *helpers = calloc((size_t)threads, sizeof *helpers);
-    int started = 0;
-    pthread_mutex_init(&j->mutex, NULL);
-    cli_progress_begin(&j->progress, "comparing");
-    while (helpers && started < threads - 1 && started < j->count - 1 &&
-           pthread_create(&helpers[started], NULL, work, j) == 0)
-        started++;
-    work(j);
-    for (int k = 0; k < started; k++)
-        pthread_join(helpers[k], NULL);
-    cli_progress_end(&j->progress);
-    pthread_mutex_destroy(&j->mutex);
-    free(helpers);
-    if (j->result != HNBRDF_OK)
-        return cli_fail("%s", j->message.text);
-    for (int k = 0; k < j->count; k++) {
-        add_to_mean(&j->mean, &j->rows[k].error, j->count);
-        add_to_mean(&j->mean_against, &j->rows[k].error_against, j->count);
-    }
-    return CLI_OK;
-}
-
-/* ---- Which materials ------------------------------------------------------------------------- */
-
-/* 1 if both models have the material; else 0, or -1 after a message if that is an error. */
-static int find_material(const job *j, row *r, int skip_missing)
-{
-    const char *name = hnbrdf_measured_name(r->measured);
-    r->material = hnbrdf_model_find(j->model, name);
-    r->material_against = j->against ? hnbrdf_model_find(j->against, name) : 0;
-    if (r->material >= 0 && r->material_against >= 0)
-        return 1;
-    if (skip_missing)
-        return 0;
-    cli_fail("%s: the model has no material %s (--skip-missing leaves such data out)",
-             r->material < 0 ? j->path : j->path_against, name);
-    return -1;
-}
-
-static int choose_rows(job *j, const cli_data *data, int skip_missing)
-{
-    j->rows = calloc((size_t)data->count, sizeof *j->rows);
-    if (!j->rows)
-        return cli_fail("out of memory");
-    for (int k = 0; k < data->count; k++) {
-        row *r = &j->rows[j->count];
-        r->measured = data->items[k];
-        int found = find_material(j, r, skip_missing);
-        if (found < 0)
-            return CLI_FAILURE;
-        j->count += found;
-    }
-    return j->count ? CLI_OK
-                    : cli_fail("%s: the model has none of the materials of the data", j->path);
-}
-
-/* ---- Output ---------------------------------------------------------------------------------- */
-
-static void write_number(FILE *file, const char *before, double value)
-{
-    char text[HNBRDF_NUMBER_TEXT];
-    hnbrdf_format_float(text, sizeof text, (float)value);
-    fprintf(file, "%s%s", before, text);
-}
-
-static void print_row(const job *j, int width, const char *name, const hnbrdf_comparison *error,
-                      const hnbrdf_comparison *against)
-{
-    hnbrdf_model_desc desc;
-    hnbrdf_model_describe(j->model, &desc);
-    printf("%-*s  %8.4f", width, name, error->smape);
-    if (desc.kind == HNBRDF_KIND_NEURAL)
-        printf("  %8s", "-");
-    else
-        printf("  %8.4f", error->smape_analytic);
-    if (j->against)
-        printf("  %8.4f", against->smape);
-    printf("  %10zu\n", error->pairs);
-}
-
-static void print_wins(const job *j)
-{
-    int wins = 0, losses = 0;
-    for (int k = 0; k < j->count; k++) {
-        double gain = j->rows[k].error_against.smape - j->rows[k].error.smape;
-        wins += gain > 0.0;
-        losses += gain < 0.0;
-    }
-    printf("lower SMAPE: %s for %d of %d materials, %s (against) for %d\n", j->path, wins, j->count,
-           j->path_against, losses);
-}
-
-static void print_table(const job *j)
-{
-    int width = (int)strlen("material");
-    for (int k = 0; k < j->count; k++) {
-        int length = (int)strlen(hnbrdf_measured_name(j->rows[k].measured));
-        width = length > width ? length : width;
-    }
-    printf("%-*s  %8s  %8s%s  %10s\n", width, "material", "SMAPE", "analytic",
-           j->against ? "   against" : "", "pairs");
-    for (int k = 0; k < j->count; k++)
-        print_row(j, width, hnbrdf_measured_name(j->rows[k].measured), &j->rows[k].error,
-                  &j->rows[k].error_against);
-    print_row(j, width, "mean", &j->mean, &j->mean_against);
-    printf("\n%s sampler, %ld pairs a material, seed %ld; SMAPE: 0 is perfect, 2 the worst\n",
-           hnbrdf_sampler_name(j->sampler), j->pairs, j->seed);
-    cli_print_reading();
-    if (j->against)
-        print_wins(j);
-}
-
-static void write_csv_row(FILE *file, const char *name, const hnbrdf_comparison *error)
-{
-    csv_write_text(file, name);
-    write_number(file, ",", error->smape);
-    write_number(file, ",", error->smape_analytic);
-    fprintf(file, ",%zu\n", error->pairs);
-}
-
-static void write_csv(const job *j, FILE *file)
-{
-    fputs("material,smape,smape_analytic,pairs\n", file);
-    for (int k = 0; k < j->count; k++)
-        write_csv_row(file, hnbrdf_measured_name(j->rows[k].measured), &j->rows[k].error);
-    write_csv_row(file, "mean", &j->mean);
-}
-
-static void write_json_errors(const job *j, FILE *file, const hnbrdf_comparison *error,
-                              const hnbrdf_comparison *against)
-{
-    write_number(file, "\"smape\": ", error->smape);
-    write_number(file, ", \"smape_analytic\": ", error->smape_analytic);
-    write_number(file, ", \"mae\": ", error->mae);
-    write_number(file, ", \"mse\": ", error->mse);
-    if (j->against)
-        write_number(file, ", \"smape_against\": ", against->smape);
-    fprintf(file, ", \"pairs\": %zu}", error->pairs);
-}
-
-static void write_json(const job *j, FILE *file)
-{
-    fputs("{\n  \"model\": ", file);
-    cli_write_json_text(file, j->path);
-    if (j->against) {
-        fputs(",\n  \"against\": ", file);
-        cli_write_json_text(file, j->path_against);
-    }
-    fprintf(file,
-            ",\n  \"sampler\": \"%s\",\n  \"pairs\": %ld,\n  \"seed\": %ld,\n  \"materials\": [",
-            hnbrdf_sampler_name(j->sampler), j->pairs, j->seed);
-    for (int k = 0; k < j->count; k++) {
-        fprintf(file, "%s\n    {\"name\": ", k ? "," : "");
-        cli_write_json_text(file, hnbrdf_measured_name(j->rows[k].measured));
-        fputs(", ", file);
-        write_json_errors(j, file, &j->rows[k].error, &j->rows[k].error_against);
-    }
-    fputs("\n  ],\n  \"mean\": {", file);
-    write_json_errors(j, file, &j->mean, &j->mean_against);
-    fputs("\n}\n", file);
-}
-
-/* path may be NULL: nothing to write. */
-static int write_file(const job *j, const char *path, void (*write)(const job *j, FILE *file))
-{
-    cli_output output;
-    if (!path)
-        return CLI_OK;
-    if (cli_output_open(path, &output) != CLI_OK)
-        return CLI_FAILURE;
-    write(j, output.file);
-    return cli_output_close(&output);
-}
-
 /* ---- Command --------------------------------------------------------------------------------- */
 
 static int parse_sampler(const char *name, hnbrdf_sampler *sampler)
@@ -323,34 +75,47 @@ static int open_model(const char *path, hnbrdf_model **model)
     return cli_fail("%s: measured data, expected a model file", path);
 }
 
-static int is_stdout(const char *path)
+static int measure(model_comparison *j, const cli_data *data, int skip_missing, int threads)
 {
-    return path && strcmp(path, "-") == 0;
+    cli_progress progress;
+    hnbrdf_error error;
+    const report_watch watch = cli_watch(&progress);
+    hnbrdf_result result = compare_choose(j, data->items, data->count, skip_missing, &error);
+    cli_progress_begin(&progress, "comparing");
+    if (result == HNBRDF_OK)
+        result = compare_measure(j, threads, &watch, &error);
+    cli_progress_end(&progress);
+    return cli_code(result, &error);
 }
 
-static int run(job *j, char **data_arguments, int data_count, int skip_missing, int threads,
+static int run(model_comparison *j, char **arguments, int count, int skip_missing, int threads,
                const char *csv, const char *json)
 {
     cli_data data = {0};
-    int result = open_model(j->path, &j->model);
+    hnbrdf_model *model = NULL, *against = NULL;
+    int result = open_model(j->path, &model);
     if (result == CLI_OK && j->path_against)
-        result = open_model(j->path_against, &j->against);
+        result = open_model(j->path_against, &against);
+    j->model = model;
+    j->against = against;
     if (result == CLI_OK)
-        result = cli_open_data(data_arguments, data_count, &data);
+        result = cli_open_data(arguments, count, &data);
     if (result == CLI_OK)
-        result = choose_rows(j, &data, skip_missing);
+        result = measure(j, &data, skip_missing, threads);
+    if (result == CLI_OK && !cli_is_stdout(csv) && !cli_is_stdout(json)) {
+        compare_print(j, stdout);
+        cli_print_reading();
+        if (against)
+            compare_print_wins(j, stdout);
+    }
     if (result == CLI_OK)
-        result = measure_all(j, threads);
-    if (result == CLI_OK && !is_stdout(csv) && !is_stdout(json))
-        print_table(j);
+        result = cli_write_file(csv, compare_write_csv, j);
     if (result == CLI_OK)
-        result = write_file(j, csv, write_csv);
-    if (result == CLI_OK)
-        result = write_file(j, json, write_json);
+        result = cli_write_file(json, compare_write_json, j);
     cli_close_data(&data);
     free(j->rows);
-    hnbrdf_model_free(j->model);
-    hnbrdf_model_free(j->against);
+    hnbrdf_model_free(model);
+    hnbrdf_model_free(against);
     return result;
 }
 
@@ -373,7 +138,7 @@ static int check_images(int images, const compare_images_options *pictures, int 
 
 int cmd_compare(int argc, char **argv)
 {
-    job j = {.pairs = 200000, .seed = 1};
+    model_comparison j = {.pairs = 200000, .seed = 1};
     const char *sampler = "grid", *csv = NULL, *json = NULL;
     int skip_missing = 0, images = 0, count;
     long threads = 0;
@@ -412,18 +177,19 @@ int cmd_compare(int argc, char **argv)
     if (count < 2)
         return cli_usage(&command, "%s",
                          count ? "no DATA to compare with" : "no MODEL and no DATA");
-    if (csv && json && is_stdout(csv) && is_stdout(json))
+    if (cli_is_stdout(csv) && cli_is_stdout(json))
         return cli_usage(&command, "--csv and --json both to standard output");
-    if ((csv && (result = cli_output_check(csv))) || (json && (result = cli_output_check(json))))
+    if ((result = cli_output_check(csv)) || (result = cli_output_check(json)))
         return result;
     if (images) {
         pictures.paths = argv + 1;
         pictures.count = count;
         pictures.csv = csv;
         pictures.json = json;
-        return compare_images(&pictures);
+        pictures.table = cli_is_stdout(csv) || cli_is_stdout(json) ? NULL : stdout;
+        hnbrdf_error error;
+        return cli_code(compare_images(&pictures, &error), &error);
     }
     j.path = argv[1];
-    return run(&j, argv + 2, count - 1, skip_missing, threads ? (int)threads : cli_processors(),
-               csv, json);
+    return run(&j, argv + 2, count - 1, skip_missing, (int)threads, csv, json);
 }

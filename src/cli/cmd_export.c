@@ -1,7 +1,7 @@
 /* cmd_export.c: `hnbrdf export`: a model's materials as one GLSL include. */
 #include "cli/cli.h"
-#include "cli/texels.h"
 #include "hnbrdf/metrics.h"
+#include "report/texels.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -125,8 +125,23 @@ static int write_weights(const hnbrdf_model *model, const hnbrdf_glsl_options *o
     return cli_fail("%s: %s", path, error.text);
 }
 
+static int write_texels(const report_texels *texels, const char *path)
+{
+    hnbrdf_error error;
+    return cli_code(texels_write(texels, path, &error), &error);
+}
+
+static void print_packing(const report_texels *texels, FILE *file)
+{
+    cli_progress progress;
+    const report_watch watch = cli_watch(&progress);
+    cli_progress_begin(&progress, "error of the packing");
+    texels_print_cost(texels, &watch, file);
+    cli_progress_end(&progress);
+}
+
 static int export_to(const hnbrdf_model *model, const hnbrdf_glsl_options *options,
-                     const char *path, const cli_texels *texels)
+                     const char *path, const report_texels *texels)
 {
     cli_output output;
     if (cli_output_open(path, &output) != CLI_OK)
@@ -142,7 +157,7 @@ static int export_to(const hnbrdf_model *model, const hnbrdf_glsl_options *optio
         return CLI_FAILURE;
     print_summary(told, model, options, path, to.bytes);
     if (texels)
-        cli_texels_print_cost(texels, told);
+        print_packing(texels, told);
     return CLI_OK;
 }
 
@@ -175,7 +190,7 @@ static float *conserving_factors(const hnbrdf_model *model, const int *materials
 static int export_materials(const hnbrdf_model *model, const settings *set, const int *materials,
                             int count, const float *energy)
 {
-    cli_texels texels = {.model = model, .materials = materials, .count = count};
+    report_texels texels = {.model = model, .materials = materials, .count = count};
     hnbrdf_error error;
     if (set->pack >= 0 &&
         hnbrdf_packing_init(model, materials, count, (hnbrdf_texel_format)set->pack,
@@ -193,7 +208,7 @@ static int export_materials(const hnbrdf_model *model, const settings *set, cons
     warn(model, &options);
     if (set->weights_path && write_weights(model, &options, set->weights_path) != CLI_OK)
         return CLI_FAILURE;
-    if (set->texels && cli_texels_write(&texels, set->texels) != CLI_OK)
+    if (set->texels && write_texels(&texels, set->texels) != CLI_OK)
         return CLI_FAILURE;
     return export_to(model, &options, set->path, set->pack >= 0 ? &texels : NULL);
 }

@@ -1,8 +1,8 @@
 /* cmd_fit.c: hnbrdf fit: measured materials in, one model file out. */
 #include "cli/cli.h"
-#include "cli/fit_log.h"
+#include "report/fit_log.h"
 #include "bench/speed.h"
-#include "cli/loss_plot.h"
+#include "report/loss_plot.h"
 #include "hnbrdf/fit.h"
 
 #include "base/interrupt.h"
@@ -40,7 +40,6 @@ typedef struct display {
     loss_curve curve;
 } display;
 
-/* The fit calls it after every step. */
 static int show(void *user, const hnbrdf_fit_progress *p)
 {
     display *d = user;
@@ -184,7 +183,7 @@ static int run(job *j)
     hnbrdf_model *model = NULL;
     hnbrdf_fit_report report;
     hnbrdf_error error;
-    int code = fit_log_open(j->log, j->fit.resume, &d.curve, &d.log);
+    int code = cli_code(fit_log_open(j->log, j->fit.resume, &d.curve, &d.log, &error), &error);
     if (code)
         return code;
     j->fit.progress = show;
@@ -209,10 +208,11 @@ static int run(job *j)
             remove(j->fit.checkpoint);
         code = write_speed(j, &report);
     }
-    if (fit_log_close(&d.log, !result))
+    if (cli_code(fit_log_close(&d.log, !result, &error), &error))
         code = CLI_FAILURE;
     if (!code && j->plot)
-        code = loss_curve_plot(&d.curve, "training loss, running mean", j->plot);
+        code = cli_code(loss_curve_plot(&d.curve, "training loss, running mean", j->plot, &error),
+                        &error);
     loss_curve_free(&d.curve);
     hnbrdf_model_free(model);
     return code;

@@ -1,7 +1,8 @@
 /* cmd_info.c: `hnbrdf info`: what a model, a measured file or a collection of them holds. */
 #include "cli/cli.h"
-#include "cli/info_physics.h"
+#include "report/info_physics.h"
 #include "base/text.h"
+#include "base/write.h"
 
 #include <string.h>
 #include <sys/stat.h>
@@ -75,7 +76,7 @@ static void print_model(const char *path, const hnbrdf_model *model)
            "alpha (x y)", "rotation");
     for (int k = 0; k < desc.material_count; k++)
         print_material(&desc.materials[k], desc.names[k], width);
-    info_print_physics(model, width);
+    info_print_physics(model, width, stdout);
 }
 
 static void json_number(float value)
@@ -100,7 +101,7 @@ static void json_names(const char *const *names, int count)
     fputs("  \"materials\": [", stdout);
     for (int k = 0; k < count; k++) {
         fputs(k ? ", " : "", stdout);
-        cli_write_json_text(stdout, names[k]);
+        hnbrdf_write_json_text(stdout, names[k]);
     }
     fputs("],\n", stdout);
 }
@@ -109,14 +110,14 @@ static void json_material(const hnbrdf_model *model, const hnbrdf_material *m, c
                           int latent)
 {
     fputs("    {\"name\": ", stdout);
-    cli_write_json_text(stdout, name);
+    hnbrdf_write_json_text(stdout, name);
     json_numbers("kd", m->kd, 3);
     json_numbers("eta", m->eta, 3);
     json_numbers("alpha", m->alpha, 2);
     fputs(", \"rotation\": ", stdout);
     json_number(m->rotation);
     json_numbers("latent", m->latent, latent);
-    info_json_physics(model, m);
+    info_json_physics(model, m, stdout);
     putchar('}');
 }
 
@@ -171,17 +172,17 @@ static void print_measured(const char *path, const hnbrdf_measured *measured)
 static void json_measured(const hnbrdf_measured *measured)
 {
     fputs("{\"kind\": \"measured\", \"format\": ", stdout);
-    cli_write_json_text(stdout, format_name(measured));
+    hnbrdf_write_json_text(stdout, format_name(measured));
     fputs(", \"name\": ", stdout);
-    cli_write_json_text(stdout, hnbrdf_measured_name(measured));
+    hnbrdf_write_json_text(stdout, hnbrdf_measured_name(measured));
     printf(", \"isotropic\": %s", hnbrdf_measured_is_isotropic(measured) ? "true" : "false");
     fputs(", \"summary\": ", stdout);
-    cli_write_json_text(stdout, hnbrdf_measured_summary(measured));
+    hnbrdf_write_json_text(stdout, hnbrdf_measured_summary(measured));
     if (cli_read.merl_identify && hnbrdf_measured_format_of(measured) == HNBRDF_MEASURED_MERL) {
         const char *published = hnbrdf_measured_published(measured);
         fputs(", \"published\": ", stdout);
         if (published)
-            cli_write_json_text(stdout, published);
+            hnbrdf_write_json_text(stdout, published);
         else
             fputs("null", stdout);
     }
@@ -208,7 +209,7 @@ static void json_data(const cli_data *data)
     fputs("{\"kind\": \"data\", \"materials\": [", stdout);
     for (int k = 0; k < data->count; k++) {
         fputs(k ? ", " : "", stdout);
-        cli_write_json_text(stdout, hnbrdf_measured_name(data->items[k]));
+        hnbrdf_write_json_text(stdout, hnbrdf_measured_name(data->items[k]));
     }
     fputs("],\n \"items\": [", stdout);
     for (int k = 0; k < data->count; k++) {

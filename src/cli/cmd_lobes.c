@@ -1,8 +1,8 @@
 /* cmd_lobes.c: `hnbrdf lobes`: fit the lobes with which the materials of a model are sampled, and
  * show them. */
 #include "cli/cli.h"
-#include "cli/csv.h"
 #include "hnbrdf/edit.h"
+#include "base/write.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -62,7 +62,7 @@ static int write_csv(const char *path, const hnbrdf_model_desc *desc)
           output.file);
     for (int i = 0; i < desc->material_count; i++) {
         const hnbrdf_material *m = &desc->materials[i];
-        csv_write_text(output.file, desc->names[i]);
+        hnbrdf_write_csv_text(output.file, desc->names[i]);
         fprintf(output.file, ",%.9g,%.9g", (double)m->alpha[0], (double)m->alpha[1]);
         for (int k = 0; k < HNBRDF_LOBES; k++) {
             fprintf(output.file, ",%.9g", roughness(desc, m, k));

@@ -2,6 +2,8 @@
  * tables and plots. */
 #include "cli/report.h"
 
+#include "base/interrupt.h"
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -31,23 +33,7 @@ static const cli_command command = {
 
 /* ---- Output ---------------------------------------------------------------------------------- */
 
-static int write_results(const report *r)
-{
-    int result = report_write(r, "accuracy.csv", report_write_accuracy);
-    if (result == CLI_OK)
-        result = report_write(r, "materials.csv", report_write_materials);
-    if (result == CLI_OK)
-        result = report_write(r, "ggx.csv", report_write_ggx);
-    if (result == CLI_OK)
-        result = report_write(r, "ggx.svg", report_write_ggx_plot);
-    if (result == CLI_OK)
-        result = report_write(r, "report.md", report_write_markdown);
-    for (int n = 0; n < r->net_count && result == CLI_OK; n++)
-        result = report_write_net(r, "errors", r->nets[n], report_write_plot);
-    return result;
-}
-
-static int finished(const report *r, const report_entry *e)
+static void print_entry(const report *r, const report_entry *e)
 {
     if (e == r->entries)
         printf("%-20s  %8s  %8s  %8s  %8s  %8s\n", "model", "grid", "uniform", "cosine",
@@ -59,27 +45,44 @@ static int finished(const report *r, const report_entry *e)
     else
         printf("%8s  %8.1f\n", "", e->seconds);
     fflush(stdout);
-    return write_results(r);
+}
+
+static hnbrdf_result finished(const report *r, const report_entry *e)
+{
+    cli_progress_end(r->watch.user);
+    print_entry(r, e);
+    return report_write_accuracy_files(r);
 }
 
 /* ---- Command --------------------------------------------------------------------------------- */
 
-static int run(report *r, char **data, int count)
+static int run(report *r, char **arguments, int count)
 {
-    int result = cli_open_data(data, count, &r->data);
-    if (result != CLI_OK)
-        return result;
-    result = report_make_folders(r, "models");
-    if (result == CLI_OK)
+    cli_data data = {0};
+    cli_progress progress;
+    hnbrdf_error error;
+    int code = cli_open_data(arguments, count, &data);
+    if (code != CLI_OK)
+        return code;
+    r->data = (report_data){data.items, data.count};
+    r->watch = cli_watch(&progress);
+    r->error = &error;
+    cli_progress_begin(&progress, "report");
+    hnbrdf_catch_interrupts(1);
+    hnbrdf_result result = report_make_folders(r, "models");
+    if (result == HNBRDF_OK)
         result = report_make_entries(r);
-    if (result == CLI_OK)
+    if (result == HNBRDF_OK)
         result = report_run(r, finished);
-    if (result == CLI_OK)
+    hnbrdf_catch_interrupts(0);
+    cli_progress_end(&progress);
+    code = cli_code(result, &error);
+    if (code == CLI_OK)
         printf("\n%s/report.md: tables and plots; SMAPE, 0 is perfect, 2 the worst\n",
                r->directory);
     report_free_entries(r);
-    cli_close_data(&r->data);
-    return result;
+    cli_close_data(&data);
+    return code;
 }
 
 /* What --quick stands for, where nothing else is asked for. */

@@ -1,10 +1,11 @@
 /* cmd_report_images.c: `hnbrdf report images`: PSNR of spheres for a grid of networks and
  * baselines, with picture rows, material by material, so that what an interrupted run has done
  * stays. */
-#include "base/csv.h"
-#include "base/hash.h"
 #include "cli/report.h"
-#include "base/text.h"
+
+#include "base/interrupt.h"
+
+#include "base/error.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -33,187 +34,7 @@ static const cli_command command = {
     "hnbrdf report images rgl/ --model rgl.safetensors --size 256 --spp 256 -o rgl-images",
 };
 
-/* ---- What figures were made with ------------------------------------------------------------- */
-
-static int hash_bytes(void *user, const void *data, size_t size)
-{
-    uint64_t *hash = user;
-    *hash = hnbrdf_hash(*hash, data, size);
-    return 0;
-}
-
-/* images.txt: what has to be the same for figures to be reused. */
-static void write_settings(const report *r, hnbrdf_model *const *models, FILE *file)
-{
-    fprintf(file, "hnbrdf %s\nenv %s\nrotate %.9g\nsize %ld\nspp %ld\nseed %ld\nrows %ld\n",
-            hnbrdf_version(), r->light.env, r->light.rotate, r->image_size, r->light.spp,
-            r->light.seed, r->rows);
-    for (int m = 0; m < r->data.count; m++)
-        fprintf(file, "material %s: %s\n", hnbrdf_measured_name(r->data.items[m]),
-                hnbrdf_measured_summary(r->data.items[m]));
-    for (int k = 0; k < r->count; k++) {
-        uint64_t hash = HNBRDF_HASH_START;
-        hnbrdf_model_write(models[k], hash_bytes, &hash, NULL);
-        fprintf(file, "model %s %016llx\n", r->entries[k].name, (unsigned long long)hash);
-    }
-}
-
-/* 1 if DIR/images.txt is what write_settings() would write, 0 if not, -1 after a message. */
-static int same_settings(const report *r, hnbrdf_model *const *models)
-{
-    char *wanted = NULL, *path = report_path_in(r, "images.txt");
-    size_t size = 0, count = 0;
-    FILE *file = path ? fopen(path, "rb") : NULL, *memory = open_memstream(&wanted, &size);
-    free(path);
-    if (memory) {
-        write_settings(r, models, memory);
-        fclose(memory);
-    }
-    int same = file && wanted;
-    for (int c; same && (c = getc(file)) != EOF; count++)
-        same = count < size && (unsigned char)wanted[count] == c;
-    if (file)
-        fclose(file);
-    free(wanted);
-    return memory ? same && count == size : (cli_fail("out of memory"), -1);
-}
-
-static int keep_settings(const report *r, hnbrdf_model *const *models)
-{
-    cli_output output;
-    char *path = report_path_in(r, "images.txt");
-    int code = path ? cli_output_open(path, &output) : CLI_FAILURE;
-    free(path);
-    if (code != CLI_OK)
-        return code;
-    write_settings(r, models, output.file);
-    return cli_output_close(&output);
-}
-
-/* ---- Figures of an earlier run --------------------------------------------------------------- */
-
-static report_picture *find_picture(report *r, const char *material, const char *name)
-{
-    for (int m = 0; m < r->data.count; m++)
-        for (int k = 0; k < r->count; k++)
-            if (strcmp(material, hnbrdf_measured_name(r->data.items[m])) == 0 &&
-                strcmp(name, r->entries[k].name) == 0)
-                return &r->entries[k].pictures[m];
-    return NULL;
-}
-
-/* A row of images.csv; what is not one is made again. */
-static void read_row(report *r, const hnbrdf_csv_reader *reader)
-{
-    double values[6];
-    report_picture *p =
-        reader->count == 12 ? find_picture(r, reader->fields[0], reader->fields[11]) : NULL;
-    for (int k = 0; k < 6 && p; k++)
-        if (strcmp(reader->fields[5 + k], "inf") == 0)
-            values[k] = (double)INFINITY;
-        else if (!cli_parse_real(reader->fields[5 + k], &values[k]))
-            p = NULL;
-    if (p)
-        *p = (report_picture){1, values[0], values[1], values[2], values[3], values[4], values[5]};
-}
-
-static int read_figures(report *r)
-{
-    hnbrdf_error error;
-    hnbrdf_csv_reader *reader = malloc(sizeof *reader);
-    char *path = report_path_in(r, "images.csv");
-    FILE *file = path ? fopen(path, "r") : NULL;
-    int found = 1;
-    if (reader && file) {
-        hnbrdf_csv_begin(reader, file, path);
-        while ((found = hnbrdf_csv_next(reader, &error)) == 1)
-            read_row(r, reader);
-    }
-    if (file)
-        fclose(file);
-    int code = !path       ? CLI_FAILURE
-               : !reader   ? cli_fail("out of memory")
-               : found < 0 ? cli_fail("%s", error.text)
-                           : CLI_OK;
-    free(reader);
-    free(path);
-    return code;
-}
-
-static int is_done(const report *r, int m)
-{
-    int done = 1;
-    for (int k = 0; k < r->count; k++)
-        done &= r->entries[k].pictures[m].done;
-    return done;
-}
-
 /* ---- Measuring ------------------------------------------------------------------------------- */
-
-/* 1 if the picture of this entry is in the picture rows. */
-static int is_shown(const report *r, const report_entry *e)
-{
-    return e == report_find(r, e->form, r->nets[r->net_count - 1], r->latents[0]);
-}
-
-static int measure_entry(report *r, int m, report_entry *e, const hnbrdf_model *model)
-{
-    render_image picture = {0};
-    int kept = render_has_exr() && report_rows_has(r, m) && is_shown(r, e);
-    int code = report_images_measure(r, m, e, model, kept ? &picture : NULL);
-    if (code == CLI_OK && kept)
-        code = report_rows_keep(r, m, e->name, &picture);
-    render_image_free(&picture);
-    return code;
-}
-
-static int measure_material(report *r, int m, hnbrdf_model *const *models)
-{
-    int code = report_images_reference(r, m, models[0]);
-    for (int k = 0; k < r->count && code == CLI_OK; k++)
-        code = measure_entry(r, m, &r->entries[k], models[k]);
-    if (code == CLI_OK && render_has_exr() && report_rows_has(r, m))
-        code = report_rows_keep(r, m, "reference", report_images_mean_reference(r, m));
-    report_images_drop_reference(r, m);
-    if (code != CLI_OK)
-        for (int k = 0; k < r->count; k++)
-            r->entries[k].pictures[m].done = 0;
-    return code;
-}
-
-static int write_results(report *r)
-{
-    for (int k = 0; k < r->count; k++) {
-        report_images_average(r, &r->entries[k]);
-        r->entries[k].done = is_done(r, r->data.count - 1);
-    }
-    int code = report_write(r, "images.csv", report_write_images_csv);
-    for (int n = 0; n < r->net_count && code == CLI_OK && r->entries[0].done; n++)
-        code = report_write_net(r, "psnr", r->nets[n], report_write_psnr_plot);
-    return code == CLI_OK ? report_write(r, "images.md", report_write_images_markdown) : code;
-}
-
-static int measure_all(report *r, hnbrdf_model *const *models)
-{
-    int left = 0, code = CLI_OK;
-    for (int m = 0; m < r->data.count; m++)
-        left += !is_done(r, m) || !report_rows_is_kept(r, m);
-    picture_progress progress = {.count = left * 2 * (r->count + 1)};
-    report_images_watch(r, &progress);
-    report_catch_interrupts(1);
-    cli_progress_begin(&progress.line, "rendering");
-    for (int m = 0; m < r->data.count && code == CLI_OK; m++) {
-        progress.detail = hnbrdf_measured_name(r->data.items[m]);
-        if (is_done(r, m) && report_rows_is_kept(r, m))
-            continue;
-        code = measure_material(r, m, models);
-        if (code == CLI_OK)
-            code = write_results(r);
-    }
-    cli_progress_end(&progress.line);
-    report_catch_interrupts(0);
-    return code;
-}
 
 static void print_models(const report *r)
 {
@@ -223,61 +44,88 @@ static void print_models(const report *r)
                r->entries[k].mean_psnr, r->entries[k].mean_psnr_error);
 }
 
-static int measure_and_write(report *r, hnbrdf_model *const *models)
+static hnbrdf_result measure_and_write(report *r, hnbrdf_model *const *models)
 {
-    int same = r->resume ? same_settings(r, models) : 0;
-    int code = same < 0 ? CLI_FAILURE : report_make_folders(r, "pictures");
-    if (code == CLI_OK && same)
-        code = read_figures(r);
+    int same = 0;
+    hnbrdf_result result = HNBRDF_OK;
+    if (r->resume)
+        result = report_images_same_settings(r, models, &same);
+    if (result == HNBRDF_OK)
+        result = report_make_folders(r, "pictures");
+    if (result == HNBRDF_OK && same)
+        result = report_images_read_figures(r);
     /* Figures made with other settings are forgotten before the new settings are kept. */
-    if (code == CLI_OK && !same)
-        code = report_write(r, "images.csv", report_write_images_csv);
-    if (code == CLI_OK)
-        code = keep_settings(r, models);
-    if (code == CLI_OK)
-        code = report_images_open(r);
-    if (code == CLI_OK)
-        code = measure_all(r, models);
-    if (code == CLI_OK)
-        code = write_results(r);
-    if (code == CLI_OK)
+    if (result == HNBRDF_OK && !same)
+        result = report_write(r, "images.csv", report_write_images_csv);
+    if (result == HNBRDF_OK)
+        result = report_images_keep_settings(r, models);
+    if (result == HNBRDF_OK)
+        result = report_images_open(r);
+    if (result == HNBRDF_OK) {
+        cli_progress_begin(r->watch.user, "rendering");
+        hnbrdf_catch_interrupts(1);
+        result = report_images_run(r, models, report_write_image_files);
+        cli_progress_end(r->watch.user);
+        hnbrdf_catch_interrupts(0);
+    }
+    if (result == HNBRDF_OK)
+        result = report_write_image_files(r);
+    if (result == HNBRDF_OK)
         print_models(r);
-    if (code == CLI_OK && r->rows > 0 && render_has_exr())
-        code = report_rows_write(r);
-    else if (code == CLI_OK && r->rows > 0)
+    if (result == HNBRDF_OK && r->rows > 0 && render_has_exr())
+        result = report_rows_write(r);
+    else if (result == HNBRDF_OK && r->rows > 0)
         cli_warn("built without OpenEXR: no picture rows");
     report_images_end(r);
-    return code;
+    return result;
 }
 
 /* ---- Command --------------------------------------------------------------------------------- */
 
-static int run(report *r, char **data, int count)
+static hnbrdf_result make_models(report *r, hnbrdf_model **models)
 {
-    int code = cli_open_data(data, count, &r->data);
+    cli_progress_begin(r->watch.user, "report");
+    hnbrdf_catch_interrupts(1);
+    hnbrdf_result result = report_make_models(r, models);
+    cli_progress_end(r->watch.user);
+    hnbrdf_catch_interrupts(0);
+    return result;
+}
+
+static int run(report *r, char **arguments, int count)
+{
+    cli_data data = {0};
+    cli_progress progress = {0};
+    hnbrdf_error error;
+    int code = cli_open_data(arguments, count, &data);
     if (code != CLI_OK)
         return code;
+    r->data = (report_data){data.items, data.count};
+    r->watch = cli_watch(&progress);
+    r->error = &error;
     hnbrdf_model **models = NULL, *given = NULL;
+    hnbrdf_result result = HNBRDF_OK;
     if (r->given) /* before anything takes time */
-        code = report_load_model(r, r->given, &given);
+        result = report_load_model(r, r->given, &given);
     hnbrdf_model_free(given);
-    if (code == CLI_OK)
-        code = report_make_folders(r, "models");
-    if (code == CLI_OK)
-        code = report_make_entries(r);
-    if (code == CLI_OK && !(models = calloc((size_t)r->count, sizeof *models)))
-        code = cli_fail("out of memory");
-    if (code == CLI_OK)
-        code = report_make_models(r, models);
-    if (code == CLI_OK)
-        code = measure_and_write(r, models);
+    if (result == HNBRDF_OK)
+        result = report_make_folders(r, "models");
+    if (result == HNBRDF_OK)
+        result = report_make_entries(r);
+    if (result == HNBRDF_OK)
+        result = (models = calloc((size_t)r->count, sizeof *models))
+                     ? make_models(r, models)
+                     : hnbrdf_fail(&error, HNBRDF_ERROR_MEMORY, "out of memory");
+    if (result == HNBRDF_OK)
+        result = measure_and_write(r, models);
+    code = cli_code(result, &error);
     if (code == CLI_OK)
         printf("%s/images.md\n", r->directory);
     for (int k = 0; k < r->count && models; k++)
         hnbrdf_model_free(models[k]);
     free(models);
     report_free_entries(r);
-    cli_close_data(&r->data);
+    cli_close_data(&data);
     return code;
 }
 

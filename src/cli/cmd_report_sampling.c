@@ -1,6 +1,8 @@
 /* cmd_report_sampling.c: `hnbrdf report sampling`: noise of drawing directions in several ways. */
 #include "cli/report.h"
-#include "cli/sampling.h"
+
+#include "base/interrupt.h"
+#include "report/sampling.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -74,36 +76,44 @@ static void print_means(const sampling_report *r)
         printf("  %9.3g", sampling_mean_efficiency(r, (sampling_way)way));
 }
 
-static int run(sampling_report *r)
+static void print_heading(const sampling_report *r)
 {
-    picture_progress progress = {.count = r->count};
-    int code = CLI_OK;
     printf("variance of one sample over that of the table, %s\n%-28s %7s", r->light.env, "material",
            "alpha");
     for (int way = 0; way < SAMPLING_WAYS; way++)
         printf("  %9s", sampling_name((sampling_way)way));
     putchar('\n');
-    cli_progress_begin(&progress.line, "sampling");
-    report_catch_interrupts(1);
-    for (int m = 0; m < r->count && code == CLI_OK; m++) {
-        progress.first = m;
-        progress.detail = r->subjects[m].name;
-        code = sampling_measure(r, &r->subjects[m], &progress);
-        if (code == CLI_OK) {
+}
+
+static int run(sampling_report *r)
+{
+    cli_progress progress;
+    hnbrdf_error error;
+    hnbrdf_result result = HNBRDF_OK;
+    int stopped = 0;
+    r->watch = cli_watch(&progress);
+    r->error = &error;
+    print_heading(r);
+    cli_progress_begin(&progress, "sampling");
+    hnbrdf_catch_interrupts(1);
+    for (int m = 0; m < r->count && result == HNBRDF_OK && !stopped; m++) {
+        result = sampling_measure(r, m);
+        if (result == HNBRDF_OK) {
             print_subject(&r->subjects[m]);
-            code = sampling_write(r);
+            result = sampling_write(r);
         }
-        if (report_interrupted())
-            code = cli_fail("interrupted after %d of %d materials; what is done is in %s", m + 1,
-                            r->count, r->directory);
+        stopped = hnbrdf_interrupted() ? m + 1 : 0;
     }
-    report_catch_interrupts(0);
-    cli_progress_end(&progress.line);
-    if (code != CLI_OK)
-        return code;
+    hnbrdf_catch_interrupts(0);
+    cli_progress_end(&progress);
+    if (result != HNBRDF_OK)
+        return cli_code(result, &error);
+    if (stopped)
+        return cli_fail("interrupted after %d of %d materials; what is done is in %s", stopped,
+                        r->count, r->directory);
     print_means(r);
     printf("\n\n%s/sampling.md: tables, plot and pictures\n", r->directory);
-    return sampling_write_strips(r);
+    return cli_code(sampling_write_strips(r), &error);
 }
 
 static int open_models(sampling_report *r, char *const *paths, int count, long most, long strips)

@@ -1,10 +1,14 @@
 /* cmd_stability.c: `hnbrdf stability`: every implementation against the oracle, where floats are
  * hard pressed. */
 #include "cli/cli.h"
-#include "cli/stability_gpu.h"
-#include "cli/stability_plot.h"
-#include "cli/stability_report.h"
 #include "image/image.h"
+#include "report/stability_plot.h"
+#include "report/stability_report.h"
+#ifdef HNBRDF_WITH_VULKAN
+#include "gpu/stability.h"
+#else
+enum { STABILITY_GPU_BACKENDS = 0 };
+#endif
 
 #include <stdlib.h>
 #include <string.h>
@@ -45,7 +49,7 @@ static void on_progress(void *user, double share)
 typedef struct contest {
     stability_backend backends[STABILITY_C_BACKENDS + STABILITY_GPU_BACKENDS];
     int count;
-    stability_gpus *gpus;
+    struct stability_gpus *gpus;
 } contest;
 
 static int run_model(const char *path, const settings *set, contest *c, stability_result *result)
@@ -69,39 +73,49 @@ static int run_model(const char *path, const settings *set, contest *c, stabilit
     cli_progress_end(&progress);
     int failed = code == HNBRDF_OK ? CLI_OK : cli_fail("%s: %s", path, error.text);
     if (!failed && set->plot)
-        failed = stability_plot(set->plot, model, path, c->backends, c->count);
+        failed =
+            cli_code(stability_plot(set->plot, model, path, c->backends, c->count, &error), &error);
     hnbrdf_model_free(model);
     return failed;
 }
 
-static int write_file(const char *path, const stability_result *results, int count,
-                      void (*write)(const stability_result *results, int count, FILE *file))
+#ifdef HNBRDF_WITH_VULKAN
+static int add_gpus(const settings *set, contest *c)
 {
-    cli_output output;
-    if (!path)
-        return CLI_OK;
-    if (cli_output_open(path, &output) != CLI_OK)
-        return CLI_FAILURE;
-    write(results, count, output.file);
-    return cli_output_close(&output);
+    hnbrdf_error error;
+    char note[128] = "";
+    int count = 0;
+    hnbrdf_result result = stability_gpus_open(set->device, set->styles, &c->gpus,
+                                               c->backends + c->count, &count, note, &error);
+    c->count += count;
+    if (result != HNBRDF_OK) {
+        cli_fail("%s", error.text);
+        return result == HNBRDF_ERROR_ARGUMENT ? CLI_USAGE : CLI_FAILURE;
+    }
+    if (note[0])
+        fprintf(stderr, "%s\n", note);
+    return CLI_OK;
+}
+#else
+static int add_gpus(const settings *set, contest *c)
+{
+    (void)set;
+    (void)c;
+    fputs("no GPU: this program was built without Vulkan\n", stderr);
+    return CLI_OK;
 }
 
-static int is_stdout(const char *path)
+static void stability_gpus_close(struct stability_gpus *gpus)
 {
-    return path && strcmp(path, "-") == 0;
+    (void)gpus;
 }
+#endif
 
 static int compare_all(char **paths, int count, const settings *set, stability_result *results)
 {
     contest c = {.count = 0};
-    char note[128] = "";
-    int gpu_count = 0;
     c.count = stability_c_backends(c.backends);
-    int code = stability_gpus_open(set->device, set->styles, &c.gpus, c.backends + c.count,
-                                   &gpu_count, note);
-    c.count += gpu_count;
-    if (code == CLI_OK && note[0])
-        fprintf(stderr, "%s\n", note);
+    int code = add_gpus(set, &c);
     for (int m = 0; m < count && code == CLI_OK; m++)
         code = run_model(paths[m], set, &c, &results[m]);
     stability_gpus_close(c.gpus);
@@ -112,15 +126,16 @@ static int run(char **paths, int count, const settings *set, stability_result *r
 {
     const char *const files[] = {set->csv, set->json, set->plot};
     for (int k = 0; k < 3; k++)
-        if (files[k] && cli_output_check(files[k]) != CLI_OK)
+        if (cli_output_check(files[k]) != CLI_OK)
             return CLI_FAILURE;
     int code = compare_all(paths, count, set, results);
     if (code != CLI_OK)
         return code;
-    if (!is_stdout(set->csv) && !is_stdout(set->json))
+    const stability_results all = {results, count};
+    if (!cli_is_stdout(set->csv) && !cli_is_stdout(set->json))
         stability_print(results, count, !set->all, stdout);
-    if (write_file(set->csv, results, count, stability_write_csv) != CLI_OK ||
-        write_file(set->json, results, count, stability_write_json) != CLI_OK)
+    if (cli_write_file(set->csv, stability_write_csv, &all) != CLI_OK ||
+        cli_write_file(set->json, stability_write_json, &all) != CLI_OK)
         return CLI_FAILURE;
     return stability_passed(results, count) ? CLI_OK : CLI_FAILURE;
 }

@@ -3,7 +3,7 @@
 #include "cli/cli.h"
 
 #ifdef HNBRDF_WITH_VULKAN
-#include "cli/verify_report.h"
+#include "report/verify_report.h"
 #include "gpu/compile.h"
 
 #include <stdlib.h>
@@ -128,30 +128,13 @@ static void verify_device(const gpu_instance *instance, const verification *v, c
 
 /* ---- All of it ------------------------------------------------------------------------------- */
 
-static int write_file(const verification *v, const char *path,
-                      void (*write)(const verification *v, FILE *file))
-{
-    cli_output output;
-    if (!path)
-        return CLI_OK;
-    if (cli_output_open(path, &output) != CLI_OK)
-        return CLI_FAILURE;
-    write(v, output.file);
-    return cli_output_close(&output);
-}
-
-static int is_stdout(const char *path)
-{
-    return path && strcmp(path, "-") == 0;
-}
-
 static int write_results(const verification *v, const settings *set)
 {
-    if (!is_stdout(set->csv) && !is_stdout(set->json))
+    if (!cli_is_stdout(set->csv) && !cli_is_stdout(set->json))
         verification_print(v, stdout);
-    int result = write_file(v, set->csv, verification_write_csv);
+    int result = cli_write_file(set->csv, verification_write_csv, v);
     if (result == CLI_OK)
-        result = write_file(v, set->json, verification_write_json);
+        result = cli_write_file(set->json, verification_write_json, v);
     if (result != CLI_OK || verification_passed(v))
         return result;
     return cli_fail("%s: the shader is not proven equal to the C library on every device tried",

@@ -4,17 +4,11 @@
 #define HNBRDF_CLI_PICTURE_H
 
 #include "cli/cli.h"
-#include "hnbrdf/metrics.h"
-#include "render/render.h"
+#include "report/picture.h"
 
 #include <math.h>
 
-typedef struct picture_options {
-    const char *env;
-    double rotate;   /* degrees */
-    double exposure; /* stops; NAN: chosen */
-    long spp, seed, threads;
-} picture_options;
+typedef report_light picture_options;
 
 #define PICTURE_DEFAULTS(samples)                                  \
     {                                                              \
@@ -55,7 +49,7 @@ int picture_open_light(picture_options *options, render_environment *environment
 
 /* Writes path and, for an .exr, a .png beside it; says so on stdout. 0, or CLI_FAILURE. */
 int picture_write(const render_image *image, const char *path, const render_write_options *options);
-/* The same, but nothing on stdout. */
+/* The same as picture_write(), but nothing on stdout. */
 int picture_write_quietly(const render_image *image, const char *path,
                           const render_write_options *options);
 
@@ -63,10 +57,6 @@ int picture_write_quietly(const render_image *image, const char *path,
  * same size. 0, or CLI_FAILURE. */
 int picture_compare(const render_image *image, const render_image *reference,
                     hnbrdf_image_error *error);
-/* Of pictures rendered twice: see hnbrdf_image_compare_twice(). */
-int picture_compare_twice(const render_image image[2], const render_image reference[2],
-                          hnbrdf_image_error *error, hnbrdf_image_noise *noise);
-
 /* One picture of several: `first` of `count` is being rendered. For render_options.progress. */
 typedef struct picture_progress {
     cli_progress line;

@@ -1,4 +1,4 @@
-/* report_options.c: lists of networks and models, and the files of a report's folder. */
+/* report_options.c: lists of networks and models. */
 #include "cli/report.h"
 
 #include <stdlib.h>
@@ -79,56 +79,4 @@ char *report_join(int argc, char **argv)
     for (int k = 0; k < argc; k++)
         at += (size_t)snprintf(text + at, size - at, " %s", argv[k]);
     return text;
-}
-
-/* ---- Output ---------------------------------------------------------------------------------- */
-
-char *report_path_in(const report *r, const char *name)
-{
-    size_t size = strlen(r->directory) + strlen(name) + 2;
-    char *path = malloc(size);
-    if (path)
-        snprintf(path, size, "%s/%s", r->directory, name);
-    else
-        cli_fail("out of memory");
-    return path;
-}
-
-int report_make_folders(const report *r, const char *name)
-{
-    char *path = report_path_in(r, name);
-    int result = path ? cli_make_folder(r->directory) : CLI_FAILURE;
-    if (result == CLI_OK)
-        result = cli_make_folder(path);
-    free(path);
-    return result;
-}
-
-static int open_result(const report *r, const char *name, cli_output *output)
-{
-    char *path = report_path_in(r, name);
-    int result = path ? cli_output_open(path, output) : CLI_FAILURE;
-    free(path);
-    return result;
-}
-
-int report_write(const report *r, const char *name, void (*write)(const report *r, FILE *file))
-{
-    cli_output output;
-    if (open_result(r, name, &output) != CLI_OK)
-        return CLI_FAILURE;
-    write(r, output.file);
-    return cli_output_close(&output);
-}
-
-int report_write_net(const report *r, const char *name, const int net[2],
-                     void (*write)(const report *r, const int net[2], FILE *file))
-{
-    char full[64];
-    cli_output output;
-    snprintf(full, sizeof full, "%s-%dx%d.svg", name, net[0], net[1]);
-    if (open_result(r, full, &output) != CLI_OK)
-        return CLI_FAILURE;
-    write(r, net, output.file);
-    return cli_output_close(&output);
 }

@@ -1,6 +1,7 @@
 /* scene_compare.c: what models cost and what they lose in one scene, against the measurements in
  * it. */
 #include "cli/scene_compare.h"
+#include "base/write.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -172,7 +173,7 @@ static int write_json(const char *path, const row *rows)
     fputs("[\n", output.file);
     for (int i = 0; i < ROWS; i++) {
         fputs("  {\"shown\": ", output.file);
-        cli_write_json_text(output.file, kinds[i].name);
+        hnbrdf_write_json_text(output.file, kinds[i].name);
         fprintf(output.file, ", \"%s\": %.9g", i == MEASURED ? "noise_mae" : "mae", rows[i].mae);
         if (i != MEASURED) {
             write_decibel(output.file, "psnr", rows[i].psnr);

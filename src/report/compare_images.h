@@ -1,0 +1,20 @@
+/* compare_images.h: `hnbrdf compare --images`: how far pictures are from a reference picture. */
+#ifndef HNBRDF_REPORT_COMPARE_IMAGES_H
+#define HNBRDF_REPORT_COMPARE_IMAGES_H
+
+#include "hnbrdf/hnbrdf.h"
+
+#include <stdio.h>
+
+typedef struct compare_images_options {
+    char *const *paths; /* [count], the reference last; at least two */
+    int count;
+    const char *csv, *json; /* where to write the table; NULL: nowhere */
+    const char *difference; /* where to draw the difference of the only picture; NULL: nowhere */
+    double top;             /* of its scale; 0: chosen */
+    FILE *table; /* gets the table for people and the names of the pictures; NULL: nowhere */
+} compare_images_options;
+
+hnbrdf_result compare_images(const compare_images_options *options, hnbrdf_error *error);
+
+#endif
