@@ -70,4 +70,4 @@ hnbrdf_room(cli
   cmd_report.c cmd_report_images.c cmd_report_sampling.c cmd_scene.c cmd_sheet.c
   cmd_stability.c cmd_verify.c gallery_choose.c gallery_pages.c gallery_strips.c main.c
   output.c picture.c progress.c reading.c render_gpu.c render_mesh.c report_options.c
-  scene_compare.c scene_job.c sources.c watch.c)
+  scene_compare.c scene_job.c sources.c watch.c words.c)

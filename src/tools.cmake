@@ -19,7 +19,11 @@ hnbrdf_tool_room(image hnbrdf_static)
 hnbrdf_tool_room(render hnbrdf_image hnbrdf_measured_static Threads::Threads)
 hnbrdf_tool_room(scene hnbrdf_render)
 hnbrdf_tool_room(plot hnbrdf_static)
-hnbrdf_tool_room(report hnbrdf_plot hnbrdf_bake_static)
+if(NOT HNBRDF_WITH_VULKAN)
+  list(REMOVE_ITEM HNBRDF_ROOM_report src/report/verify_report.c)
+endif()
+hnbrdf_tool_room(report hnbrdf_scene hnbrdf_plot hnbrdf_check hnbrdf_bake_static hnbrdf_fit_static
+  hnbrdf_metrics_static)
 hnbrdf_tool_room(bench hnbrdf_plot hnbrdf_render hnbrdf_check hnbrdf_fit_static hnbrdf_metrics_static)
 
 target_include_directories(hnbrdf_image SYSTEM PRIVATE ${STB_INCLUDE_DIR})
@@ -44,11 +48,6 @@ if(HNBRDF_HAS_QUADMATH)
   target_compile_definitions(hnbrdf_check PRIVATE HNBRDF_ORACLE_QUAD)
   target_link_libraries(hnbrdf_check PRIVATE quadmath)
 endif()
-
-if(NOT HNBRDF_WITH_VULKAN)
-  list(REMOVE_ITEM HNBRDF_ROOM_report src/report/verify_report.c)
-endif()
-hnbrdf_tool_room(report hnbrdf_scene hnbrdf_plot hnbrdf_check hnbrdf_fit_static hnbrdf_metrics_static)
 
 add_executable(hnbrdf_cli ${HNBRDF_ROOM_cli})
 set_target_properties(hnbrdf_cli PROPERTIES OUTPUT_NAME hnbrdf

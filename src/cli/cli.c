@@ -117,6 +117,11 @@ const char *cli_guess_nearest(const cli_guess *guess)
 
 /* ---- Tables ---------------------------------------------------------------------------------- */
 
+cli_option cli_table_option(const cli_option *table)
+{
+    return (cli_option){.name = "", .type = CLI_TABLE, .value = (void *)table};
+}
+
 /* Option k of a table and of the tables in it, or NULL past the last. */
 static const cli_option *option_at(const cli_option *options, int k)
 {
@@ -236,24 +241,38 @@ static int parse_whole(const char *text, double *value)
     return cli_parse_real(text, value) && fabs(*value) <= limit && *value == floor(*value);
 }
 
-static int parse_net(const char *text, int net[2])
+const char *cli_parse_net(const char *text, int net[2])
 {
     int parts[2] = {0, 0};
     for (int k = 0; k < 2; k++) {
         size_t digits = strspn(text, "0123456789");
         if (digits < 1 || digits > 4)
-            return 0;
+            return NULL;
         for (; digits > 0; digits--)
             parts[k] = 10 * parts[k] + (*text++ - '0');
         if (k == 0 && *text++ != 'x')
-            return 0;
+            return NULL;
     }
-    if (*text || parts[0] < 1 || parts[0] > HNBRDF_MAX_HIDDEN || parts[1] < 1 ||
+    if (parts[0] < 1 || parts[0] > HNBRDF_MAX_HIDDEN || parts[1] < 1 ||
         parts[1] > HNBRDF_MAX_LAYERS)
-        return 0;
+        return NULL;
     net[0] = parts[0];
     net[1] = parts[1];
-    return 1;
+    return text;
+}
+
+static int set_net(const cli_command *command, const cli_option *option, const char *text)
+{
+    int net[2];
+    const char *end = cli_parse_net(text, net);
+    if (!end || *end)
+        return cli_usage(
+            command,
+            "--%s: '%s' is not HxN, as in 32x2: H units from 1 to %d in each of N hidden "
+            "layers from 1 to %d",
+            option->name, text, HNBRDF_MAX_HIDDEN, HNBRDF_MAX_LAYERS);
+    memcpy(option->value, net, sizeof net);
+    return -1;
 }
 
 /* The number of text among the words of "a|b|c", or -1. */
@@ -268,6 +287,53 @@ static int find_choice(const char *words, const char *text)
             return -1;
         words += word + 1;
     }
+}
+
+/* "a, b or c" of all names. */
+static const char *list_words(const cli_word *word, char *text, size_t size)
+{
+    size_t length = 0;
+    text[0] = '\0';
+    for (int k = 0; word->name(k) && length < size; k++) {
+        const char *before = k == 0 ? "" : word->name(k + 1) ? ", " : " or ";
+        length += (size_t)snprintf(text + length, size - length, "%s%s", before, word->name(k));
+    }
+    return text;
+}
+
+static int fail_word(const cli_command *command, const cli_option *option, const char *text)
+{
+    char words[256];
+    const cli_word *word = option->value;
+    cli_guess guess;
+    cli_guess_begin(&guess, text);
+    for (int k = 0; word->name(k); k++)
+        cli_guess_offer(&guess, word->name(k));
+    const char *nearest = cli_guess_nearest(&guess);
+    return cli_usage(command, "--%s: found '%s', expected %s%s%s%s", option->name, text,
+                     list_words(word, words, sizeof words), nearest ? " (did you mean " : "",
+                     nearest ? nearest : "", nearest ? "?)" : "");
+}
+
+static int set_word(const cli_command *command, const cli_option *option, const char *text)
+{
+    cli_word *word = option->value;
+    for (int k = 0; word->name(k); k++)
+        if (strcmp(word->name(k), text) == 0) {
+            word->value = k;
+            return -1;
+        }
+    return fail_word(command, option, text);
+}
+
+static int set_choice(const cli_command *command, const cli_option *option, const char *text)
+{
+    int choice = find_choice(option->argument, text);
+    if (choice < 0)
+        return cli_usage(command, "--%s: found '%s', expected %s", option->name, text,
+                         option->argument);
+    *(int *)option->value = choice;
+    return -1;
 }
 
 static int set_number(const cli_command *command, const cli_option *option, const char *text)
@@ -297,19 +363,11 @@ static int set_option(const cli_command *command, const cli_option *option, cons
         *(const char **)option->value = text;
         return -1;
     case CLI_NET:
-        if (parse_net(text, option->value))
-            return -1;
-        return cli_usage(
-            command,
-            "--%s: '%s' is not HxN, as in 32x2: H units from 1 to %d in each of N hidden "
-            "layers from 1 to %d",
-            option->name, text, HNBRDF_MAX_HIDDEN, HNBRDF_MAX_LAYERS);
+        return set_net(command, option, text);
     case CLI_CHOICE:
-        if (find_choice(option->argument, text) < 0)
-            return cli_usage(command, "--%s: found '%s', expected %s", option->name, text,
-                             option->argument);
-        *(int *)option->value = find_choice(option->argument, text);
-        return -1;
+        return set_choice(command, option, text);
+    case CLI_WORD:
+        return set_word(command, option, text);
     case CLI_INT:
     case CLI_REAL:
     case CLI_TABLE: /* never found */

@@ -2,6 +2,7 @@
 #ifndef HNBRDF_CLI_CLI_H
 #define HNBRDF_CLI_CLI_H
 
+#include "cli/commands.h"
 #include "hnbrdf/edit.h"
 #include "hnbrdf/hnbrdf.h"
 #include "hnbrdf/measured.h"
@@ -13,28 +14,8 @@
 /* Exit codes: 0 done, 1 failure (bad data, out of bounds, I/O), 2 wrong usage. */
 enum { CLI_OK = 0, CLI_FAILURE = 1, CLI_USAGE = 2 };
 
-/* ---- Subcommands: one file each, cmd_NAME.c. argv[0] is the subcommand's name. --------------- */
-int cmd_fit(int argc, char **argv);
-int cmd_eval(int argc, char **argv);
-int cmd_compare(int argc, char **argv);
-int cmd_export(int argc, char **argv);
-int cmd_verify(int argc, char **argv);
-int cmd_render(int argc, char **argv);
-int cmd_scene(int argc, char **argv);
-int cmd_sheet(int argc, char **argv);
-int cmd_gallery(int argc, char **argv);
-int cmd_edit(int argc, char **argv);
-int cmd_mix(int argc, char **argv);
-int cmd_report(int argc, char **argv);
-int cmd_bake(int argc, char **argv);
-int cmd_bench(int argc, char **argv);
-int cmd_lobes(int argc, char **argv);
-int cmd_import(int argc, char **argv);
-int cmd_info(int argc, char **argv);
-int cmd_stability(int argc, char **argv);
-
 /* ---- Options ------------------------------------------------------------------------------------
- * A  * command describes itself once; --help, parsing and messages come from that. */
+ * A command describes itself once; --help, parsing and messages come from that. */
 typedef enum cli_type {
     CLI_FLAG,   /* int *: set to 1 */
     CLI_TEXT,   /* const char **: points into argv */
@@ -42,8 +23,15 @@ typedef enum cli_type {
     CLI_REAL,   /* double *: finite decimal number, '.' whatever the locale */
     CLI_NET,    /* int[2]: HxN, as in 32x2 */
     CLI_CHOICE, /* int *: which word of `argument`, "a|b|c", from 0 */
+    CLI_WORD,   /* cli_word *: the value with this name */
     CLI_TABLE   /* const cli_option *: the options of another table, here among these */
 } cli_type;
+
+/* A value of an enum that counts from 0, and the names of all: NULL past the last. */
+typedef struct cli_word {
+    int value;
+    const char *(*name)(int value);
+} cli_word;
 
 typedef struct cli_option {
     const char *name; /* long name without "--"; NULL ends the table */
@@ -87,6 +75,10 @@ void cli_guess_begin(cli_guess *guess, const char *word);
 void cli_guess_offer(cli_guess *guess, const char *candidate);
 const char *cli_guess_nearest(const cli_guess *guess);
 
+/* HxN, as in 32x2, at the start of text: H units in each of N hidden layers. Returns where it ends,
+ * NULL if it is none or too large; net is then untouched. */
+const char *cli_parse_net(const char *text, int net[2]);
+
 /* A decimal number that is the whole text and finite, '.' whatever the locale: 1, else 0. */
 int cli_parse_real(const char *text, double *value);
 
@@ -106,11 +98,11 @@ void cli_print_reading(void);
 /* "RGL .bsdf, MERL .binary or UTIA .bin", with `last` (" or ") before the last. */
 void cli_measured_files(char *text, size_t size, const char *last);
 
-/* clang-format off */
-#define CLI_READING_OPTIONS {"", 0, CLI_TABLE, (void *)cli_reading_table(0), 0, 0, NULL, NULL}
+/* A row of an option table that stands for another table. */
+cli_option cli_table_option(const cli_option *table);
+#define CLI_READING_OPTIONS cli_table_option(cli_reading_table(0))
 /* Not for `fit`: a model is never negative. */
-#define CLI_SIGNED_OPTION {"", 0, CLI_TABLE, (void *)cli_reading_table(1), 0, 0, NULL, NULL}
-/* clang-format on */
+#define CLI_SIGNED_OPTION cli_table_option(cli_reading_table(1))
 
 /* ---- Sources and data ------------------------------------------------------------------------ */
 

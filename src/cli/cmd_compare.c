@@ -1,5 +1,6 @@
 /* cmd_compare.c: `hnbrdf compare`: how far a model is from measured materials, one row for each. */
 #include "cli/picture.h"
+#include "cli/words.h"
 #include "report/compare.h"
 #include "report/compare_images.h"
 
@@ -45,23 +46,6 @@ static const cli_command command = {
 };
 
 /* ---- Command --------------------------------------------------------------------------------- */
-
-static int parse_sampler(const char *name, hnbrdf_sampler *sampler)
-{
-    cli_guess guess;
-    cli_guess_begin(&guess, name);
-    for (hnbrdf_sampler s = HNBRDF_SAMPLER_UNIFORM; hnbrdf_sampler_name(s); s++) {
-        if (strcmp(name, hnbrdf_sampler_name(s)) == 0) {
-            *sampler = s;
-            return -1;
-        }
-        cli_guess_offer(&guess, hnbrdf_sampler_name(s));
-    }
-    const char *nearest = cli_guess_nearest(&guess);
-    return cli_usage(&command, "--sampler: found '%s', expected uniform, cosine or grid%s%s%s",
-                     name, nearest ? " (did you mean " : "", nearest ? nearest : "",
-                     nearest ? "?)" : "");
-}
 
 static int open_model(const char *path, hnbrdf_model **model)
 {
@@ -139,12 +123,13 @@ static int check_images(int images, const compare_images_options *pictures, int 
 int cmd_compare(int argc, char **argv)
 {
     model_comparison j = {.pairs = 200000, .seed = 1};
-    const char *sampler = "grid", *csv = NULL, *json = NULL;
+    const char *csv = NULL, *json = NULL;
+    cli_word sampler = {HNBRDF_SAMPLER_GRID, cli_sampler_word};
     int skip_missing = 0, images = 0, count;
     long threads = 0;
     compare_images_options pictures = {0};
     const cli_option options[] = {
-        {"sampler", 0, CLI_TEXT, &sampler, 0, 0, "NAME", "uniform, cosine or grid (default grid)"},
+        {"sampler", 0, CLI_WORD, &sampler, 0, 0, "NAME", "uniform, cosine or grid (default grid)"},
         {"pairs", 'n', CLI_INT, &j.pairs, 1, 1e10, "N",
          "valid pairs of directions a material (default 200000; 1e6 may be written)"},
         {"seed", 0, CLI_INT, &j.seed, 0, 9007199254740992.0, "N",
@@ -168,8 +153,7 @@ int cmd_compare(int argc, char **argv)
         {0},
     };
     int result = cli_parse(&command, options, argc, argv, &count);
-    if (result < 0)
-        result = parse_sampler(sampler, &j.sampler);
+    j.sampler = (hnbrdf_sampler)sampler.value;
     if (result < 0)
         result = check_images(images, &pictures, count, j.path_against || skip_missing);
     if (result >= 0)

@@ -1,5 +1,6 @@
 /* cmd_export.c: `hnbrdf export`: a model's materials as one GLSL include. */
 #include "cli/cli.h"
+#include "cli/words.h"
 #include "hnbrdf/metrics.h"
 #include "report/texels.h"
 
@@ -165,7 +166,8 @@ typedef struct settings {
     const char *materials, *path, *texels, *weights_path;
     int standalone, fixed, only; /* only: hnbrdf_glsl_only less one, -1 for everything */
     int pack;                    /* hnbrdf_texel_format, -1 for none */
-    int weights, precision, conserve;
+    int conserve;
+    cli_word weights, precision;
 } settings;
 
 /* A factor for each material that keeps its albedo at most 1, a little less as that is known to
@@ -203,8 +205,8 @@ static int export_materials(const hnbrdf_model *model, const settings *set, cons
                                          .fixed = set->fixed,
                                          .energy = energy,
                                          .packing = set->pack >= 0 ? &texels.packing : NULL,
-                                         .weights = (hnbrdf_glsl_weights)set->weights,
-                                         .precision = (hnbrdf_glsl_precision)set->precision};
+                                         .weights = (hnbrdf_glsl_weights)set->weights.value,
+                                         .precision = (hnbrdf_glsl_precision)set->precision.value};
     warn(model, &options);
     if (set->weights_path && write_weights(model, &options, set->weights_path) != CLI_OK)
         return CLI_FAILURE;
@@ -215,7 +217,10 @@ static int export_materials(const hnbrdf_model *model, const settings *set, cons
 
 int cmd_export(int argc, char **argv)
 {
-    settings set = {.only = -1, .pack = -1};
+    settings set = {.only = -1,
+                    .pack = -1,
+                    .weights = {HNBRDF_GLSL_CONSTANTS, cli_weights_word},
+                    .precision = {HNBRDF_GLSL_FLOAT, cli_precision_word}};
     int count;
     const cli_option options[] = {
         {"materials", 'm', CLI_TEXT, &set.materials, 0, 0, "A,B",
@@ -226,11 +231,11 @@ int cmd_export(int argc, char **argv)
          "materials are constants, not to be changed"},
         {"standalone", 0, CLI_FLAG, &set.standalone, 0, 0, NULL,
          "put the text of hybrid_brdf.glsl first"},
-        {"weights", 'w', CLI_CHOICE, &set.weights, 0, 0, "constants|columns|uniform",
+        {"weights", 'w', CLI_WORD, &set.weights, 0, 0, "constants|columns|uniform",
          "how the shader holds the network (default constants)"},
         {"weights-out", 0, CLI_TEXT, &set.weights_path, 0, 0, "FILE",
          "with --weights uniform: where to write the bytes of the buffer"},
-        {"precision", 0, CLI_CHOICE, &set.precision, 0, 0, "float|half",
+        {"precision", 0, CLI_WORD, &set.precision, 0, 0, "float|half",
          "of the hidden layers (default float)"},
         {"conserve", 0, CLI_FLAG, &set.conserve, 0, 0, NULL,
          "scale materials whose albedo (hnbrdf info) is above 1"},
@@ -248,7 +253,7 @@ int cmd_export(int argc, char **argv)
         return cli_usage(&command, "found %d arguments, expected one MODEL", count);
     if (!set.path)
         return cli_usage(&command, "no -o FILE.glsl");
-    if (set.weights_path && set.weights != HNBRDF_GLSL_UNIFORM)
+    if (set.weights_path && set.weights.value != HNBRDF_GLSL_UNIFORM)
         return cli_usage(&command, "--weights-out without --weights uniform");
     if (set.conserve && set.pack >= 0)
         return cli_usage(&command, "--conserve and --pack: materials from textures have no factor");

@@ -1,11 +1,11 @@
 /* cmd_fit.c: hnbrdf fit: measured materials in, one model file out. */
-#include "cli/cli.h"
-#include "report/fit_log.h"
-#include "bench/speed.h"
-#include "report/loss_plot.h"
-#include "hnbrdf/fit.h"
-
 #include "base/interrupt.h"
+#include "bench/speed.h"
+#include "cli/cli.h"
+#include "cli/words.h"
+#include "hnbrdf/fit.h"
+#include "report/fit_log.h"
+#include "report/loss_plot.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -62,24 +62,6 @@ static int show(void *user, const hnbrdf_fit_progress *p)
     if (strcmp(p->stage, "network") == 0 && p->step > 0 && p->step % 100 == 0)
         fit_log_row(&d->log, p);
     return hnbrdf_interrupted();
-}
-
-/* Index of text in names, or -1. */
-static int choose(const char *text, const char *const *names)
-{
-    for (int i = 0; names[i]; i++)
-        if (strcmp(text, names[i]) == 0)
-            return i;
-    return -1;
-}
-
-static int choose_encoding(const char *text)
-{
-    const char *name;
-    for (int i = 0; (name = hnbrdf_encoding_name((hnbrdf_encoding)i)); i++)
-        if (strcmp(text, name) == 0)
-            return i;
-    return -1;
 }
 
 typedef struct job {
@@ -224,7 +206,7 @@ static int open_and_run(job *j, const char *freeze, char *const *data, int count
     const char *const outputs[] = {j->output, j->plot, j->log, j->json};
     int code = CLI_OK;
     for (size_t k = 0; k < sizeof outputs / sizeof outputs[0] && !code; k++)
-        code = outputs[k] ? cli_output_check(outputs[k]) : CLI_OK;
+        code = cli_output_check(outputs[k]);
     if (code)
         return code;
     size_t length = strlen(j->output);
@@ -250,29 +232,28 @@ static int open_and_run(job *j, const char *freeze, char *const *data, int count
 
 int cmd_fit(int argc, char **argv)
 {
-    static const char *const kinds[] = {"hybrid", "neural", "ggx", NULL};
-    static const char *const losses[] = {"log-to-smape", "log", "smape", NULL};
-    static const char *const schedules[] = {"cosine", "linear", "constant", NULL};
-    static const char *const analytics[] = {"faithful", "joint", NULL};
     const char *freeze = NULL, *log = NULL, *plot = NULL, *json = NULL;
+    const char *output = NULL;
     int resume = 0;
-    const char *kind = "hybrid", *encoding = NULL, *analytic = "faithful", *output = NULL;
-    const char *loss = "log-to-smape", *schedule = "cosine";
+    cli_word kind = {HNBRDF_KIND_HYBRID, cli_kind_word}, encoding = {-1, cli_encoding_word};
+    cli_word analytic = {HNBRDF_FIT_FAITHFUL, cli_analytic_word};
+    cli_word loss = {HNBRDF_FIT_LOG_TO_SMAPE, cli_loss_word};
+    cli_word schedule = {HNBRDF_FIT_COSINE, cli_schedule_word};
     double uniform_share = 0.5;
     int net[2] = {0, 0};
     long latent = 0, steps = 0, seed = 1, threads = 0, batch = 0, pool = 0;
     double seconds = 0.0, floor = 0.003, rate = 0.0;
     const cli_option options[] = {
         {"output", 'o', CLI_TEXT, &output, 0, 0, "FILE", "the model file to write (required)"},
-        {"kind", 0, CLI_TEXT, &kind, 0, 0, "KIND", "hybrid, neural or ggx (default hybrid)"},
+        {"kind", 0, CLI_WORD, &kind, 0, 0, "KIND", "hybrid, neural or ggx (default hybrid)"},
         {"net", 0, CLI_NET, net, 0, 0, "HxN", "N hidden layers of H units (default 32x2)"},
         {"latent", 0, CLI_INT, &latent, 1, HNBRDF_MAX_LATENT, "L",
          "floats of latent code a material (default 4; neural: 12)"},
-        {"encoding", 0, CLI_TEXT, &encoding, 0, 0, "NAME",
+        {"encoding", 0, CLI_WORD, &encoding, 0, 0, "NAME",
          "angles (reciprocal), angles-directed, angles-anisotropic, half-difference or directions "
          "(default: "
          "angles for reciprocal data, else angles-directed; angles-anisotropic if a material is)"},
-        {"analytic", 0, CLI_TEXT, &analytic, 0, 0, "HOW",
+        {"analytic", 0, CLI_WORD, &analytic, 0, 0, "HOW",
          "faithful: keep the GGX fit; joint: train it along (default faithful)"},
         {"floor", 0, CLI_REAL, &floor, 0, 0.999, "B",
          "the floor b, 1/sr; 0 for none (default 0.003)"},
@@ -285,10 +266,10 @@ int cmd_fit(int argc, char **argv)
         {"rate", 0, CLI_REAL, &rate, 1e-7, 10, "R",
          "peak learning rate of Adam (default 0.06; beyond 64 hidden units in all, in inverse "
          "proportion to them)"},
-        {"loss", 0, CLI_TEXT, &loss, 0, 0, "NAME",
+        {"loss", 0, CLI_WORD, &loss, 0, 0, "NAME",
          "log-to-smape: log-L1 that turns into SMAPE between 30 and 70 %; log; smape (default the "
          "first)"},
-        {"schedule", 0, CLI_TEXT, &schedule, 0, 0, "NAME",
+        {"schedule", 0, CLI_WORD, &schedule, 0, 0, "NAME",
          "of the rate: cosine or linear down to 1 %, or constant (default cosine)"},
         {"uniform-share", 0, CLI_REAL, &uniform_share, 0, 1, "S",
          "of the pairs, drawn uniformly, the others on MERL's grid (default 0.5)"},
@@ -304,7 +285,8 @@ int cmd_fit(int argc, char **argv)
          "write speed, the machine's limit and where the time went as JSON; - is standard output"},
         {"threads", 0, CLI_INT, &threads, 1, 256, "N", "threads (default one a core)"},
         CLI_READING_OPTIONS,
-        {NULL, 0, CLI_FLAG, NULL, 0, 0, NULL, NULL}};
+        {0},
+    };
     int given;
     int code = cli_parse(&command, options, argc, argv, &given);
     if (code >= 0)
@@ -313,23 +295,7 @@ int cmd_fit(int argc, char **argv)
         return cli_usage(&command, "no DATA given");
     if (!output)
         return cli_usage(&command, "no output file given, expected -o MODEL.safetensors");
-    int kind_index = choose(kind, kinds), encoding_index = encoding ? choose_encoding(encoding) : 0;
-    int analytic_index = choose(analytic, analytics);
-    int loss_index = choose(loss, losses), schedule_index = choose(schedule, schedules);
-    if (kind_index < 0)
-        return cli_usage(&command, "--kind %s, expected hybrid, neural or ggx", kind);
-    if (encoding_index < 0)
-        return cli_usage(&command,
-                         "--encoding %s, expected angles, angles-anisotropic, angles-directed, "
-                         "half-difference or directions",
-                         encoding);
-    if (analytic_index < 0)
-        return cli_usage(&command, "--analytic %s, expected faithful or joint", analytic);
-    if (loss_index < 0)
-        return cli_usage(&command, "--loss %s, expected log-to-smape, log or smape", loss);
-    if (schedule_index < 0)
-        return cli_usage(&command, "--schedule %s, expected cosine, linear or constant", schedule);
-    if (freeze && (net[0] || latent || encoding))
+    if (freeze && (net[0] || latent || encoding.value >= 0))
         return cli_usage(&command,
                          "--net, --latent and --encoding are those of the model to --freeze");
     if (steps && seconds > 0.0)
@@ -340,21 +306,21 @@ int cmd_fit(int argc, char **argv)
     j.plot = plot;
     j.log = log;
     j.json = json;
-    j.fit.kind = (hnbrdf_kind)kind_index;
+    j.fit.kind = (hnbrdf_kind)kind.value;
     j.fit.hidden = net[0];
     j.fit.layers = net[1];
     j.fit.latent = (int)latent;
-    j.fit.encoding = encoding;
+    j.fit.encoding = encoding.value < 0 ? NULL : cli_encoding_word(encoding.value);
     j.fit.floor = (float)floor;
     j.fit.floor_none = j.fit.floor == 0.0f;
-    j.fit.analytic = (hnbrdf_fit_analytic)analytic_index;
+    j.fit.analytic = (hnbrdf_fit_analytic)analytic.value;
     j.fit.steps = steps;
     j.fit.seconds = seconds;
     j.fit.batch = (int)batch;
     j.fit.pool = (int)pool;
     j.fit.learning_rate = (float)rate;
-    j.fit.loss = (hnbrdf_fit_loss)loss_index;
-    j.fit.schedule = (hnbrdf_fit_schedule)schedule_index;
+    j.fit.loss = (hnbrdf_fit_loss)loss.value;
+    j.fit.schedule = (hnbrdf_fit_schedule)schedule.value;
     j.fit.uniform_share = (float)uniform_share;
     j.fit.uniform_none = j.fit.uniform_share == 0.0f;
     j.fit.seed = (uint64_t)seed;

@@ -1,6 +1,7 @@
 /* cmd_report.c: `hnbrdf report accuracy`: the error of a grid of networks and baselines, as
  * tables and plots. */
 #include "cli/report.h"
+#include "cli/words.h"
 
 #include "base/interrupt.h"
 
@@ -106,11 +107,10 @@ int cmd_report(int argc, char **argv)
         return cmd_report_images(argc, argv);
     if (argc > 1 && strcmp(argv[1], "sampling") == 0)
         return cmd_report_sampling(argc, argv);
-    report r = {.sampler = HNBRDF_SAMPLER_GRID,
-                .seed = 1,
-                .image_size = 64,
-                .light = PICTURE_DEFAULTS(REPORT_IMAGE_SAMPLES)};
+    report r = {.seed = 1, .image_size = 64, .light = PICTURE_DEFAULTS(REPORT_IMAGE_SAMPLES)};
     const char *nets = NULL, *latents = NULL, *models = "hybrid,paper,neural";
+    cli_word sampler = {HNBRDF_SAMPLER_GRID, cli_sampler_word};
+    cli_word analytic = {HNBRDF_FIT_FAITHFUL, cli_analytic_word};
     int quick = 0, count;
     const cli_option options[] = {
         {"output", 'o', CLI_TEXT, &r.directory, 0, 0, "DIR",
@@ -124,9 +124,9 @@ int cmd_report(int argc, char **argv)
          "train each network this long (default: by steps)"},
         {"steps", 0, CLI_INT, &r.steps, 1, 1e9, "N",
          "train each network so many steps (default: as `fit`)"},
-        {"analytic", 0, CLI_CHOICE, &r.analytic, 0, 0, "faithful|joint",
+        {"analytic", 0, CLI_WORD, &analytic, 0, 0, "faithful|joint",
          "analytic part of the hybrids: keep the GGX fit, or train it along (default faithful)"},
-        {"sampler", 0, CLI_CHOICE, &r.sampler, 0, 0, "uniform|cosine|grid",
+        {"sampler", 0, CLI_WORD, &sampler, 0, 0, "uniform|cosine|grid",
          "of plots, wins and analytic part (default grid); the tables have all three"},
         {"pairs", 'n', CLI_INT, &r.pairs, 1, 1e9, "N",
          "pairs of directions a material (default 200000)"},
@@ -147,6 +147,8 @@ int cmd_report(int argc, char **argv)
     int result =
         line ? cli_parse(&command, options, argc, argv, &count) : cli_fail("out of memory");
     r.command_line = line;
+    r.sampler = sampler.value;
+    r.analytic = analytic.value;
     if (result < 0 && count < 1)
         result = cli_usage(&command, "no report named, expected accuracy, images or sampling");
     if (result < 0 && strcmp(argv[1], "accuracy") != 0)

@@ -3,6 +3,7 @@
 #include "cli/cli.h"
 
 #ifdef HNBRDF_WITH_VULKAN
+#include "cli/words.h"
 #include "report/verify_report.h"
 #include "gpu/compile.h"
 
@@ -37,7 +38,8 @@ static const cli_command command = {
 typedef struct settings {
     const char *materials, *device, *csv, *json;
     long pairs, seed;
-    int validate, list, without_timing, weights, precision, fixed;
+    int validate, list, without_timing, fixed;
+    cli_word weights, precision;
 } settings;
 
 /* ---- The scene ------------------------------------------------------------------------------- */
@@ -51,8 +53,8 @@ static int export_scene(const hnbrdf_model *model, const settings *set, const in
 {
     const hnbrdf_glsl_options options = {.materials = materials,
                                          .material_count = count,
-                                         .weights = (hnbrdf_glsl_weights)set->weights,
-                                         .precision = (hnbrdf_glsl_precision)set->precision,
+                                         .weights = (hnbrdf_glsl_weights)set->weights.value,
+                                         .precision = (hnbrdf_glsl_precision)set->precision.value,
                                          .fixed = set->fixed};
     hnbrdf_error error;
     hnbrdf_result result =
@@ -164,8 +166,8 @@ static int verify_model(gpu_instance *instance, const settings *set, const char 
     verification v = {.path = path,
                       .pairs = (size_t)set->pairs,
                       .validated = set->validate,
-                      .weights = (hnbrdf_glsl_weights)set->weights,
-                      .precision = (hnbrdf_glsl_precision)set->precision};
+                      .weights = (hnbrdf_glsl_weights)set->weights.value,
+                      .precision = (hnbrdf_glsl_precision)set->precision.value};
     int first, *materials = NULL;
     hnbrdf_model *model = NULL;
     hnbrdf_error error;
@@ -191,13 +193,17 @@ static int verify_model(gpu_instance *instance, const settings *set, const char 
 
 int cmd_verify(int argc, char **argv)
 {
-    settings set = {.device = "all", .pairs = 16384, .seed = 1};
+    settings set = {.device = "all",
+                    .pairs = 16384,
+                    .seed = 1,
+                    .weights = {HNBRDF_GLSL_CONSTANTS, cli_weights_word},
+                    .precision = {HNBRDF_GLSL_FLOAT, cli_precision_word}};
     const cli_option options[] = {
         {"materials", 'm', CLI_TEXT, &set.materials, 0, 0, "A,B",
          "names of the materials (default: all)"},
-        {"weights", 'w', CLI_CHOICE, &set.weights, 0, 0, "constants|columns|uniform",
+        {"weights", 'w', CLI_WORD, &set.weights, 0, 0, "constants|columns|uniform",
          "style of the exported shader (default constants)"},
-        {"precision", 0, CLI_CHOICE, &set.precision, 0, 0, "float|half",
+        {"precision", 0, CLI_WORD, &set.precision, 0, 0, "float|half",
          "of its hidden layers (default float)"},
         {"fixed", 0, CLI_FLAG, &set.fixed, 0, 0, NULL,
          "materials as constants, as export --fixed writes them"},

@@ -10,27 +10,8 @@ typedef struct subcommand {
     const char *about;
 } subcommand;
 
-static const subcommand subcommands[] = {
-    {"fit", cmd_fit, "fit a model to measured materials"},
-    {"compare", cmd_compare, "error of a model against measured materials"},
-    {"info", cmd_info, "what a model or a measured file holds"},
-    {"eval", cmd_eval, "BRDF values for pairs of directions, CSV to CSV"},
-    {"export", cmd_export, "write a model's materials as one GLSL include"},
-    {"verify", cmd_verify, "prove on a GPU that the exported shader equals the C library"},
-    {"stability", cmd_stability, "error against an oracle at extremes, on CPU and GPU"},
-    {"render", cmd_render, "picture of a sphere under an environment map"},
-    {"scene", cmd_scene, "picture of a scene with global illumination"},
-    {"sheet", cmd_sheet, "contact sheet: reference, GGX alone and model, side by side"},
-    {"edit", cmd_edit, "change a material: colour, refraction, roughness, angle"},
-    {"mix", cmd_mix, "materials between two of a model"},
-    {"lobes", cmd_lobes, "where samples of a material go: fit, or take the paper's scheme"},
-    {"gallery", cmd_gallery, "pages of edited and mixed materials"},
-    {"bake", cmd_bake, "the smallest network that is good enough for the materials of a scene"},
-    {"report", cmd_report,
-     "errors of a grid of networks and baselines, over directions or of images"},
-    {"bench", cmd_bench, "run time beside error, on the CPU and on GPUs"},
-    {"import", cmd_import, "published .brdf shaders to a model file"},
-};
+#define SUBCOMMAND(name, about) {#name, cmd_##name, about},
+static const subcommand subcommands[] = {CLI_COMMANDS(SUBCOMMAND)};
 enum { SUBCOMMANDS = sizeof subcommands / sizeof subcommands[0] };
 
 static void print_overview(FILE *file)

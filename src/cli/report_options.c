@@ -9,12 +9,11 @@
 int report_read_nets(const cli_command *command, const char *list, report *r)
 {
     for (const char *at = list;; at++) {
-        int *net = r->nets[r->net_count], length = 0;
         if (r->net_count == REPORT_NETS)
             return cli_usage(command, "--nets: more than %d", (int)REPORT_NETS);
-        if (sscanf(at, "%2dx%1d%n", &net[0], &net[1], &length) != 2 || net[0] < 1 ||
-            net[0] > HNBRDF_MAX_HIDDEN || net[1] < 1 || net[1] > HNBRDF_MAX_LAYERS ||
-            (at[length] != ',' && at[length] != '\0'))
+        int *net = r->nets[r->net_count];
+        at = cli_parse_net(at, net);
+        if (!at || (*at != ',' && *at != '\0'))
             return cli_usage(
                 command, "--nets: '%s' is not HxN,HxN,... with H from 1 to %d and N from 1 to %d",
                 list, HNBRDF_MAX_HIDDEN, HNBRDF_MAX_LAYERS);
@@ -22,7 +21,6 @@ int report_read_nets(const cli_command *command, const char *list, report *r)
             if (r->nets[k][0] == net[0] && r->nets[k][1] == net[1])
                 return cli_usage(command, "--nets: %dx%d is there twice", net[0], net[1]);
         r->net_count++;
-        at += length;
         if (*at == '\0')
             return -1;
     }

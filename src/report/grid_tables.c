@@ -205,7 +205,18 @@ static void write_equal_numbers(const report *r, FILE *file)
         }
 }
 
-/* How many materials each model of a network's size is the best for. */
+/* 1 if every model at this place of the grid is done. */
+static int is_complete(const report *r, const int net[2], int latent)
+{
+    int complete = 1;
+    for (report_form form = REPORT_HYBRID; form < REPORT_FORMS; form++) {
+        const report_entry *e = report_find(r, form, net, latent);
+        complete &= !e || e->done;
+    }
+    return complete;
+}
+
+/* How many materials each model of a network's size is the best for; only where all are done. */
 static void write_best(const report *r, FILE *file)
 {
     fprintf(file, "\n## For how many materials a model is the best of its row, %s sampler\n\n",
@@ -214,6 +225,8 @@ static void write_best(const report *r, FILE *file)
     for (int n = 0; n < r->net_count; n++)
         for (int l = 0; l < r->latent_count; l++) {
             int wins[REPORT_FORMS] = {0};
+            if (!is_complete(r, r->nets[n], r->latents[l]))
+                continue;
             for (int m = 0; m < r->data.count; m++) {
                 const report_entry *best = &r->entries[0];
                 for (report_form form = REPORT_HYBRID; form < REPORT_FORMS; form++) {
