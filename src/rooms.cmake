@@ -45,22 +45,26 @@ hnbrdf_room(render
   backdrop.c environment.c guide.c sequence.c shade.c sky.c sphere.c surface.c
   tabulated.c tiles.c)
 hnbrdf_room(scene
-  describe.c describe_lists.c describe_shape.c film.c hit.c lights.c load.c mesh.c obj.c passes.c patch.c path.c
-  polygon.c portals.c scene.c shapes.c teapot.c trace.c words.c)
+  describe.c describe_lists.c describe_shape.c film.c hit.c job.c lights.c load.c mesh.c
+  mesh_view.c obj.c passes.c patch.c path.c polygon.c portals.c scene.c shapes.c teapot.c
+  trace.c words.c)
 hnbrdf_room(plot
   svg.c)
 hnbrdf_room(gpu
-  compile.c compute.c device.c evaluate.c probe.c probe_half.c scene.c sphere.c stability.c timed.c
+  compile.c compute.c device.c evaluate.c picture.c probe.c probe_half.c scene.c sphere.c
+  stability.c timed.c
   verify.c)
 hnbrdf_room(edit
   materials.c)
 hnbrdf_room(bake
   bake.c ggx.c half.c options.c rows.c search.c sizes.c teacher.c tell.c wave.c)
 hnbrdf_room(report
-  bake_plot.c bake_tables.c compare.c compare_images.c fit_log.c grid.c grid_figures.c
+  bake_plot.c bake_tables.c compare.c compare_images.c fit_log.c gallery_choose.c
+  gallery_pages.c gallery_strips.c grid.c grid_figures.c
   grid_fit.c grid_ggx.c grid_image_tables.c grid_images.c grid_plot.c grid_rows.c
-  grid_tables.c info_physics.c loss_plot.c output.c picture.c sampling_measure.c
-  sampling_strips.c sampling_write.c stability_plot.c stability_report.c texels.c
+  grid_tables.c info_physics.c loss_plot.c output.c picture.c same_picture.c sampling_measure.c
+  sampling_strips.c sampling_write.c scene_compare.c sheet.c spheres.c
+  stability_plot.c stability_report.c still.c texels.c
   verify_report.c)
 hnbrdf_room(bench
   measure.c models.c peak.c peer.c plot.c quality.c rows.c rows_cpu.c rows_gpu.c speed.c tables.c)
@@ -68,6 +72,5 @@ hnbrdf_room(cli
   cli.c cmd_bake.c cmd_bench.c cmd_compare.c cmd_edit.c cmd_eval.c cmd_export.c
   cmd_fit.c cmd_gallery.c cmd_import.c cmd_info.c cmd_lobes.c cmd_mix.c cmd_render.c
   cmd_report.c cmd_report_images.c cmd_report_sampling.c cmd_scene.c cmd_sheet.c
-  cmd_stability.c cmd_verify.c gallery_choose.c gallery_pages.c gallery_strips.c main.c
-  output.c picture.c progress.c reading.c render_gpu.c render_mesh.c report_options.c
-  scene_compare.c scene_job.c sources.c watch.c words.c)
+  cmd_stability.c cmd_verify.c main.c
+  output.c picture.c progress.c reading.c report_options.c sources.c watch.c words.c)

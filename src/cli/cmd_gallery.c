@@ -1,6 +1,7 @@
 /* cmd_gallery.c: `hnbrdf gallery`: what can be done with fitted materials, as pages of spheres. */
-#include "cli/gallery.h"
+#include "cli/picture.h"
 #include "hnbrdf/fit.h"
+#include "report/gallery.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -25,10 +26,19 @@ static const cli_command command = {
     "hnbrdf gallery merl.safetensors --pairs gold-paint:blue-fabric,nickel:pvc -o gallery",
 };
 
+typedef struct gallery_command {
+    report_gallery gallery;
+    const char *materials, *pairs; /* as they are typed, or NULL */
+    double seconds;
+    char *fitted_path;
+    hnbrdf_model *model;
+    cli_data data;
+} gallery_command;
+
 /* ---- The model ------------------------------------------------------------------------------- */
 
 /* 1 if this argument is DATA, 0 if it is a model file, -1 after a message. */
-static int is_data(gallery *g, const char *argument)
+static int is_data(gallery_command *c, const char *argument)
 {
     struct stat status;
     cli_source source;
@@ -37,10 +47,10 @@ static int is_data(gallery *g, const char *argument)
         return 1;
     if (cli_open_source(argument, &source) != CLI_OK)
         return -1;
-    g->model = source.model;
+    c->model = source.model;
     if (source.measured)
         cli_close_source(&source);
-    return g->model == NULL;
+    return c->model == NULL;
 }
 
 static int show_fit(void *user, const hnbrdf_fit_progress *p)
@@ -50,36 +60,35 @@ static int show_fit(void *user, const hnbrdf_fit_progress *p)
     return 0;
 }
 
-static int fit(gallery *g, double seconds)
+static int fit(gallery_command *c)
 {
     hnbrdf_error error;
     cli_progress line;
-    const hnbrdf_fit_options options = {.seconds = seconds,
-                                        .threads = (int)g->light.threads,
+    const hnbrdf_fit_options options = {.seconds = c->seconds,
+                                        .threads = (int)c->gallery.spheres.light.threads,
                                         .progress = show_fit,
                                         .progress_user = &line};
     cli_progress_begin(&line, "fitting");
-    hnbrdf_result result = hnbrdf_fit((const hnbrdf_measured *const *)g->data.items, g->data.count,
-                                      &options, &g->model, NULL, &error);
+    hnbrdf_result result = hnbrdf_fit((const hnbrdf_measured *const *)c->data.items, c->data.count,
+                                      &options, &c->model, NULL, &error);
     cli_progress_end(&line);
     if (result == HNBRDF_OK)
-        result = hnbrdf_model_save(g->model, g->model_path, &error);
-    if (result != HNBRDF_OK)
-        return cli_fail("%s", error.text);
-    printf("%s\n", g->model_path);
-    return CLI_OK;
+        result = hnbrdf_model_save(c->model, c->fitted_path, &error);
+    if (result == HNBRDF_OK)
+        printf("%s\n", c->fitted_path);
+    return cli_code(result, &error);
 }
 
 /* ---- What is shown --------------------------------------------------------------------------- */
 
-static int name_materials(gallery *g, const char *list)
+static int name_materials(report_gallery *g, const char *list)
 {
     int *indices, count;
     if (cli_choose_materials(g->model, list, &indices, &count) != CLI_OK)
         return CLI_FAILURE;
-    int code = count <= GALLERY_MATERIALS
+    int code = count <= REPORT_GALLERY_MATERIALS
                    ? CLI_OK
-                   : cli_fail("--materials: more than %d", (int)GALLERY_MATERIALS);
+                   : cli_fail("--materials: more than %d", (int)REPORT_GALLERY_MATERIALS);
     for (int k = 0; k < count && code == CLI_OK; k++)
         g->materials[g->material_count++] = indices[k];
     free(indices);
@@ -87,7 +96,7 @@ static int name_materials(gallery *g, const char *list)
 }
 
 /* "A:B,C:D". */
-static int name_pairs(gallery *g, char *list)
+static int name_pairs(report_gallery *g, char *list)
 {
     for (char *end; *list; list = end) {
         end = list + strcspn(list, ",");
@@ -96,8 +105,8 @@ static int name_pairs(gallery *g, char *list)
         char *colon = strchr(list, ':');
         if (!colon)
             return cli_fail("--pairs: '%s' is not A:B", list);
-        if (g->pair_count == GALLERY_PAIRS)
-            return cli_fail("--pairs: more than %d", (int)GALLERY_PAIRS);
+        if (g->pair_count == REPORT_GALLERY_PAIRS)
+            return cli_fail("--pairs: more than %d", (int)REPORT_GALLERY_PAIRS);
         *colon = '\0';
         int *pair = g->pairs[g->pair_count++];
         pair[0] = cli_choose_material(g->model, list);
@@ -108,12 +117,15 @@ static int name_pairs(gallery *g, char *list)
     return CLI_OK;
 }
 
-static int choose(gallery *g, const char *materials, const char *pairs)
+static int choose(gallery_command *c)
 {
-    int code = materials ? name_materials(g, materials) : gallery_choose_materials(g, 2);
-    if (code != CLI_OK || !pairs)
-        return code == CLI_OK ? gallery_choose_pairs(g, 6) : code;
-    char *copy = strdup(pairs);
+    report_gallery *g = &c->gallery;
+    hnbrdf_error error;
+    int code = c->materials ? name_materials(g, c->materials)
+                            : cli_code(report_gallery_choose_materials(g, 2, &error), &error);
+    if (code != CLI_OK || !c->pairs)
+        return code == CLI_OK ? cli_code(report_gallery_choose_pairs(g, 6, &error), &error) : code;
+    char *copy = strdup(c->pairs);
     code = copy ? name_pairs(g, copy) : cli_fail("out of memory");
     free(copy);
     return code;
@@ -121,39 +133,50 @@ static int choose(gallery *g, const char *materials, const char *pairs)
 
 /* ---- Command --------------------------------------------------------------------------------- */
 
-static int open_all(gallery *g, char **arguments, int count, double seconds, char *fitted_path)
+static int open_all(gallery_command *c, char **arguments, int count)
+{
+    report_gallery *g = &c->gallery;
+    hnbrdf_error error;
+    int data = is_data(c, arguments[0]), skip = data ? 0 : 1;
+    if (data < 0 ||
+        (count > skip && cli_open_data(arguments + skip, count - skip, &c->data) != CLI_OK) ||
+        cli_make_folder(g->directory) != CLI_OK || (data && fit(c) != CLI_OK))
+        return CLI_FAILURE;
+    g->model_path = data ? c->fitted_path : arguments[0];
+    g->model = c->model;
+    hnbrdf_model_describe(g->model, &g->desc);
+    g->spheres.data = c->data.items;
+    g->spheres.data_count = c->data.count;
+    return cli_code(report_spheres_open(&g->spheres, &error), &error);
+}
+
+static int write_pages(report_gallery *g)
 {
     hnbrdf_error error;
-    int data = is_data(g, arguments[0]), skip = data ? 0 : 1;
-    if (data < 0 ||
-        (count > skip && cli_open_data(arguments + skip, count - skip, &g->data) != CLI_OK))
-        return CLI_FAILURE;
-    if (cli_make_folder(g->directory) != CLI_OK)
-        return CLI_FAILURE;
-    g->model_path = data ? fitted_path : arguments[0];
-    if (data && fit(g, seconds) != CLI_OK)
-        return CLI_FAILURE;
-    hnbrdf_model_describe(g->model, &g->desc);
-    if (picture_open_light(&g->light, &g->environment) != CLI_OK)
-        return CLI_FAILURE;
-    return render_guide_model(&g->guide, &error) == HNBRDF_OK ? CLI_OK : cli_fail("%s", error.text);
+    cli_progress line;
+    g->spheres.watch = cli_watch(&line);
+    cli_progress_begin(&line, "rendering");
+    hnbrdf_result result = report_gallery_write(g, &error);
+    cli_progress_end(&line);
+    return cli_code(result, &error);
 }
 
 int cmd_gallery(int argc, char **argv)
 {
-    gallery g = {.size = 160, .light = PICTURE_DEFAULTS(64)};
-    const char *materials = NULL, *pairs = NULL;
-    double seconds = 40.0;
+    gallery_command c = {.gallery = {.spheres = {.size = 160, .light = PICTURE_DEFAULTS(64)}},
+                         .seconds = 40.0};
+    report_gallery *g = &c.gallery;
     int count;
     const cli_option options[] = {
-        {"output", 'o', CLI_TEXT, &g.directory, 0, 0, "DIR",
+        {"output", 'o', CLI_TEXT, &g->directory, 0, 0, "DIR",
          "the folder to write (required); made if missing"},
-        {"materials", 0, CLI_TEXT, &materials, 0, 0, "A,B", "whose edits to show (default: two)"},
-        {"pairs", 0, CLI_TEXT, &pairs, 0, 0, "A:B,C:D", "what to mix (default: up to six pairs)"},
-        {"seconds", 0, CLI_REAL, &seconds, 0.1, 1e6, "S",
+        {"materials", 0, CLI_TEXT, &c.materials, 0, 0, "A,B", "whose edits to show (default: two)"},
+        {"pairs", 0, CLI_TEXT, &c.pairs, 0, 0, "A:B,C:D", "what to mix (default: up to six pairs)"},
+        {"seconds", 0, CLI_REAL, &c.seconds, 0.1, 1e6, "S",
          "DATA alone: how long to fit (default 40)"},
-        {"size", 0, CLI_INT, &g.size, 32, 1024, "N", "pixels of a sphere's side, default 160"},
-        PICTURE_OPTIONS(g.light, "64"),
+        {"size", 0, CLI_INT, &g->spheres.size, 32, 1024, "N",
+         "pixels of a sphere's side, default 160"},
+        PICTURE_OPTIONS(g->spheres.light, "64"),
         CLI_READING_OPTIONS,
         CLI_SIGNED_OPTION,
         {0},
@@ -161,24 +184,23 @@ int cmd_gallery(int argc, char **argv)
     int code = cli_parse(&command, options, argc, argv, &count);
     if (code < 0 && count < 1)
         code = cli_usage(&command, "no MODEL and no DATA");
-    if (code < 0 && !g.directory)
+    if (code < 0 && !g->directory)
         code = cli_usage(&command, "no folder given, expected -o DIR");
     if (code >= 0)
         return code;
-    size_t size = strlen(g.directory) + sizeof "/model.safetensors";
-    char *fitted_path = malloc(size);
-    if (!fitted_path)
+    size_t size = strlen(g->directory) + sizeof "/model.safetensors";
+    c.fitted_path = malloc(size);
+    if (!c.fitted_path)
         return cli_fail("out of memory");
-    snprintf(fitted_path, size, "%s/model.safetensors", g.directory);
-    code = open_all(&g, argv + 1, count, seconds, fitted_path);
+    snprintf(c.fitted_path, size, "%s/model.safetensors", g->directory);
+    code = open_all(&c, argv + 1, count);
     if (code == CLI_OK)
-        code = choose(&g, materials, pairs);
+        code = choose(&c);
     if (code == CLI_OK)
-        code = gallery_write(&g);
-    render_environment_free(&g.environment);
-    hnbrdf_model_free(g.guide);
-    hnbrdf_model_free(g.model);
-    cli_close_data(&g.data);
-    free(fitted_path);
+        code = write_pages(g);
+    report_spheres_close(&g->spheres);
+    hnbrdf_model_free(c.model);
+    cli_close_data(&c.data);
+    free(c.fitted_path);
     return code;
 }

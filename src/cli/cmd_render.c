@@ -1,8 +1,12 @@
 /* cmd_render.c: `hnbrdf render`: a sphere or a mesh of one material, as OpenEXR with a PNG beside
  * it. */
-#include "cli/render_gpu.h"
-#include "cli/render_mesh.h"
+#include "cli/picture.h"
+#include "report/still.h"
+#ifdef HNBRDF_WITH_VULKAN
+#include "gpu/picture.h"
+#endif
 
+#include <stdlib.h>
 #include <string.h>
 
 static const cli_command command = {
@@ -30,193 +34,213 @@ static const cli_command command = {
     "    --spp 65536 -o bunny.exr           # light between its parts too; a minute's worth of it",
 };
 
-typedef struct render_job {
-    const char *path, *material, *background, *output;
+typedef struct render_command {
+    const char *path, *material, *output;
     const char *device; /* of Vulkan; NULL: the CPU */
-    int analytic, half, layers, check;
-    long size;
-    picture_options picture;
-    mesh_view mesh;
-    scene_job scene; /* of a mesh */
+    int check;
     cli_source source;
-    int index;           /* of the material in the model */
-    hnbrdf_model *guide; /* see render_guide_model() */
-    render_environment environment;
-    render_image image;
-} render_job;
+    report_still still;
+} render_command;
 
-static int is_one_of(const char *text, const char *a, const char *b, const char *c)
+static int open_source(render_command *c)
 {
-    return strcmp(text, a) == 0 || strcmp(text, b) == 0 || strcmp(text, c) == 0;
-}
-
-static int open_source(render_job *job)
-{
-    if (cli_open_source(job->path, &job->source) != CLI_OK)
-        return CLI_FAILURE;
-    job->index = cli_choose_source_material(&job->source, job->material);
-    if (job->index < 0)
-        return CLI_FAILURE;
     hnbrdf_model_desc desc = {.kind = HNBRDF_KIND_NEURAL};
-    if (job->source.model)
-        hnbrdf_model_describe(job->source.model, &desc);
-    if ((job->analytic || job->layers) && desc.kind == HNBRDF_KIND_NEURAL)
+    hnbrdf_error error;
+    if (cli_open_source(c->path, &c->source) != CLI_OK)
+        return CLI_FAILURE;
+    c->still.model = c->source.model;
+    c->still.measured = c->source.measured;
+    c->still.material = cli_choose_source_material(&c->source, c->material);
+    if (c->still.material < 0)
+        return CLI_FAILURE;
+    if (c->still.model)
+        hnbrdf_model_describe(c->still.model, &desc);
+    if ((c->still.analytic || c->still.layers) && desc.kind == HNBRDF_KIND_NEURAL)
         return cli_fail(
             "%s has no analytic part: --analytic and --layers are for hybrid and ggx models",
-            job->path);
+            c->path);
+    if (c->device && !c->still.model)
+        return cli_fail("%s is no model: --device renders what `hnbrdf export` can write", c->path);
+    return cli_code(report_spheres_open(&c->still.spheres, &error), &error);
+}
+
+/* ---- On a device ----------------------------------------------------------------------------- */
+
+#ifdef HNBRDF_WITH_VULKAN
+/* Sums are kept in doubles by the CPU, in pairs of floats by the device: neighbours may come out.
+ * `exact`: the device computes as C does. */
+static int judge(const report_same_picture *same, int exact)
+{
+    if (same->differ == 0) {
+        printf("check: all %zu numbers of the picture are the CPU's, to the bit\n", same->count);
+        return CLI_OK;
+    }
+    printf("check: %zu of %zu numbers of the picture differ from the CPU's, %zu by more than one "
+           "step of a float; "
+           "PSNR %.1f dB\n",
+           same->differ, same->count, same->apart, same->psnr);
+    if (exact && same->apart > 0)
+        return cli_fail(
+            "the device computes + - * / sqrt exactly, and its picture is not the CPU's");
+    if (!exact)
+        printf("check: this device does not round + - * / sqrt as C does, its samples are not the "
+               "CPU's\n");
     return CLI_OK;
 }
 
-static render_surface make_surface(const render_job *job, int analytic)
+static int check(render_command *c, cli_progress *line, int exact)
 {
-    const hnbrdf_model *model = job->source.model;
-    const hnbrdf_material *material = model ? hnbrdf_model_material(model, job->index) : NULL;
-    render_surface surface = !model     ? render_surface_measured(job->source.measured)
-                             : analytic ? render_surface_analytic(model, material)
-                                        : render_surface_model(model, material);
-    const render_surface *one = &surface;
-    render_guide guide = render_guide_fit(&one, 1, job->guide);
-    render_surface_guide(&surface, &guide);
-    return surface;
-}
-
-static int render_one(const render_job *job, int analytic, picture_progress *progress,
-                      render_image *image)
-{
+    const render_options options = report_still_options(&c->still);
+    report_same_picture same;
     hnbrdf_error error;
-    render_surface surface = make_surface(job, analytic);
-    render_options options = {.size = (int)job->size,
-                              .spp = (int)job->picture.spp,
-                              .seed = (uint64_t)job->picture.seed,
-                              .threads = (int)job->picture.threads,
-                              .progress = picture_report,
-                              .progress_user = progress};
-    if (render_sphere(&surface, &job->environment, &options, image, &error) != HNBRDF_OK)
+    double seconds;
+    cli_progress_begin(line, "rendering on the CPU");
+    hnbrdf_result result = report_still_check(&c->still, &same, &seconds, &error);
+    cli_progress_end(line);
+    if (result != HNBRDF_OK)
         return cli_fail("%s", error.text);
-    progress->first++;
-    return CLI_OK;
+    int threads = options.threads > 0 ? options.threads : cli_processors();
+    printf("CPU, %d thread%s: %.0f ns a sample\n", threads, threads == 1 ? "" : "s",
+           seconds * 1e9 / ((double)options.size * options.size * options.spp));
+    return judge(&same, exact);
 }
 
-static int add_analytic_layer(render_job *job, picture_progress *progress)
+static void begin_on_device(void *line, const char *device)
 {
+    cli_progress_begin(line, device);
+}
+
+static int show_device(void *line, double share)
+{
+    cli_progress_update(line, share, NULL);
+    return 0;
+}
+
+static int render_on_device(render_command *c, cli_progress *line)
+{
+    report_still *still = &c->still;
+    gpu_picture_report made;
     hnbrdf_error error;
-    render_image analytic = {0};
-    int code = render_one(job, 1, progress, &analytic);
-    if (code == CLI_OK &&
-        render_image_add_layer(&job->image, "analytic", analytic.rgb, &error) == HNBRDF_OK)
-        analytic.rgb = NULL;
-    render_image_free(&analytic);
-    return code;
-}
-
-static int render_on_device(render_job *job)
-{
-    const render_gpu gpu = {.device = job->device,
-                            .check = job->check,
-                            .model = job->source.model,
-                            .material = job->index,
-                            .environment = &job->environment,
-                            .options = {.size = (int)job->size,
-                                        .spp = (int)job->picture.spp,
-                                        .seed = (uint64_t)job->picture.seed,
-                                        .threads = (int)job->picture.threads}};
-    if (!job->source.model)
-        return cli_fail("%s is no model: --device renders what `hnbrdf export` can write",
-                        job->path);
-    return render_gpu_run(&gpu, &job->image);
-}
-
-/* A model draws its own directions; what else there is has a guide. */
-static int render_mesh_view(render_job *job)
-{
-    const hnbrdf_model *model = job->source.model;
-    render_surface surface =
-        model && !job->analytic
-            ? render_surface_model(model, hnbrdf_model_material(model, job->index))
-            : make_surface(job, job->analytic);
-    job->scene.output = job->output;
-    job->scene.spp = job->picture.spp;
-    job->scene.seed = job->picture.seed;
-    job->scene.threads = job->picture.threads;
-    job->scene.transparent = strcmp(job->background, "env") != 0;
-    return mesh_view_render(&job->mesh, &surface, &job->environment, (int)job->size, &job->scene,
-                            &job->image);
-}
-
-static int render_all(render_job *job)
-{
-    if (job->mesh.path)
-        return render_mesh_view(job);
-    if (job->device)
-        return render_on_device(job);
-    picture_progress progress = {.count = 1 + job->layers};
-    cli_progress_begin(&progress.line, "rendering");
-    int code = render_one(job, job->analytic, &progress, &job->image);
-    if (code == CLI_OK && job->layers)
-        code = add_analytic_layer(job, &progress);
-    cli_progress_end(&progress.line);
-    return code;
-}
-
-static int write_picture(render_job *job)
-{
-    char comments[512];
-    const char *name = job->source.model ? hnbrdf_model_material_name(job->source.model, job->index)
-                                         : hnbrdf_measured_name(job->source.measured);
-    double gain = exp2(-job->picture.exposure);
-    if (strcmp(job->background, "backdrop") == 0)
-        render_over_backdrop(&job->image, 0.16 * gain);
-    else if (strcmp(job->background, "env") == 0 && !job->mesh.path)
-        render_over_environment(&job->image, &job->environment,
-                                strcmp(job->picture.env, "furnace") == 0 ? 1.0 : 0.35);
-    snprintf(comments, sizeof comments, "hnbrdf %s render: %s%s, %ld samples a pixel, seed %ld",
-             hnbrdf_version(), name, job->analytic ? " (analytic part)" : "", job->picture.spp,
-             job->picture.seed);
-    render_write_options options = {
-        .exposure = job->picture.exposure, .half = job->half, .comments = comments};
-    return picture_write(&job->image, job->output, &options);
-}
-
-static int run(render_job *job)
-{
-    hnbrdf_error error;
-    if (open_source(job) != CLI_OK ||
-        picture_open_light(&job->picture, &job->environment) != CLI_OK)
-        return CLI_FAILURE;
-    if (render_guide_model(&job->guide, &error) != HNBRDF_OK)
+    char *end;
+    gpu_picture job = {.device = strtol(c->device, &end, 10),
+                       .model = still->model,
+                       .material = still->material,
+                       .environment = &still->spheres.environment,
+                       .options = report_still_options(still),
+                       .begin = begin_on_device,
+                       .begin_user = line};
+    if (end == c->device || *end)
+        return cli_fail("--device: found '%s', expected a number (hnbrdf verify --list)",
+                        c->device),
+               CLI_USAGE;
+    job.options.progress = show_device;
+    job.options.progress_user = line;
+    hnbrdf_result result = gpu_picture_render(&job, &still->image, &made, &error);
+    cli_progress_end(line);
+    if (result != HNBRDF_OK)
         return cli_fail("%s", error.text);
-    int code = render_all(job);
-    return code == CLI_OK ? write_picture(job) : code;
+    printf("%s: %.0f ns a sample\n", made.device, made.sample_ns);
+    return c->check ? check(c, line, made.exact) : CLI_OK;
+}
+#else
+static int render_on_device(render_command *c, cli_progress *line)
+{
+    (void)c;
+    (void)line;
+    return cli_fail("--device: this hnbrdf was built without Vulkan (HNBRDF_WITH_VULKAN)");
+}
+#endif
+
+/* ---- On the CPU ------------------------------------------------------------------------------ */
+
+static int render_on_cpu(report_still *still, cli_progress *line)
+{
+    hnbrdf_error error;
+    cli_progress_begin(line, "rendering");
+    hnbrdf_result result = report_still_render(still, &error);
+    cli_progress_end(line);
+    return cli_code(result, &error);
+}
+
+static int render_on_mesh(report_still *still)
+{
+    picture_progress progress = {.count = 1};
+    render_outcome outcome;
+    hnbrdf_error error;
+    still->job.progress = picture_report;
+    still->job.progress_user = &progress;
+    picture_begin_job(&progress, "rendering");
+    hnbrdf_result result = report_still_render_mesh(still, &outcome, &error);
+    picture_end_job(&progress, result == HNBRDF_OK ? &outcome : NULL, still->spheres.light.spp);
+    return cli_code(result, &error);
+}
+
+static int run(render_command *c)
+{
+    report_still *still = &c->still;
+    hnbrdf_error error;
+    cli_progress line = {0};
+    still->spheres.watch = cli_watch(&line);
+    int code = open_source(c);
+    if (code == CLI_OK)
+        code = still->mesh.path ? render_on_mesh(still)
+               : c->device      ? render_on_device(c, &line)
+                                : render_on_cpu(still, &line);
+    return code == CLI_OK ? cli_code(report_still_write(still, c->output, &error), &error) : code;
+}
+
+/* -1 to go on, as cli_parse() does. */
+static int check_options(render_command *c)
+{
+    const report_still *still = &c->still;
+    if (c->check && !c->device)
+        return cli_usage(&command,
+                         "--check compares a device with the CPU: expected --device N too");
+    if (c->device && (still->analytic || still->layers))
+        return cli_usage(&command, "--analytic and --layers are for the CPU, without --device");
+    if (!still->mesh.path && (still->job.bounces > 1 || still->job.seconds > 0.0 ||
+                              still->job.resume || still->mesh.smooth || still->job.clamp > 0.0))
+        return cli_usage(&command,
+                         "--bounces, --time, --resume, --clamp and --smooth are for --mesh");
+    if (still->mesh.path && (still->layers || c->device))
+        return cli_usage(&command, "--layers and --device are for the sphere, without --mesh");
+    return picture_check_output(&command, c->output);
 }
 
 int cmd_render(int argc, char **argv)
 {
-    render_job job = {.background = "backdrop",
-                      .size = 512,
-                      .picture = PICTURE_DEFAULTS(64),
-                      .mesh = MESH_VIEW_DEFAULTS,
-                      .scene = {.bounces = 1}};
+    render_command c = {.still = {.spheres = {.size = 512, .light = PICTURE_DEFAULTS(64)},
+                                  .mesh = {.tilt = 15.0},
+                                  .job = {.bounces = 1}}};
+    report_still *still = &c.still;
     const cli_option options[] = {
-        {"material", 0, CLI_TEXT, &job.material, 0, 0, "NAME", "of a model with several"},
-        {"output", 'o', CLI_TEXT, &job.output, 0, 0, "FILE",
+        {"material", 0, CLI_TEXT, &c.material, 0, 0, "NAME", "of a model with several"},
+        {"output", 'o', CLI_TEXT, &c.output, 0, 0, "FILE",
          "FILE.exr (and FILE.png beside it) or FILE.png"},
-        {"size", 0, CLI_INT, &job.size, 1, 8192, "N", "pixels a side, default 512"},
-        PICTURE_OPTIONS(job.picture, "64"),
-        {"background", 0, CLI_TEXT, &job.background, 0, 0, "NAME",
+        {"size", 0, CLI_INT, &still->spheres.size, 1, 8192, "N", "pixels a side, default 512"},
+        PICTURE_OPTIONS(still->spheres.light, "64"),
+        {"background", 0, CLI_CHOICE, &still->background, 0, 0, "backdrop|env|none",
          "backdrop (default), env, or none: transparent"},
-        {"analytic", 0, CLI_FLAG, &job.analytic, 0, 0, NULL,
+        {"analytic", 0, CLI_FLAG, &still->analytic, 0, 0, NULL,
          "the analytic part (GGX) of the model alone"},
-        {"layers", 0, CLI_FLAG, &job.layers, 0, 0, NULL,
+        {"layers", 0, CLI_FLAG, &still->layers, 0, 0, NULL,
          "EXR: also the analytic part, as analytic.R, .G, .B"},
-        {"half", 0, CLI_FLAG, &job.half, 0, 0, NULL, "EXR: half instead of float"},
-        {"device", 'd', CLI_TEXT, &job.device, 0, 0, "N",
+        {"half", 0, CLI_FLAG, &still->half, 0, 0, NULL, "EXR: half instead of float"},
+        {"device", 'd', CLI_TEXT, &c.device, 0, 0, "N",
          "on Vulkan device N (hnbrdf verify --list), by the exported shader and its sampling"},
-        {"check", 0, CLI_FLAG, &job.check, 0, 0, NULL,
+        {"check", 0, CLI_FLAG, &c.check, 0, 0, NULL,
          "with --device: also on the CPU, with the same random numbers; fails if they differ"},
-        MESH_OPTIONS(job.mesh),
-        {"bounces", 0, CLI_INT, &job.scene.bounces, 1, RENDER_MAX_BOUNCES, "N",
+        {"mesh", 0, CLI_TEXT, &still->mesh.path, 0, 0, "FILE.obj",
+         "a mesh instead of the sphere (y is up)"},
+        {"smooth", 0, CLI_FLAG, &still->mesh.smooth, 0, 0, NULL,
+         "of a mesh: normals averaged at its vertices"},
+        {"turn", 0, CLI_REAL, &still->mesh.turn, -360, 360, "DEG",
+         "of a mesh: walk around it, counter-clockwise"},
+        {"tilt", 0, CLI_REAL, &still->mesh.tilt, -89, 89, "DEG",
+         "of a mesh: camera above the horizon, default 15"},
+        {"bounces", 0, CLI_INT, &still->job.bounces, 1, RENDER_MAX_BOUNCES, "N",
          "of a mesh: most reflections of light, default 1"},
-        SCENE_LENGTH_OPTIONS(job.scene),
+        SCENE_LENGTH_OPTIONS(still->job),
         CLI_READING_OPTIONS,
         CLI_SIGNED_OPTION,
         {NULL, 0, CLI_FLAG, NULL, 0, 0, NULL, NULL},
@@ -226,28 +250,14 @@ int cmd_render(int argc, char **argv)
         return code;
     if (positionals != 1)
         return cli_usage(&command, "expected one SOURCE, found %d", positionals);
-    if (!is_one_of(job.background, "backdrop", "env", "none"))
-        return cli_usage(&command, "--background %s: expected backdrop, env or none",
-                         job.background);
-    if (job.check && !job.device)
-        return cli_usage(&command,
-                         "--check compares a device with the CPU: expected --device N too");
-    if (job.device && (job.analytic || job.layers))
-        return cli_usage(&command, "--analytic and --layers are for the CPU, without --device");
-    if (!job.mesh.path && (job.scene.bounces > 1 || job.scene.seconds > 0.0 || job.scene.resume ||
-                           job.mesh.smooth || job.scene.clamp > 0.0))
-        return cli_usage(&command,
-                         "--bounces, --time, --resume, --clamp and --smooth are for --mesh");
-    if (job.mesh.path && (job.layers || job.device))
-        return cli_usage(&command, "--layers and --device are for the sphere, without --mesh");
-    code = picture_check_output(&command, job.output);
+    code = check_options(&c);
     if (code >= 0)
         return code;
-    job.path = argv[1];
-    code = run(&job);
-    render_image_free(&job.image);
-    render_environment_free(&job.environment);
-    hnbrdf_model_free(job.guide);
-    cli_close_source(&job.source);
+    c.path = argv[1];
+    still->job.output = c.output;
+    code = run(&c);
+    render_image_free(&still->image);
+    report_spheres_close(&still->spheres);
+    cli_close_source(&c.source);
     return code;
 }

@@ -1,9 +1,6 @@
 /* cmd_scene.c: `hnbrdf scene`: path tracing of a scene told in a text file. */
-#include "cli/scene_compare.h"
-
-#include "scene/describe.h"
-
-#include <string.h>
+#include "cli/picture.h"
+#include "report/scene_compare.h"
 
 static const cli_command command = {
     "scene",
@@ -42,63 +39,111 @@ static const cli_command command = {
     "hnbrdf scene room.scene --compare rgl/ --csv room.csv -o room.exr",
 };
 
-static int open_scene(scene_files *files, const scene_sizes *sizes)
+typedef struct scene_command {
+    const char *path, *measured, *compare, *csv, *json;
+    long width; /* 0: what the scene says */
+    int analytic, half;
+    double exposure;
+    render_job job;
+    render_description description;
+} scene_command;
+
+static int open_scene(scene_command *c)
 {
     hnbrdf_error error;
-    render_camera *camera = &files->description.camera;
-    if (render_description_read(files->path, &files->description, &error) != HNBRDF_OK)
+    render_camera *camera = &c->description.camera;
+    if (render_description_read(c->path, &c->description, &error) != HNBRDF_OK)
         return cli_fail("%s", error.text);
     camera->width = camera->width ? camera->width : 640;
     camera->height = camera->height ? camera->height : 480;
-    if (sizes->width) { /* the picture keeps its shape */
-        long height = (camera->height * sizes->width + camera->width / 2) / camera->width;
+    if (c->width) { /* the picture keeps its shape */
+        long height = (camera->height * c->width + camera->width / 2) / camera->width;
         camera->height = height > 0 ? (int)height : 1;
-        camera->width = (int)sizes->width;
+        camera->width = (int)c->width;
     }
+    if (isnan(c->exposure))
+        c->exposure = isnan(c->description.exposure) ? 0.0 : c->description.exposure;
     return CLI_OK;
 }
 
-static int render_one(const scene_files *files, const scene_job *job, render_show show,
-                      const char *folder, double exposure)
+static int render_one(const scene_command *c)
 {
     char comments[512];
+    hnbrdf_error error;
     render_image image = {0};
-    scene_time time;
-    int code = scene_files_render(files, job, show, folder, "rendering", &image, &time);
-    if (code == CLI_OK) {
-        snprintf(comments, sizeof comments,
-                 "hnbrdf %s scene: %.300s, %ld samples a pixel, seed %ld", hnbrdf_version(),
-                 files->path, job->spp, job->seed);
-        const render_write_options options = {
-            .exposure = exposure, .half = job->half, .comments = comments};
-        code = picture_write(&image, job->output, &options);
-    }
+    render_outcome outcome;
+    picture_progress progress = {.count = 1};
+    render_job job = c->job;
+    render_show show = c->analytic   ? RENDER_SHOW_ANALYTIC
+                       : c->measured ? RENDER_SHOW_MEASURED
+                                     : RENDER_SHOW_MODEL;
+    job.progress = picture_report;
+    job.progress_user = &progress;
+    picture_begin_job(&progress, "rendering");
+    hnbrdf_result result = render_job_run_description(&job, &c->description, show, c->measured,
+                                                      &cli_read, &image, &outcome, &error);
+    picture_end_job(&progress, result == HNBRDF_OK ? &outcome : NULL, job.spp);
+    if (result != HNBRDF_OK)
+        return cli_fail("%s", error.text);
+    snprintf(comments, sizeof comments, "hnbrdf %s scene: %.300s, %ld samples a pixel, seed %ld",
+             hnbrdf_version(), c->path, job.spp, job.seed);
+    const render_write_options options = {
+        .exposure = c->exposure, .half = c->half, .comments = comments};
+    int code = picture_write(&image, job.output, &options);
     render_image_free(&image);
     return code;
 }
 
+static int compare(const scene_command *c)
+{
+    hnbrdf_error error;
+    cli_progress line;
+    report_scene_row rows[REPORT_SCENE_ROWS];
+    const report_scene scene = {.description = &c->description,
+                                .reading = &cli_read,
+                                .folder = c->compare,
+                                .job = c->job,
+                                .exposure = c->exposure,
+                                .half = c->half,
+                                .watch = cli_watch(&line)};
+    if (cli_output_check(c->csv) != CLI_OK || cli_output_check(c->json) != CLI_OK)
+        return CLI_FAILURE;
+    cli_progress_begin(&line, "rendering");
+    cli_catch_interrupts(1);
+    hnbrdf_result result = report_scene_compare(&scene, rows, &error);
+    cli_catch_interrupts(0);
+    cli_progress_end(&line);
+    if (result != HNBRDF_OK)
+        return cli_fail("%s", error.text);
+    report_scene_print(rows, stdout);
+    int code = cli_write_file(c->csv, report_scene_write_csv, rows);
+    return code == CLI_OK ? cli_write_file(c->json, report_scene_write_json, rows) : code;
+}
+
 int cmd_scene(int argc, char **argv)
 {
-    scene_job job = {.spp = 64, .seed = 1};
-    scene_files files = {.csv = NULL};
-    scene_sizes sizes = {0};
-    const char *measured = NULL, *compare = NULL;
-    int analytic = 0;
-    double exposure = NAN;
+    scene_command c = {.exposure = NAN, .job = {.spp = 64, .seed = 1}};
     const cli_option options[] = {
-        {"output", 'o', CLI_TEXT, &job.output, 0, 0, "FILE",
+        {"output", 'o', CLI_TEXT, &c.job.output, 0, 0, "FILE",
          "FILE.exr (and FILE.png beside it) or FILE.png"},
-        SCENE_OPTIONS(job),
-        {"width", 0, CLI_INT, &sizes.width, 1, 16384, "N", "of the picture, whose shape is kept"},
-        {"exposure", 0, CLI_REAL, &exposure, -64, 64, "EV",
+        {"spp", 0, CLI_INT, &c.job.spp, 1, 1 << 20, "N", "samples a pixel, default 64"},
+        {"bounces", 0, CLI_INT, &c.job.bounces, 1, RENDER_MAX_BOUNCES, "N",
+         "most reflections of light, default 16 or what the scene says"},
+        SCENE_LENGTH_OPTIONS(c.job),
+        {"seed", 0, CLI_INT, &c.job.seed, 0, 2147483647, "N", "of the random numbers, default 1"},
+        {"threads", 0, CLI_INT, &c.job.threads, 0, 1024, "N",
+         "default: all cores; changes no pixel"},
+        {"half", 0, CLI_FLAG, &c.half, 0, 0, NULL, "EXR: half instead of float"},
+        {"width", 0, CLI_INT, &c.width, 1, 16384, "N", "of the picture, whose shape is kept"},
+        {"exposure", 0, CLI_REAL, &c.exposure, -64, 64, "EV",
          "stops, default 0 or what the scene says"},
-        {"analytic", 0, CLI_FLAG, &analytic, 0, 0, NULL, "models: their GGX part alone"},
-        {"measured", 0, CLI_TEXT, &measured, 0, 0, "DIR",
+        {"analytic", 0, CLI_FLAG, &c.analytic, 0, 0, NULL, "models: their GGX part alone"},
+        {"measured", 0, CLI_TEXT, &c.measured, 0, 0, "DIR",
          "models: the measurements of the same names in DIR instead"},
-        {"compare", 0, CLI_TEXT, &compare, 0, 0, "DIR",
+        {"compare", 0, CLI_TEXT, &c.compare, 0, 0, "DIR",
          "model, GGX and measurements in DIR: three pictures, errors and times"},
-        {"csv", 0, CLI_TEXT, &files.csv, 0, 0, "FILE", "of --compare, the table"},
-        {"json", 0, CLI_TEXT, &files.json, 0, 0, "FILE", "likewise"},
+        {"csv", 0, CLI_TEXT, &c.csv, 0, 0, "FILE", "of --compare, the table"},
+        {"json", 0, CLI_TEXT, &c.json, 0, 0, "FILE", "likewise"},
         CLI_READING_OPTIONS,
         {NULL, 0, CLI_FLAG, NULL, 0, 0, NULL, NULL},
     };
@@ -107,27 +152,20 @@ int cmd_scene(int argc, char **argv)
         return code;
     if (positionals != 1)
         return cli_usage(&command, "expected one FILE.scene, found %d", positionals);
-    if ((analytic != 0) + (measured != NULL) + (compare != NULL) > 1)
+    if (c.analytic + (c.measured != NULL) + (c.compare != NULL) > 1)
         return cli_usage(&command, "--analytic, --measured and --compare: expected one of them");
-    if (!compare && (files.csv || files.json))
+    if (!c.compare && (c.csv || c.json))
         return cli_usage(&command, "--csv and --json are for --compare");
-    if (compare && (job.resume || job.seconds > 0.0))
+    if (c.compare && (c.job.resume || c.job.seconds > 0.0))
         return cli_usage(&command,
                          "--compare takes the same samples for each: no --time and no --resume");
-    code = picture_check_output(&command, job.output);
+    code = picture_check_output(&command, c.job.output);
     if (code >= 0)
         return code;
-    files.path = argv[1];
-    code = open_scene(&files, &sizes);
-    if (code == CLI_OK) {
-        render_show show = analytic   ? RENDER_SHOW_ANALYTIC
-                           : measured ? RENDER_SHOW_MEASURED
-                                      : RENDER_SHOW_MODEL;
-        if (isnan(exposure))
-            exposure = isnan(files.description.exposure) ? 0.0 : files.description.exposure;
-        code = compare ? scene_compare(&files, &job, compare, exposure)
-                       : render_one(&files, &job, show, measured, exposure);
-    }
-    render_description_free(&files.description);
+    c.path = argv[1];
+    code = open_scene(&c);
+    if (code == CLI_OK)
+        code = c.compare ? compare(&c) : render_one(&c);
+    render_description_free(&c.description);
     return code;
 }

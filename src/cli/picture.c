@@ -67,5 +67,21 @@ int picture_report(void *progress, double share)
 {
     picture_progress *p = progress;
     cli_progress_update(&p->line, (p->first + share) / p->count, p->detail);
-    return 0;
+    return cli_interrupted();
+}
+
+void picture_begin_job(picture_progress *progress, const char *what)
+{
+    cli_progress_begin(&progress->line, what);
+    cli_catch_interrupts(1);
+}
+
+void picture_end_job(picture_progress *progress, const render_outcome *outcome, long spp)
+{
+    cli_catch_interrupts(0);
+    cli_progress_end(&progress->line);
+    if (outcome && !outcome->complete)
+        printf("stopped at %d to %d of %ld samples a pixel. Repeat the command with --resume to go "
+               "on.\n",
+               outcome->least, outcome->most, spp);
 }

@@ -5,6 +5,7 @@
 
 #include "cli/cli.h"
 #include "report/picture.h"
+#include "scene/job.h"
 
 #include <math.h>
 
@@ -40,6 +41,17 @@ typedef report_light picture_options;
         "threads", 0, CLI_INT, &(p).threads, 0, 1024, "N", "default: all cores; changes no pixel" \
     }
 
+/* clang-format off */
+/* Rows of a cli_option table for a render_job named j. */
+#define SCENE_LENGTH_OPTIONS(j) \
+    {"time", 0, CLI_REAL, &(j).seconds, 0.1, 1e7, "S", \
+     "stop after S seconds; --resume goes on later, up to --spp"}, \
+    {"resume", 0, CLI_FLAG, &(j).resume, 0, 0, NULL, \
+     "go on from FILE.checkpoint of a rendering that was stopped"}, \
+    {"clamp", 0, CLI_REAL, &(j).clamp, 1e-3, 1e9, "X", \
+     "limit on what a path brings after its first reflection: no speckles, a little less light"}
+/* clang-format on */
+
 /* -1 to go on, or an exit code after a message: the name must end in .exr or .png, .exr must be
  * possible, the folder writable. */
 int picture_check_output(const cli_command *command, const char *path);
@@ -64,5 +76,10 @@ typedef struct picture_progress {
     const char *detail;
 } picture_progress;
 int picture_report(void *progress, double share);
+
+/* Around a render_job whose progress is picture_report(): the line, and Ctrl-C that stops it. Says
+ * how far one that was stopped came; outcome NULL: it failed. */
+void picture_begin_job(picture_progress *progress, const char *what);
+void picture_end_job(picture_progress *progress, const render_outcome *outcome, long spp);
 
 #endif

@@ -1,9 +1,11 @@
 /* gallery_choose.c: which materials make a good gallery, where nobody says: by what their values do
  * over the same pairs of directions. */
-#include "cli/gallery.h"
+#include "report/gallery.h"
 
+#include "base/error.h"
+
+#include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 enum { PAIRS = 768 };
 
@@ -21,7 +23,7 @@ static void draw(directions *d)
         while (d->wi[k][2] < 0.01f || d->wo[k][2] < 0.01f);
 }
 
-static void evaluate(const gallery *g, const directions *d, const hnbrdf_material *material,
+static void evaluate(const report_gallery *g, const directions *d, const hnbrdf_material *material,
                      float (*f)[3])
 {
     hnbrdf_eval_batch(g->model, material, PAIRS, d->wi[0], 0, d->wo[0], 0, f[0], 0);
@@ -38,7 +40,7 @@ static double distance(float (*f)[3], float (*h)[3])
 
 /* How much a material changes with twice the roughness, the opposite colour, and more refraction;
  * times how far it is from its GGX part, which by itself needs no network. */
-static double answer(const gallery *g, const directions *d, const hnbrdf_material *material)
+static double answer(const report_gallery *g, const directions *d, const hnbrdf_material *material)
 {
     float before[PAIRS][3], after[PAIRS][3];
     double sum = 0.0;
@@ -58,13 +60,13 @@ static double answer(const gallery *g, const directions *d, const hnbrdf_materia
     return sum * (g->desc.kind == HNBRDF_KIND_HYBRID ? distance(before, after) : 1.0);
 }
 
-int gallery_choose_materials(gallery *g, int most)
+hnbrdf_result report_gallery_choose_materials(report_gallery *g, int most, hnbrdf_error *error)
 {
     int count = hnbrdf_model_material_count(g->model);
     directions *d = malloc(sizeof *d);
     double *answers = malloc((size_t)count * sizeof *answers);
-    int code = d && answers ? CLI_OK : cli_fail("out of memory");
-    if (code == CLI_OK) {
+    const int has_memory = d && answers;
+    if (has_memory) {
         draw(d);
         for (int m = 0; m < count; m++)
             answers[m] = answer(g, d, hnbrdf_model_material(g->model, m));
@@ -78,7 +80,7 @@ int gallery_choose_materials(gallery *g, int most)
     }
     free(d);
     free(answers);
-    return code;
+    return has_memory ? HNBRDF_OK : hnbrdf_fail(error, HNBRDF_ERROR_MEMORY, "out of memory");
 }
 
 /* The pair of unused materials farthest apart; 0 if there is none. */
@@ -97,7 +99,7 @@ static int farthest(float (*values)[PAIRS][3], const char *used, int count, int 
     return most >= 0.0;
 }
 
-int gallery_choose_pairs(gallery *g, int most)
+hnbrdf_result report_gallery_choose_pairs(report_gallery *g, int most, hnbrdf_error *error)
 {
     /* Of a large database the first ones are enough to choose from. */
     enum { CANDIDATES = 48 };
@@ -106,8 +108,8 @@ int gallery_choose_pairs(gallery *g, int most)
     directions *d = malloc(sizeof *d);
     float(*values)[PAIRS][3] = malloc((size_t)count * sizeof *values);
     char used[CANDIDATES] = {0};
-    int code = d && values ? CLI_OK : cli_fail("out of memory");
-    if (code == CLI_OK) {
+    const int has_memory = d && values;
+    if (has_memory) {
         draw(d);
         for (int m = 0; m < count; m++)
             evaluate(g, d, hnbrdf_model_material(g->model, m), values[m]);
@@ -119,5 +121,5 @@ int gallery_choose_pairs(gallery *g, int most)
     }
     free(d);
     free(values);
-    return code;
+    return has_memory ? HNBRDF_OK : hnbrdf_fail(error, HNBRDF_ERROR_MEMORY, "out of memory");
 }

@@ -1,13 +1,16 @@
-/* render_mesh.c: a scene of one mesh, with a camera that sees all of it. */
-#include "cli/render_mesh.h"
+/* mesh_view.c: a scene of one mesh, with a camera that sees all of it. */
+#include "scene/mesh_view.h"
 
+#include "base/error.h"
+
+#include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 static const double radians = 3.14159265358979323846 / 180.0;
 
 /* At a distance from which the sphere about the mesh's box just fits. */
-static void aim(const mesh_view *view, const render_mesh *mesh, int size, render_camera *camera)
+static void aim(const render_mesh_view *view, const render_mesh *mesh, int size,
+                render_camera *camera)
 {
     float low[3], high[3];
     double radius = 0.0, fov = 30.0;
@@ -27,13 +30,13 @@ static void aim(const mesh_view *view, const render_mesh *mesh, int size, render
     camera->width = camera->height = size;
 }
 
-static hnbrdf_result build(const mesh_view *view, const render_surface *surface, int size,
+static hnbrdf_result build(const render_mesh_view *view, const render_surface *surface, int size,
                            render_scene *scene, hnbrdf_error *error)
 {
     scene->surfaces = calloc(1, sizeof *scene->surfaces);
     scene->shapes = calloc(1, sizeof *scene->shapes);
     if (!scene->surfaces || !scene->shapes)
-        return HNBRDF_ERROR_MEMORY;
+        return hnbrdf_fail(error, HNBRDF_ERROR_MEMORY, "out of memory");
     scene->surfaces[0].surface = *surface;
     scene->surface_count = scene->shape_count = 1;
     render_mesh *mesh = &scene->shapes[0].mesh;
@@ -42,21 +45,20 @@ static hnbrdf_result build(const mesh_view *view, const render_surface *surface,
         return result;
     scene->shapes[0].surfaces = calloc(mesh->part_count, sizeof *scene->shapes[0].surfaces);
     if (!scene->shapes[0].surfaces || (view->smooth && render_mesh_smooth(mesh)))
-        return HNBRDF_ERROR_MEMORY;
+        return hnbrdf_fail(error, HNBRDF_ERROR_MEMORY, "out of memory");
     aim(view, mesh, size, &scene->camera);
     return render_scene_build(scene, error);
 }
 
-int mesh_view_render(const mesh_view *view, const render_surface *surface,
-                     const render_environment *environment, int size, const scene_job *job,
-                     render_image *image)
+hnbrdf_result render_mesh_view_run(const render_mesh_view *view, const render_surface *surface,
+                                   const render_environment *environment, int size,
+                                   const render_job *job, render_image *image,
+                                   render_outcome *outcome, hnbrdf_error *error)
 {
-    hnbrdf_error error = {"out of memory"};
-    scene_time time;
     render_scene scene = {.environment = environment};
-    int code = build(view, surface, size, &scene, &error) == HNBRDF_OK
-                   ? scene_job_render(job, &scene, "rendering", image, &time)
-                   : cli_fail("%s", error.text);
+    hnbrdf_result result = build(view, surface, size, &scene, error);
+    if (result == HNBRDF_OK)
+        result = render_job_run(job, &scene, image, outcome, error);
     render_scene_free(&scene);
-    return code;
+    return result;
 }
