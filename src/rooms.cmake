@@ -6,13 +6,13 @@ function(hnbrdf_room name)
 endfunction()
 
 hnbrdf_room(base
-  clock.c csv.c files.c files_posix.c files_windows.c interrupt.c json.c probe.c text.c text_buffer.c
-  threads.c write.c)
+  clock.c csv.c files.c files_posix.c files_windows.c guess.c interrupt.c json.c probe.c
+  text.c text_buffer.c threads.c write.c)
 # Each file of base that an installed library needs is in exactly one of the static ones: here what
 # libhnbrdf, libhnbrdf_fit and libhnbrdf_bake hold. Shared libraries take what they need from hnbrdf_base and hide
 # it.
 set(HNBRDF_BASE_HNBRDF src/base/files.c src/base/files_posix.c src/base/files_windows.c
-  src/base/json.c src/base/text.c)
+  src/base/guess.c src/base/json.c src/base/text.c)
 set(HNBRDF_BASE_FIT src/base/clock.c src/base/threads.c)
 set(HNBRDF_BASE_BAKE src/base/probe.c)
 hnbrdf_room(core
@@ -55,17 +55,16 @@ hnbrdf_room(gpu
   stability.c timed.c
   verify.c)
 hnbrdf_room(edit
-  materials.c)
+  fields.c materials.c)
 hnbrdf_room(bake
   bake.c ggx.c half.c options.c rows.c search.c sizes.c teacher.c tell.c wave.c)
 hnbrdf_room(report
   bake_plot.c bake_tables.c compare.c compare_images.c fit_log.c gallery_choose.c
-  gallery_pages.c gallery_strips.c grid.c grid_figures.c
-  grid_fit.c grid_ggx.c grid_image_tables.c grid_images.c grid_plot.c grid_rows.c
-  grid_tables.c info_physics.c loss_plot.c output.c picture.c same_picture.c sampling_measure.c
-  sampling_strips.c sampling_write.c scene_compare.c sheet.c spheres.c
-  stability_plot.c stability_report.c still.c texels.c
-  verify_report.c)
+  gallery_pages.c gallery_strips.c grid.c grid_figures.c grid_fit.c grid_ggx.c
+  grid_image_tables.c grid_images.c grid_plot.c grid_rows.c grid_tables.c info_physics.c
+  lobes_table.c loss_plot.c output.c picture.c same_picture.c sampling_measure.c
+  sampling_strips.c sampling_write.c scene_compare.c sheet.c spheres.c stability_plot.c
+  stability_report.c still.c texels.c verify_report.c)
 hnbrdf_room(bench
   measure.c models.c peak.c peer.c plot.c quality.c rows.c rows_cpu.c rows_gpu.c speed.c tables.c)
 hnbrdf_room(cli

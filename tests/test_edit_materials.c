@@ -1,5 +1,5 @@
 /* test_edit_materials.c: hnbrdf_model_with_materials() makes the changes it is told and no other,
- * and leaves nothing behind where it refuses. */
+ * and leaves nothing behind where it refuses; hnbrdf_material_set() likewise. */
 #include "hnbrdf/edit.h"
 #include "model_support.h"
 
@@ -245,6 +245,66 @@ static void all_materials_may_go_when_others_come(void **state)
     hnbrdf_model_free(made);
 }
 
+/* ---- A material by a text -------------------------------------------------------------------- */
+
+static void a_text_sets_multiplies_and_adds(void **state)
+{
+    hnbrdf_material m = other_material(), wanted = m;
+    hnbrdf_error error = {""};
+    (void)state;
+    m.rotation = 1.0f;
+    m.latent[3] = wanted.latent[3] = 5.0f;
+    if (hnbrdf_material_set(&m,
+                            "kd=0.1:0.2:0.3,eta=2,alpha=0.25:0.5,alpha_x*=2,alpha_y+=0.25,"
+                            "rotation+=90deg,kd*=2,eta+=0:1:2,rotation+=0.5rad",
+                            &error))
+        fail_msg("%s", error.text);
+    for (int c = 0; c < 3; c++) {
+        wanted.kd[c] = 2.0f * (c == 0 ? 0.1f : c == 1 ? 0.2f : 0.3f);
+        wanted.eta[c] = 2.0f + (float)c;
+    }
+    wanted.alpha[0] = 0.5f;
+    wanted.alpha[1] = 0.75f;
+    wanted.rotation = 1.0f + (float)(90.0 * (3.14159265358979324 / 180.0)) + 0.5f;
+    assert_memory_equal(&m, &wanted, sizeof m);
+}
+
+static void a_wrong_text_changes_nothing(void **state)
+{
+    static const struct {
+        const char *text, *message;
+    } cases[] = {{"", "'' is not FIELD=VALUE"},
+                 {"kd", "'kd' is not FIELD=VALUE"},
+                 {"kd=1,", "'' is not FIELD=VALUE"},
+                 {"kd=1,kf=1", "no field 'kf', expected kd, eta, alpha, alpha_x, alpha_y or "
+                               "rotation (did you mean kd?)"},
+                 {"=1", "no field ''"},
+                 {"kd=", "kd: '' is not a number"},
+                 {"kd=1:", "is not a number"},
+                 {"kd=1:2", "kd: found 2 values, expected 1 or 3, R:G:B"},
+                 {"kd=1:2:3:4", "found 4 values"},
+                 {"alpha=1:2:3", "alpha: found 3 values, expected 1 or 2, x:y"},
+                 {"alpha_x=1:2", "alpha_x: found 2 values, expected 1"},
+                 {"alpha=1deg", "is not a number"},
+                 {"rotation*=30deg", "is not a number"},
+                 {"eta=inf", "is not a number"},
+                 {"eta=0x1", "is not a number"},
+                 {"alpha=0.2 ", "is not a number"}};
+    const hnbrdf_material before = other_material();
+    (void)state;
+    for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
+        hnbrdf_material m = before;
+        hnbrdf_error error = {""};
+        assert_int_equal(hnbrdf_material_set(&m, cases[k].text, &error), HNBRDF_ERROR_ARGUMENT);
+        if (!strstr(error.text, cases[k].message))
+            fail_msg("found \"%s\", expected it to say \"%s\"", error.text, cases[k].message);
+        assert_memory_equal(&m, &before, sizeof m);
+    }
+    hnbrdf_material m = before;
+    assert_int_equal(hnbrdf_material_set(NULL, "kd=1", NULL), HNBRDF_ERROR_ARGUMENT);
+    assert_int_equal(hnbrdf_material_set(&m, NULL, NULL), HNBRDF_ERROR_ARGUMENT);
+}
+
 /* ---- Refusals -------------------------------------------------------------------------------- */
 
 static void assert_refused(const hnbrdf_model *model, const hnbrdf_material_change *changes,
@@ -448,6 +508,8 @@ int main(void)
         cmocka_unit_test(the_lobes_of_all_are_set_without_a_name),
         cmocka_unit_test(changes_are_made_in_order),
         cmocka_unit_test(all_materials_may_go_when_others_come),
+        cmocka_unit_test(a_text_sets_multiplies_and_adds),
+        cmocka_unit_test(a_wrong_text_changes_nothing),
         cmocka_unit_test(wrong_changes_are_refused),
         cmocka_unit_test(a_model_without_materials_is_refused),
         cmocka_unit_test(wrong_arguments_are_refused),

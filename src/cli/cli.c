@@ -1,6 +1,7 @@
 /* cli.c: how a command describes itself once (cli.h) becomes parsing, --help and messages. */
 #include "cli/cli.h"
 
+#include "base/guess.h"
 #include "base/text.h"
 #include "base/threads.h"
 
@@ -56,63 +57,6 @@ int cli_usage(const cli_command *command, const char *format, ...)
 int cli_processors(void)
 {
     return hnbrdf_processors();
-}
-
-/* ---- Suggestions ----------------------------------------------------------------------------- */
-
-static size_t min3(size_t a, size_t b, size_t c)
-{
-    size_t ab = a < b ? a : b;
-    return ab < c ? ab : c;
-}
-
-/* Insertions, deletions, substitutions and swaps of neighbours from a to b, each part taken once
- * (optimal string alignment), of their first HNBRDF_MAX_NAME bytes. */
-static size_t edit_distance(const char *a, const char *b)
-{
-    enum { SIZE = HNBRDF_MAX_NAME + 1 };
-    size_t rows[3][SIZE], *before = rows[0], *above = rows[1], *row = rows[2];
-    size_t length_a = strnlen(a, SIZE - 1), length_b = strnlen(b, SIZE - 1);
-    for (size_t j = 0; j <= length_b; j++)
-        row[j] = j;
-    for (size_t i = 1; i <= length_a; i++) {
-        size_t *oldest = before;
-        before = above;
-        above = row;
-        row = oldest;
-        row[0] = i;
-        for (size_t j = 1; j <= length_b; j++) {
-            row[j] = min3(above[j] + 1, row[j - 1] + 1, above[j - 1] + (a[i - 1] != b[j - 1]));
-            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
-                row[j] = min3(row[j], before[j - 2] + 1, row[j]);
-        }
-    }
-    return row[length_b];
-}
-
-void cli_guess_begin(cli_guess *guess, const char *word)
-{
-    guess->word = word;
-    guess->nearest = NULL;
-    guess->distance = 0;
-}
-
-void cli_guess_offer(cli_guess *guess, const char *candidate)
-{
-    size_t distance = edit_distance(guess->word, candidate);
-    /* The beginning of a name is most often what was meant. */
-    size_t length = strlen(guess->word);
-    if (length >= 3 && strncmp(guess->word, candidate, length) == 0)
-        distance = 1;
-    if (!guess->nearest || distance < guess->distance) {
-        guess->nearest = candidate;
-        guess->distance = distance;
-    }
-}
-
-const char *cli_guess_nearest(const cli_guess *guess)
-{
-    return guess->nearest && guess->distance <= 1 + strlen(guess->word) / 4 ? guess->nearest : NULL;
 }
 
 /* ---- Tables ---------------------------------------------------------------------------------- */
@@ -305,11 +249,11 @@ static int fail_word(const cli_command *command, const cli_option *option, const
 {
     char words[256];
     const cli_word *word = option->value;
-    cli_guess guess;
-    cli_guess_begin(&guess, text);
+    hnbrdf_guess guess;
+    hnbrdf_guess_begin(&guess, text);
     for (int k = 0; word->name(k); k++)
-        cli_guess_offer(&guess, word->name(k));
-    const char *nearest = cli_guess_nearest(&guess);
+        hnbrdf_guess_offer(&guess, word->name(k));
+    const char *nearest = hnbrdf_guess_nearest(&guess);
     return cli_usage(command, "--%s: found '%s', expected %s%s%s%s", option->name, text,
                      list_words(word, words, sizeof words), nearest ? " (did you mean " : "",
                      nearest ? nearest : "", nearest ? "?)" : "");
@@ -395,14 +339,14 @@ static const cli_option *find_option(const cli_option *options, const char *argu
 static int fail_unknown(const cli_command *command, const cli_option *options, const char *argument)
 {
     char name[HNBRDF_MAX_NAME + 1];
-    cli_guess guess;
+    hnbrdf_guess guess;
     snprintf(name, sizeof name, "%.*s", (int)strcspn(argument, "="), argument);
-    cli_guess_begin(&guess, name + strspn(name, "-"));
+    hnbrdf_guess_begin(&guess, name + strspn(name, "-"));
     const cli_option *option;
     for (int k = 0; (option = option_at(options, k)); k++)
-        cli_guess_offer(&guess, option->name);
-    cli_guess_offer(&guess, "help");
-    const char *nearest = cli_guess_nearest(&guess);
+        hnbrdf_guess_offer(&guess, option->name);
+    hnbrdf_guess_offer(&guess, "help");
+    const char *nearest = hnbrdf_guess_nearest(&guess);
     if (nearest)
         return cli_usage(command, "unknown option %s, did you mean --%s?", name, nearest);
     return cli_usage(command, "unknown option %s", name);

@@ -65,16 +65,6 @@ int cli_fail(const char *format, ...) __attribute__((format(printf, 1, 2)));
 /* The same after "hnbrdf: warning: ". */
 void cli_warn(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
-/* What the person may have meant: offer every candidate, then ask. The nearest one by edit
- * distance if it is near enough to be a slip of the keys, otherwise NULL. */
-typedef struct cli_guess {
-    const char *word, *nearest;
-    size_t distance;
-} cli_guess;
-void cli_guess_begin(cli_guess *guess, const char *word);
-void cli_guess_offer(cli_guess *guess, const char *candidate);
-const char *cli_guess_nearest(const cli_guess *guess);
-
 /* HxN, as in 32x2, at the start of text: H units in each of N hidden layers. Returns where it ends,
  * NULL if it is none or too large; net is then untouched. */
 const char *cli_parse_net(const char *text, int net[2]);

@@ -2,10 +2,7 @@
  * show them. */
 #include "cli/cli.h"
 #include "hnbrdf/edit.h"
-#include "base/write.h"
-
-#include <math.h>
-#include <stddef.h>
+#include "report/lobes_table.h"
 
 static const cli_command command = {
     "lobes",
@@ -23,56 +20,6 @@ static const cli_command command = {
     "hnbrdf lobes model.safetensors --show --csv -\n"
     "hnbrdf lobes model.safetensors --scheme paper -o paper.safetensors",
 };
-
-/* Along x, with the sign of the scale; 0 where there is no such lobe. */
-static double roughness(const hnbrdf_model_desc *desc, const hnbrdf_material *m, int lobe)
-{
-    double scale = (double)m->lobes.scale[lobe];
-    double alpha = fabs(scale) * (desc->kind == HNBRDF_KIND_NEURAL ? 1.0 : (double)m->alpha[0]);
-    double held = fmin(fmax(alpha, (double)HNBRDF_MIN_ALPHA), (double)HNBRDF_MAX_ALPHA);
-    return scale == 0.0 ? 0.0 : copysign(held, scale);
-}
-
-static void print_table(const hnbrdf_model_desc *desc)
-{
-    printf("%-28s %7s  %9s %5s %5s %5s %5s  %9s %5s %5s %5s %5s\n", "material", "alpha", "lobe 1",
-           "0", "1/9", "4/9", "1", "lobe 2", "0", "1/9", "4/9", "1");
-    for (int i = 0; i < desc->material_count; i++) {
-        const hnbrdf_material *m = &desc->materials[i];
-        printf("%-28s %7.4f", desc->names[i], (double)m->alpha[0]);
-        if (m->lobes.scale[0] == 0.0f)
-            printf("  none: guessed from kd and eta");
-        for (int k = 0; k < HNBRDF_LOBES && m->lobes.scale[0] != 0.0f; k++) {
-            printf("  %9.4f", roughness(desc, m, k));
-            for (int j = 0; j < HNBRDF_LOBE_KNOTS; j++)
-                printf(" %5.2f", (double)m->lobes.share[k][j]);
-        }
-        putchar('\n');
-    }
-}
-
-static int write_csv(const char *path, const hnbrdf_model_desc *desc)
-{
-    cli_output output;
-    if (cli_output_open(path, &output) != CLI_OK)
-        return CLI_FAILURE;
-    fputs("material,alpha_x,alpha_y,roughness1,share1_0,share1_1,share1_2,share1_3,roughness2,"
-          "share2_0,share2_1,"
-          "share2_2,share2_3\n",
-          output.file);
-    for (int i = 0; i < desc->material_count; i++) {
-        const hnbrdf_material *m = &desc->materials[i];
-        hnbrdf_write_csv_text(output.file, desc->names[i]);
-        fprintf(output.file, ",%.9g,%.9g", (double)m->alpha[0], (double)m->alpha[1]);
-        for (int k = 0; k < HNBRDF_LOBES; k++) {
-            fprintf(output.file, ",%.9g", roughness(desc, m, k));
-            for (int j = 0; j < HNBRDF_LOBE_KNOTS; j++)
-                fprintf(output.file, ",%.9g", (double)m->lobes.share[k][j]);
-        }
-        putc('\n', output.file);
-    }
-    return cli_output_close(&output);
-}
 
 int cli_set_lobes(hnbrdf_model **model, hnbrdf_lobes_scheme scheme)
 {
@@ -103,8 +50,8 @@ static int run(hnbrdf_model **model, hnbrdf_lobes_scheme scheme, int show, const
     if (!show && hnbrdf_model_save(*model, output, &error) != HNBRDF_OK)
         return cli_fail("%s", error.text);
     if (!to_stdout)
-        print_table(&desc);
-    return csv ? write_csv(csv, &desc) : CLI_OK;
+        report_lobes_print(&desc, stdout);
+    return cli_write_file(csv, report_lobes_write_csv, &desc);
 }
 
 int cmd_lobes(int argc, char **argv)

@@ -67,27 +67,6 @@ static int open_source(render_command *c)
 /* ---- On a device ----------------------------------------------------------------------------- */
 
 #ifdef HNBRDF_WITH_VULKAN
-/* Sums are kept in doubles by the CPU, in pairs of floats by the device: neighbours may come out.
- * `exact`: the device computes as C does. */
-static int judge(const report_same_picture *same, int exact)
-{
-    if (same->differ == 0) {
-        printf("check: all %zu numbers of the picture are the CPU's, to the bit\n", same->count);
-        return CLI_OK;
-    }
-    printf("check: %zu of %zu numbers of the picture differ from the CPU's, %zu by more than one "
-           "step of a float; "
-           "PSNR %.1f dB\n",
-           same->differ, same->count, same->apart, same->psnr);
-    if (exact && same->apart > 0)
-        return cli_fail(
-            "the device computes + - * / sqrt exactly, and its picture is not the CPU's");
-    if (!exact)
-        printf("check: this device does not round + - * / sqrt as C does, its samples are not the "
-               "CPU's\n");
-    return CLI_OK;
-}
-
 static int check(render_command *c, cli_progress *line, int exact)
 {
     const render_options options = report_still_options(&c->still);
@@ -102,7 +81,10 @@ static int check(render_command *c, cli_progress *line, int exact)
     int threads = options.threads > 0 ? options.threads : cli_processors();
     printf("CPU, %d thread%s: %.0f ns a sample\n", threads, threads == 1 ? "" : "s",
            seconds * 1e9 / ((double)options.size * options.size * options.spp));
-    return judge(&same, exact);
+    report_same_picture_print(&same, exact, stdout);
+    return exact && same.apart > 0 ? cli_fail("the device computes + - * / sqrt exactly, and its "
+                                              "picture is not the CPU's")
+                                   : CLI_OK;
 }
 
 static void begin_on_device(void *line, const char *device)
@@ -155,23 +137,11 @@ static int render_on_device(render_command *c, cli_progress *line)
 
 static int render_on_cpu(report_still *still, cli_progress *line)
 {
-    hnbrdf_error error;
-    cli_progress_begin(line, "rendering");
-    hnbrdf_result result = report_still_render(still, &error);
-    cli_progress_end(line);
-    return cli_code(result, &error);
-}
-
-static int render_on_mesh(report_still *still)
-{
-    picture_progress progress = {.count = 1};
     render_outcome outcome;
     hnbrdf_error error;
-    still->job.progress = picture_report;
-    still->job.progress_user = &progress;
-    picture_begin_job(&progress, "rendering");
-    hnbrdf_result result = report_still_render_mesh(still, &outcome, &error);
-    picture_end_job(&progress, result == HNBRDF_OK ? &outcome : NULL, still->spheres.light.spp);
+    picture_begin(line, "rendering", still->mesh.path != NULL);
+    hnbrdf_result result = report_still_render(still, &outcome, &error);
+    picture_end(line, result == HNBRDF_OK ? &outcome : NULL, still->spheres.light.spp);
     return cli_code(result, &error);
 }
 
@@ -183,9 +153,7 @@ static int run(render_command *c)
     still->spheres.watch = cli_watch(&line);
     int code = open_source(c);
     if (code == CLI_OK)
-        code = still->mesh.path ? render_on_mesh(still)
-               : c->device      ? render_on_device(c, &line)
-                                : render_on_cpu(still, &line);
+        code = c->device ? render_on_device(c, &line) : render_on_cpu(still, &line);
     return code == CLI_OK ? cli_code(report_still_write(still, c->output, &error), &error) : code;
 }
 

@@ -79,10 +79,10 @@ static int render_one(const scene_command *c)
                                      : RENDER_SHOW_MODEL;
     job.progress = picture_report;
     job.progress_user = &progress;
-    picture_begin_job(&progress, "rendering");
+    picture_begin(&progress.line, "rendering", 1);
     hnbrdf_result result = render_job_run_description(&job, &c->description, show, c->measured,
                                                       &cli_read, &image, &outcome, &error);
-    picture_end_job(&progress, result == HNBRDF_OK ? &outcome : NULL, job.spp);
+    picture_end(&progress.line, result == HNBRDF_OK ? &outcome : NULL, job.spp);
     if (result != HNBRDF_OK)
         return cli_fail("%s", error.text);
     snprintf(comments, sizeof comments, "hnbrdf %s scene: %.300s, %ld samples a pixel, seed %ld",

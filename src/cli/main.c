@@ -1,6 +1,8 @@
 /* main.c: the `hnbrdf` command: finds the subcommand and answers for what no subcommand owns. */
 #include "cli/cli.h"
 
+#include "base/guess.h"
+
 #include <errno.h>
 #include <string.h>
 
@@ -47,11 +49,11 @@ static const subcommand *find_subcommand(const char *name)
     for (int k = 0; k < SUBCOMMANDS; k++)
         if (strcmp(name, subcommands[k].name) == 0)
             return &subcommands[k];
-    cli_guess guess;
-    cli_guess_begin(&guess, name);
+    hnbrdf_guess guess;
+    hnbrdf_guess_begin(&guess, name);
     for (int k = 0; k < SUBCOMMANDS; k++)
-        cli_guess_offer(&guess, subcommands[k].name);
-    const char *nearest = cli_guess_nearest(&guess);
+        hnbrdf_guess_offer(&guess, subcommands[k].name);
+    const char *nearest = hnbrdf_guess_nearest(&guess);
     if (nearest)
         cli_fail("unknown command '%s', did you mean '%s'?", name, nearest);
     else

@@ -70,16 +70,16 @@ int picture_report(void *progress, double share)
     return cli_interrupted();
 }
 
-void picture_begin_job(picture_progress *progress, const char *what)
+void picture_begin(cli_progress *line, const char *what, int stoppable)
 {
-    cli_progress_begin(&progress->line, what);
-    cli_catch_interrupts(1);
+    cli_progress_begin(line, what);
+    cli_catch_interrupts(stoppable);
 }
 
-void picture_end_job(picture_progress *progress, const render_outcome *outcome, long spp)
+void picture_end(cli_progress *line, const render_outcome *outcome, long spp)
 {
     cli_catch_interrupts(0);
-    cli_progress_end(&progress->line);
+    cli_progress_end(line);
     if (outcome && !outcome->complete)
         printf("stopped at %d to %d of %ld samples a pixel. Repeat the command with --resume to go "
                "on.\n",

@@ -77,9 +77,9 @@ typedef struct picture_progress {
 } picture_progress;
 int picture_report(void *progress, double share);
 
-/* Around a render_job whose progress is picture_report(): the line, and Ctrl-C that stops it. Says
- * how far one that was stopped came; outcome NULL: it failed. */
-void picture_begin_job(picture_progress *progress, const char *what);
-void picture_end_job(picture_progress *progress, const render_outcome *outcome, long spp);
+/* Around a rendering: its line, and with `stoppable` Ctrl-C that stops it. The end says how far one
+ * that was stopped came; outcome NULL: it failed. */
+void picture_begin(cli_progress *line, const char *what, int stoppable);
+void picture_end(cli_progress *line, const render_outcome *outcome, long spp);
 
 #endif

@@ -1,6 +1,8 @@
 /* sources.c: what DATA and SOURCE arguments name: built-in materials, measured files, models. */
 #include "cli/cli.h"
 
+#include "base/guess.h"
+
 #include <dirent.h>
 #include <errno.h>
 #include <stdlib.h>
@@ -39,9 +41,9 @@ static const char *finish_list(name_list *list)
 }
 
 /* " (did you mean X?)", or nothing. */
-static const char *suggestion(const cli_guess *guess, char *text, size_t size)
+static const char *suggestion(const hnbrdf_guess *guess, char *text, size_t size)
 {
-    const char *nearest = cli_guess_nearest(guess);
+    const char *nearest = hnbrdf_guess_nearest(guess);
     text[0] = '\0';
     if (nearest)
         snprintf(text, size, " (did you mean %s?)", nearest);
@@ -49,7 +51,7 @@ static const char *suggestion(const cli_guess *guess, char *text, size_t size)
 }
 
 static int fail_not_found(const char *where, const char *name, name_list *list,
-                          const cli_guess *guess)
+                          const hnbrdf_guess *guess)
 {
     char meant[HNBRDF_MAX_NAME + 32];
     return cli_fail("no material '%.*s' in %s%s; it has %s", HNBRDF_MAX_NAME, name, where,
@@ -67,14 +69,14 @@ static const char *builtin_name_in(const char *path)
 static int find_builtin(const char *name)
 {
     name_list list = {0};
-    cli_guess guess;
-    cli_guess_begin(&guess, name);
+    hnbrdf_guess guess;
+    hnbrdf_guess_begin(&guess, name);
     for (int k = 0; k < hnbrdf_measured_builtin_count(); k++) {
         const char *candidate = hnbrdf_measured_builtin_name(k);
         if (strcmp(candidate, name) == 0)
             return k;
         list_name(&list, candidate);
-        cli_guess_offer(&guess, candidate);
+        hnbrdf_guess_offer(&guess, candidate);
     }
     fail_not_found("builtin", name, &list, &guess);
     return -1;
@@ -364,16 +366,16 @@ int cli_choose_material(const hnbrdf_model *model, const char *name)
 {
     int count = hnbrdf_model_material_count(model);
     name_list list = {0};
-    cli_guess guess;
+    hnbrdf_guess guess;
     if (!name && count == 1)
         return 0;
     int index = name ? hnbrdf_model_find(model, name) : -1;
     if (index >= 0)
         return index;
-    cli_guess_begin(&guess, name ? name : "");
+    hnbrdf_guess_begin(&guess, name ? name : "");
     for (int k = 0; k < count; k++) {
         list_name(&list, hnbrdf_model_material_name(model, k));
-        cli_guess_offer(&guess, hnbrdf_model_material_name(model, k));
+        hnbrdf_guess_offer(&guess, hnbrdf_model_material_name(model, k));
     }
     if (name)
         fail_not_found("the model", name, &list, &guess);

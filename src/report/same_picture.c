@@ -32,3 +32,19 @@ hnbrdf_result report_same_picture_measure(const render_image *a, const render_im
     *same = s;
     return HNBRDF_OK;
 }
+
+void report_same_picture_print(const report_same_picture *same, int exact, FILE *file)
+{
+    if (same->differ == 0) {
+        fprintf(file, "check: all %zu numbers of the picture are the CPU's, to the bit\n",
+                same->count);
+        return;
+    }
+    fprintf(file,
+            "check: %zu of %zu numbers of the picture differ from the CPU's, %zu by more than one "
+            "step of a float; PSNR %.1f dB\n",
+            same->differ, same->count, same->apart, same->psnr);
+    if (!exact)
+        fprintf(file, "check: this device does not round + - * / sqrt as C does, its samples are "
+                      "not the CPU's\n");
+}

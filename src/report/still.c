@@ -34,7 +34,7 @@ static hnbrdf_result render_one(report_still *s, int analytic, render_image *ima
     return result;
 }
 
-hnbrdf_result report_still_render(report_still *s, hnbrdf_error *error)
+static hnbrdf_result render_sphere_of(report_still *s, hnbrdf_error *error)
 {
     render_image analytic = {0};
     s->spheres.count = 1 + s->layers;
@@ -50,8 +50,14 @@ hnbrdf_result report_still_render(report_still *s, hnbrdf_error *error)
     return result;
 }
 
-hnbrdf_result report_still_render_mesh(report_still *s, render_outcome *outcome,
-                                       hnbrdf_error *error)
+static int show(void *still, double share)
+{
+    const report_watch *watch = &((const report_still *)still)->spheres.watch;
+    report_show(watch, share, NULL);
+    return report_stop(watch);
+}
+
+static hnbrdf_result render_mesh_of(report_still *s, render_outcome *outcome, hnbrdf_error *error)
 {
     /* A model draws its own directions; what else there is has a guide. */
     render_surface surface = s->model && !s->analytic
@@ -62,8 +68,16 @@ hnbrdf_result report_still_render_mesh(report_still *s, render_outcome *outcome,
     job.seed = s->spheres.light.seed;
     job.threads = s->spheres.light.threads;
     job.transparent = s->background != REPORT_ENVIRONMENT;
+    job.progress = show;
+    job.progress_user = s;
     return render_mesh_view_run(&s->mesh, &surface, &s->spheres.environment, (int)s->spheres.size,
                                 &job, &s->image, outcome, error);
+}
+
+hnbrdf_result report_still_render(report_still *s, render_outcome *outcome, hnbrdf_error *error)
+{
+    *outcome = (render_outcome){.complete = 1};
+    return s->mesh.path ? render_mesh_of(s, outcome, error) : render_sphere_of(s, error);
 }
 
 render_options report_still_options(const report_still *s)

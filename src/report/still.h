@@ -23,15 +23,15 @@ typedef struct report_still {
     int background;         /* a report_background */
     report_spheres spheres; /* opened; size and light hold for a mesh too */
     render_mesh_view mesh;  /* path NULL: a sphere */
-    render_job job;         /* of a mesh: output, bounces, seconds, clamp, resume, progress */
+    render_job job;         /* of a mesh: output, bounces, seconds, clamp, resume */
 
     render_image image; /* what was rendered */
 } report_still;
 
-/* The sphere, or the mesh; the outcome is that of a mesh. */
-hnbrdf_result report_still_render(report_still *still, hnbrdf_error *error);
-hnbrdf_result report_still_render_mesh(report_still *still, render_outcome *outcome,
-                                       hnbrdf_error *error);
+/* The sphere or the mesh. A mesh that the watch stops is a picture with fewer samples, as the
+ * outcome says; a sphere is HNBRDF_ERROR_CANCELLED then. */
+hnbrdf_result report_still_render(report_still *still, render_outcome *outcome,
+                                  hnbrdf_error *error);
 /* As spheres of models are rendered on devices: hnbrdf_sample() draws, options without progress. */
 render_options report_still_options(const report_still *still);
 /* The same sphere on the CPU, and how it differs from the image that a device rendered; *seconds
