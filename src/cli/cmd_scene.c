@@ -1,4 +1,5 @@
 /* cmd_scene.c: `hnbrdf scene`: path tracing of a scene told in a text file. */
+#include "base/interrupt.h"
 #include "cli/picture.h"
 #include "report/scene_compare.h"
 
@@ -109,9 +110,9 @@ static int compare(const scene_command *c)
     if (cli_output_check(c->csv) != CLI_OK || cli_output_check(c->json) != CLI_OK)
         return CLI_FAILURE;
     cli_progress_begin(&line, "rendering");
-    cli_catch_interrupts(1);
+    hnbrdf_catch_interrupts(1);
     hnbrdf_result result = report_scene_compare(&scene, rows, &error);
-    cli_catch_interrupts(0);
+    hnbrdf_catch_interrupts(0);
     cli_progress_end(&line);
     if (result != HNBRDF_OK)
         return cli_fail("%s", error.text);

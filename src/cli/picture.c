@@ -1,6 +1,8 @@
 /* picture.c: light, exposure and files of the commands that make pictures. */
 #include "cli/picture.h"
 
+#include "base/interrupt.h"
+
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -67,18 +69,18 @@ int picture_report(void *progress, double share)
 {
     picture_progress *p = progress;
     cli_progress_update(&p->line, (p->first + share) / p->count, p->detail);
-    return cli_interrupted();
+    return hnbrdf_interrupted();
 }
 
 void picture_begin(cli_progress *line, const char *what, int stoppable)
 {
     cli_progress_begin(line, what);
-    cli_catch_interrupts(stoppable);
+    hnbrdf_catch_interrupts(stoppable);
 }
 
 void picture_end(cli_progress *line, const render_outcome *outcome, long spp)
 {
-    cli_catch_interrupts(0);
+    hnbrdf_catch_interrupts(0);
     cli_progress_end(line);
     if (outcome && !outcome->complete)
         printf("stopped at %d to %d of %ld samples a pixel. Repeat the command with --resume to go "
