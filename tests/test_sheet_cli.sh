@@ -62,7 +62,7 @@ expect_failure "no data" "velvet-crimson: none of the data has this name"
 run "$HNBRDF" sheet hybrid.safetensors lambert.binary -o none.png
 expect_failure "nothing in common" "none of its materials is among the data"
 run "$HNBRDF" sheet builtin:velvet-crimson builtin -o none.png
-expect_failure "no model" "expected a model file, found a measurement"
+expect_failure "no model" "measured data, expected a model file"
 run "$HNBRDF" sheet hybrid.safetensors builtin --ggx one.safetensors $two -o none.png
 expect_failure "--ggx without the material" "one.safetensors: has no material gold-two-lobe"
 run "$HNBRDF" sheet hybrid.safetensors builtin --ggx missing.safetensors -o none.png

@@ -47,18 +47,6 @@ static const cli_command command = {
 
 /* ---- Command --------------------------------------------------------------------------------- */
 
-static int open_model(const char *path, hnbrdf_model **model)
-{
-    cli_source source;
-    if (cli_open_source(path, &source) != CLI_OK)
-        return CLI_FAILURE;
-    *model = source.model;
-    if (source.model)
-        return CLI_OK;
-    cli_close_source(&source);
-    return cli_fail("%s: measured data, expected a model file", path);
-}
-
 static int measure(model_comparison *j, const cli_data *data, int skip_missing, int threads)
 {
     cli_progress progress;
@@ -77,9 +65,9 @@ static int run(model_comparison *j, char **arguments, int count, int skip_missin
 {
     cli_data data = {0};
     hnbrdf_model *model = NULL, *against = NULL;
-    int result = open_model(j->path, &model);
+    int result = cli_open_model(j->path, &model);
     if (result == CLI_OK && j->path_against)
-        result = open_model(j->path_against, &against);
+        result = cli_open_model(j->path_against, &against);
     j->model = model;
     j->against = against;
     if (result == CLI_OK)

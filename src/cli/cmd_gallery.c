@@ -35,8 +35,6 @@ typedef struct gallery_command {
     cli_data data;
 } gallery_command;
 
-/* ---- The model ------------------------------------------------------------------------------- */
-
 /* 1 if this argument is DATA, 0 if it is a model file, -1 after a message. */
 static int is_data(gallery_command *c, const char *argument)
 {
@@ -78,8 +76,6 @@ static int fit(gallery_command *c)
         printf("%s\n", c->fitted_path);
     return cli_code(result, &error);
 }
-
-/* ---- What is shown --------------------------------------------------------------------------- */
 
 static int name_materials(report_gallery *g, const char *list)
 {
@@ -130,8 +126,6 @@ static int choose(gallery_command *c)
     free(copy);
     return code;
 }
-
-/* ---- Command --------------------------------------------------------------------------------- */
 
 static int open_all(gallery_command *c, char **arguments, int count)
 {

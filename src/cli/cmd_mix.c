@@ -80,33 +80,31 @@ typedef struct mix_job {
     sweep sweep;
 } mix_job;
 
-/* One step of the sweep. */
-typedef struct mixed {
-    char name[HNBRDF_MAX_NAME + 1];
-    hnbrdf_material material;
-} mixed;
+/* The steps of the sweep, each a change that puts it into the model. */
+typedef struct mixtures {
+    char names[MAX_STEPS][HNBRDF_MAX_NAME + 1];
+    hnbrdf_material materials[MAX_STEPS];
+    hnbrdf_material_change changes[MAX_STEPS];
+} mixtures;
 
-static int mix_all(const mix_job *job, const hnbrdf_model *model, mixed *steps,
-                   hnbrdf_material_change *changes)
+static int mix_all(const mix_job *job, const hnbrdf_model *model, mixtures *m)
 {
     int a = cli_choose_material(model, job->ends[0]),
         b = a < 0 ? -1 : cli_choose_material(model, job->ends[1]);
     if (a < 0 || b < 0)
         return CLI_FAILURE;
     for (int k = 0; k < job->sweep.count; k++) {
-        mixed *step = &steps[k];
         double t = fmin(job->sweep.first + k * job->sweep.step, 1.0);
         hnbrdf_material_mix(hnbrdf_model_material(model, a), hnbrdf_model_material(model, b),
-                            (float)t, &step->material);
-        if (!make_name(step->name, sizeof step->name, job->ends, job->prefix, t))
+                            (float)t, &m->materials[k]);
+        if (!make_name(m->names[k], sizeof m->names[k], job->ends, job->prefix, t))
             return CLI_FAILURE;
-        if (!job->replace && hnbrdf_model_find(model, step->name) >= 0)
-            return cli_fail_name_taken(job->path, step->name);
-        changes[k] =
-            (hnbrdf_material_change){.kind = job->replace ? HNBRDF_CHANGE_PUT : HNBRDF_CHANGE_ADD,
-                                     .name = step->name,
-                                     .material = &step->material,
-                                     .lobes = HNBRDF_LOBES_FIT};
+        if (!job->replace && hnbrdf_model_find(model, m->names[k]) >= 0)
+            return cli_fail_name_taken(job->path, m->names[k]);
+        m->changes[k].kind = job->replace ? HNBRDF_CHANGE_PUT : HNBRDF_CHANGE_ADD;
+        m->changes[k].name = m->names[k];
+        m->changes[k].material = &m->materials[k];
+        m->changes[k].lobes = HNBRDF_LOBES_FIT;
     }
     return CLI_OK;
 }
@@ -136,14 +134,11 @@ static int run(const mix_job *job)
     hnbrdf_model *model;
     if (cli_open_model(job->path, &model) != CLI_OK)
         return CLI_FAILURE;
-    size_t count = (size_t)job->sweep.count;
-    mixed *steps = malloc(count * sizeof *steps);
-    hnbrdf_material_change *changes = malloc(count * sizeof *changes);
-    int result = steps && changes ? mix_all(job, model, steps, changes) : cli_fail("out of memory");
+    mixtures *m = calloc(1, sizeof *m);
+    int result = m ? mix_all(job, model, m) : cli_fail("out of memory");
     if (result == CLI_OK)
-        result = write_mixed(job, model, changes);
-    free(steps);
-    free(changes);
+        result = write_mixed(job, model, m->changes);
+    free(m);
     hnbrdf_model_free(model);
     return result;
 }

@@ -87,18 +87,12 @@ static int check(render_command *c, cli_progress *line, int exact)
                                    : CLI_OK;
 }
 
-static void begin_on_device(void *line, const char *device)
+static void begin_on_device(void *progress, const char *device)
 {
-    cli_progress_begin(line, device);
+    cli_progress_begin(&((picture_progress *)progress)->line, device);
 }
 
-static int show_device(void *line, double share)
-{
-    cli_progress_update(line, share, NULL);
-    return 0;
-}
-
-static int render_on_device(render_command *c, cli_progress *line)
+static int render_on_device(render_command *c, picture_progress *progress)
 {
     report_still *still = &c->still;
     gpu_picture_report made;
@@ -110,25 +104,24 @@ static int render_on_device(render_command *c, cli_progress *line)
                        .environment = &still->spheres.environment,
                        .options = report_still_options(still),
                        .begin = begin_on_device,
-                       .begin_user = line};
+                       .begin_user = progress};
     if (end == c->device || *end)
         return cli_fail("--device: found '%s', expected a number (hnbrdf verify --list)",
                         c->device),
                CLI_USAGE;
-    job.options.progress = show_device;
-    job.options.progress_user = line;
+    job.options.progress = picture_report;
+    job.options.progress_user = progress;
     hnbrdf_result result = gpu_picture_render(&job, &still->image, &made, &error);
-    cli_progress_end(line);
+    cli_progress_end(&progress->line);
     if (result != HNBRDF_OK)
         return cli_fail("%s", error.text);
     printf("%s: %.0f ns a sample\n", made.device, made.sample_ns);
-    return c->check ? check(c, line, made.exact) : CLI_OK;
+    return c->check ? check(c, &progress->line, made.exact) : CLI_OK;
 }
 #else
-static int render_on_device(render_command *c, cli_progress *line)
+static int render_on_device(render_command *c, picture_progress *progress)
 {
-    (void)c;
-    (void)line;
+    (void)c, (void)progress;
     return cli_fail("--device: this hnbrdf was built without Vulkan (HNBRDF_WITH_VULKAN)");
 }
 #endif
@@ -149,11 +142,11 @@ static int run(render_command *c)
 {
     report_still *still = &c->still;
     hnbrdf_error error;
-    cli_progress line = {0};
-    still->spheres.watch = cli_watch(&line);
+    picture_progress progress = {.count = 1};
+    still->spheres.watch = cli_watch(&progress.line);
     int code = open_source(c);
     if (code == CLI_OK)
-        code = c->device ? render_on_device(c, &line) : render_on_cpu(still, &line);
+        code = c->device ? render_on_device(c, &progress) : render_on_cpu(still, &progress.line);
     return code == CLI_OK ? cli_code(report_still_write(still, c->output, &error), &error) : code;
 }
 

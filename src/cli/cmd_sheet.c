@@ -24,18 +24,8 @@ static const cli_command command = {
 
 typedef struct sheet_command {
     const char *list, *output;
-    char **data;
-    int data_count;
     report_sheet sheet;
 } sheet_command;
-
-static int open_model(const char *path, cli_source *source)
-{
-    if (cli_open_source(path, source) != CLI_OK)
-        return CLI_FAILURE;
-    return source->model ? CLI_OK
-                         : cli_fail("%s: expected a model file, found a measurement", path);
-}
 
 static int make_sheet(sheet_command *c)
 {
@@ -54,22 +44,22 @@ static int make_sheet(sheet_command *c)
     return cli_code(result, &error);
 }
 
-static int run(sheet_command *c)
+static int run(sheet_command *c, char **arguments, int count)
 {
     report_sheet *sheet = &c->sheet;
-    cli_source source = {NULL, NULL}, ggx = {NULL, NULL};
+    hnbrdf_model *model = NULL, *ggx = NULL;
     cli_data data = {NULL, 0};
     int *chosen = NULL;
-    int code = open_model(sheet->path, &source);
+    int code = cli_open_model(sheet->path, &model);
     if (code == CLI_OK && sheet->ggx_path)
-        code = open_model(sheet->ggx_path, &ggx);
+        code = cli_open_model(sheet->ggx_path, &ggx);
     if (code == CLI_OK)
-        code = cli_open_data(c->data, c->data_count, &data);
+        code = cli_open_data(arguments, count, &data);
     if (code == CLI_OK)
-        code = cli_choose_materials(source.model, c->list, &chosen, &sheet->chosen_count);
+        code = cli_choose_materials(model, c->list, &chosen, &sheet->chosen_count);
     if (code == CLI_OK) {
-        sheet->model = source.model;
-        sheet->ggx = ggx.model;
+        sheet->model = model;
+        sheet->ggx = ggx;
         sheet->chosen = chosen;
         sheet->named = c->list != NULL;
         sheet->spheres.data = data.items;
@@ -78,8 +68,8 @@ static int run(sheet_command *c)
     }
     free(chosen);
     cli_close_data(&data);
-    cli_close_source(&source);
-    cli_close_source(&ggx);
+    hnbrdf_model_free(model);
+    hnbrdf_model_free(ggx);
     return code;
 }
 
@@ -114,7 +104,5 @@ int cmd_sheet(int argc, char **argv)
     if (code >= 0)
         return code;
     sheet->path = argv[1];
-    c.data = argv + 2;
-    c.data_count = positionals - 1;
-    return run(&c);
+    return run(&c, argv + 2, positionals - 1);
 }
