@@ -7,21 +7,22 @@
  *
  * Data. Directions without a valid measurement are left out; a material where fewer than 1 % of the
  * directions drawn have one is refused. Negative values count as 0, values above 1e15 as 1e15. Both
- * losses saturate or grow as a logarithm, so that single wild values hardly pull. SMAPE has 1e-4
- * added to its denominator, the logarithm 1e-3 to its argument: values far below are matched to
- * about 1e-4 1/sr, not relative to themselves. What of the data these rules concern is told in
- * hnbrdf_fit_drawn.
+ * losses grow slowly or not at all where the error is large, so a few wild values have little
+ * influence. SMAPE has 1e-4 added to its denominator, the logarithm 1e-3 to its argument: values
+ * far below that are matched to about 1e-4 1/sr, not in proportion to themselves. hnbrdf_fit_drawn
+ * says how much of the data these rules concern.
  *
- * Divergence. Training is judged at its steps 25, 50, 100 and every 200, by its loss over a fixed
- * sample of the training pairs. It counts as diverged if a number is no longer finite, if the loss
- * exceeds both that of the untrained start and twice the best plus 0.1, or if more than an eighth
- * of a layer's units (at least 4, or all) died since the best state. It is then set back to the
- * best state, with Adam and warm-up starting anew at 0.3 times the rate. So a rate that is 100
- * times too large costs a few hundred steps; the report tells how often it happened and the rate
- * at the end. What is returned is the last state unless an earlier one was better by more than
- * 5 %, which is what such a sample can tell; and for a hybrid it is never worse than GGX alone by
- * more than that (plus 0.001): if all training was in vain, the network returned leaves GGX as it
- * is. Every number in a model is finite. */
+ * Divergence. Training is judged 25, 50 and 100 steps after it starts, and at every 200th step, by
+ * its loss over a fixed sample of the training pairs. It counts as diverged if a number is no
+ * longer finite, or if the loss exceeds both that of the untrained start and twice the best plus
+ * 0.1. It also does if more than an eighth of a layer's units (at least 4, or all) died since the
+ * best state, unless the loss is at most 0.01 or the network is frozen. It is then set back to the
+ * best state, and Adam and the warm-up start anew at 0.3 times the rate. So a rate that is 100
+ * times too large costs a few hundred steps. The report says how often that happened and what the
+ * rate was at the end. The last state is returned, unless an earlier one was better by more than
+ * 5 % plus 0.001: smaller differences are within the error of such a sample. A hybrid is never worse
+ * than GGX alone by more than that: where no state was better, the network returned leaves GGX as
+ * it is. Every number in a model is finite. */
 #ifndef HNBRDF_FIT_H
 #define HNBRDF_FIT_H
 
@@ -78,7 +79,7 @@ typedef struct hnbrdf_fit_search {
 /* What was drawn of one material. */
 typedef struct hnbrdf_fit_drawn {
     double valid;   /* share of the directions drawn that have a valid measurement */
-    double dark;    /* share of the values, all channels, below 1e-4 1/sr: hardly told from 0 */
+    double dark;    /* share of the values, all channels, below 1e-4 1/sr: nearly 0 to the loss */
     double cut;     /* share of the values above 1e15 1/sr, more than a BRDF has: taken as 1e15 */
     double largest; /* value */
 } hnbrdf_fit_drawn;
@@ -111,7 +112,8 @@ typedef struct hnbrdf_fit_options {
     float learning_rate;
     hnbrdf_fit_loss loss;
     hnbrdf_fit_schedule schedule;
-    /* of the pairs, drawn by the uniform sampler, the others by grid; at most 1; 0 stands for 0.5 */
+    /* of the pairs, drawn by the uniform sampler, the others by grid; at most 1; 0 stands for
+     * 0.5 */
     float uniform_share;
     int uniform_none; /* 1: all pairs by grid */
     uint64_t seed;
@@ -161,7 +163,8 @@ typedef struct hnbrdf_fit_report {
     /* times that training had diverged and was set back to the best state before */
     int set_backs;
     double rate; /* Adam's peak rate at the end: learning_rate times 0.3 for each of them */
-    /* the step whose state was returned: `steps`, or an earlier one that was clearly better */
+    /* the step whose state was returned: `steps`, or an earlier one that was better by more than
+     * 5 % plus 0.001 */
     long best_step;
     int ggx_alone;    /* 1: none was as good as GGX alone; the network returned leaves GGX as it is.
                          best_step is 0 */

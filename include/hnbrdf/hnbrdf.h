@@ -256,9 +256,9 @@ HNBRDF_API hnbrdf_result hnbrdf_model_load_memory(const void *data, size_t size,
                                                   const hnbrdf_load_options *options,
                                                   hnbrdf_model **model, hnbrdf_error *error);
 
-/* Write a model file. It is written aside, as PATH.hnbrdf-part, and renamed: an old file stays whole
- * until the new one is complete, whenever the process ends, and keeps its mode and owner; of a
- * symbolic link the file it names is replaced. A pipe or device is written as it is. Identical
+/* Write a model file. It is written aside, as PATH.hnbrdf-part, and renamed: an old file stays
+ * whole until the new one is complete, whenever the process ends, and keeps its mode and owner; of
+ * a symbolic link the file it names is replaced. A pipe or device is written as it is. Identical
  * models give identical bytes. */
 HNBRDF_API hnbrdf_result hnbrdf_model_save(const hnbrdf_model *model, const char *path,
                                            hnbrdf_error *error);

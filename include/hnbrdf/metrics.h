@@ -37,8 +37,8 @@ typedef struct hnbrdf_image_error {
 
 /* What the noise of rendering does to those figures. */
 typedef struct hnbrdf_image_noise {
-    /* an estimate of the MSE without noise that is right on average; below 0 at times where there
-     * is hardly anything but noise */
+    /* an estimate of the MSE without noise, right on average; where noise is nearly all of the
+     * error it may be below 0 */
     double mse;
     double mse_error; /* standard error of that estimate */
     /* dB: standard error of PSNR, 10/ln 10 mse_error/MSE, a little more than it is */
