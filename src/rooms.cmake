@@ -57,7 +57,7 @@ hnbrdf_room(gpu
 hnbrdf_room(edit
   fields.c materials.c)
 hnbrdf_room(bake
-  bake.c ggx.c half.c options.c rows.c search.c sizes.c teacher.c tell.c wave.c)
+  bake.c ggx.c half.c options.c report.c rows.c search.c sizes.c teacher.c tell.c wave.c)
 hnbrdf_room(report
   bake_plot.c bake_tables.c compare.c compare_images.c fit_log.c gallery_choose.c
   gallery_pages.c gallery_strips.c grid.c grid_figures.c grid_fit.c grid_ggx.c
@@ -66,7 +66,7 @@ hnbrdf_room(report
   sampling_strips.c sampling_write.c scene_compare.c sheet.c spheres.c stability_plot.c
   stability_report.c still.c texels.c verify_report.c)
 hnbrdf_room(bench
-  measure.c models.c peak.c peer.c plot.c quality.c rows.c rows_cpu.c rows_gpu.c speed.c tables.c)
+  measure.c models.c peak.c peer.c plot.c quality.c rows.c rows_cpu.c rows_gpu.c speed.c tables.c watch.c)
 hnbrdf_room(cli
   cli.c cmd_bake.c cmd_bench.c cmd_compare.c cmd_edit.c cmd_eval.c cmd_export.c
   cmd_fit.c cmd_gallery.c cmd_import.c cmd_info.c cmd_lobes.c cmd_mix.c cmd_render.c

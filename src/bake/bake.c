@@ -6,20 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-const char *hnbrdf_bake_size_name(const hnbrdf_bake_size *size, char text[16])
-{
-    if (size->hidden)
-        snprintf(text, 16, "%dx%d", size->hidden, size->layers);
-    else
-        snprintf(text, 16, "ggx");
-    return text;
-}
-
-double hnbrdf_bake_judged(const hnbrdf_bake_report *report, const hnbrdf_bake_row *row)
-{
-    return report->judge == HNBRDF_BAKE_WORST ? row->worst : row->smape;
-}
-
 /* ---- What is learned from -------------------------------------------------------------------- */
 
 static hnbrdf_result take_measurements(bake_task *b, hnbrdf_error *error)
@@ -89,17 +75,6 @@ static hnbrdf_result begin_report(bake_task *b, hnbrdf_error *error)
     if (!b->report.names || !b->reference || (!b->from_data && !b->teachers))
         return hnbrdf_fail(error, HNBRDF_ERROR_MEMORY, "out of memory");
     return HNBRDF_OK;
-}
-
-void hnbrdf_bake_report_free(hnbrdf_bake_report *report)
-{
-    if (!report)
-        return;
-    for (int k = 0; k < report->row_count; k++)
-        free(report->rows[k].errors);
-    free(report->rows);
-    free((void *)report->names);
-    memset(report, 0, sizeof *report);
 }
 
 /* ---- The whole ------------------------------------------------------------------------------- */

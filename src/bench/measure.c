@@ -7,14 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-hnbrdf_result bench_show(const bench_watch *watch, const char *what, double share,
-                         const char *detail, hnbrdf_error *error)
-{
-    if (!watch->show || watch->show(watch->user, what, share, detail) == 0)
-        return HNBRDF_OK;
-    return hnbrdf_fail(error, HNBRDF_ERROR_CANCELLED, "interrupted while %s", what);
-}
-
 typedef struct timing {
     bench *b;
     double peak_seconds; /* when the peak was measured last */
