@@ -127,7 +127,7 @@ refuse "no output" "expected -o" big.safetensors --net auto
 refuse "a net that is none" "expected auto or HxN" big.safetensors --net 8by2 -o x.safetensors
 refuse "a net too large" "expected auto or HxN" big.safetensors --net 65x2 -o x.safetensors
 refuse "an error of 0" "max-error" big.safetensors --max-error 0 -o x.safetensors
-refuse "an unknown encoding" "expected angles" big.safetensors --net auto --encoding polar -o x.safetensors
+refuse "an unknown encoding" "'polar', expected directions" big.safetensors --net auto --encoding polar -o x.safetensors
 refuse "data without --data" "measurements go after --data" big.safetensors builtin --net auto -o x.safetensors
 run "$HNBRDF" bake big.safetensors -m retro-tap --net auto -o x.safetensors
 expect_failure "an unknown material" "did you mean retro-tape"

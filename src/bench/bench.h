@@ -75,11 +75,12 @@ typedef struct bench {
 
 /* ---- models.c -------------------------------------------------------------------------------- */
 
-/* Models are added behind the place of GGX. Takes the model over, also on failure. */
-hnbrdf_result bench_add_model(bench *b, hnbrdf_model *model, const char *name, hnbrdf_error *error);
+/* Models are added behind the place of GGX, called by the name of the file in `path`. Takes the
+ * model over, also on failure. */
+hnbrdf_result bench_add_model(bench *b, hnbrdf_model *model, const char *path, hnbrdf_error *error);
 
 typedef struct bench_fit {
-    int hidden, layers;
+    int net[2]; /* net[1] layers of net[0] units */
     long steps; /* 0: by seconds */
     double seconds;
     int pool;

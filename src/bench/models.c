@@ -22,7 +22,7 @@ static void set_model(bench_model *m, hnbrdf_model *model, const char *name)
     snprintf(m->name, sizeof m->name, "%s", name);
 }
 
-hnbrdf_result bench_add_model(bench *b, hnbrdf_model *model, const char *name, hnbrdf_error *error)
+static hnbrdf_result add(bench *b, hnbrdf_model *model, const char *name, hnbrdf_error *error)
 {
     b->model_count = b->model_count ? b->model_count : 1; /* room for GGX */
     const int full = b->model_count == BENCH_MODELS;
@@ -34,6 +34,16 @@ hnbrdf_result bench_add_model(bench *b, hnbrdf_model *model, const char *name, h
     }
     set_model(&b->models[b->model_count++], model, name);
     return HNBRDF_OK;
+}
+
+hnbrdf_result bench_add_model(bench *b, hnbrdf_model *model, const char *path, hnbrdf_error *error)
+{
+    char name[BENCH_NAME];
+    const char *slash = strrchr(path, '/'), *base = slash ? slash + 1 : path;
+    const char *dot = strrchr(base, '.');
+    snprintf(name, sizeof name, "%.*s", dot && dot > base ? (int)(dot - base) : BENCH_NAME - 1,
+             base);
+    return add(b, model, name, error);
 }
 
 typedef struct fit_watch {
@@ -54,10 +64,10 @@ hnbrdf_result bench_fit_model(bench *b, hnbrdf_measured *const *data, int count,
     char name[BENCH_NAME], what[BENCH_NAME + 16];
     fit_watch w = {&b->watch, what};
     hnbrdf_model *model;
-    snprintf(name, sizeof name, "hybrid-%dx%d", fit->hidden, fit->layers);
+    snprintf(name, sizeof name, "hybrid-%dx%d", fit->net[0], fit->net[1]);
     snprintf(what, sizeof what, "fitting %s", name);
-    const hnbrdf_fit_options options = {.hidden = fit->hidden,
-                                        .layers = fit->layers,
+    const hnbrdf_fit_options options = {.hidden = fit->net[0],
+                                        .layers = fit->net[1],
                                         .steps = fit->steps,
                                         .seconds = fit->steps ? 0.0 : fit->seconds,
                                         .pool = fit->pool,
@@ -66,7 +76,7 @@ hnbrdf_result bench_fit_model(bench *b, hnbrdf_measured *const *data, int count,
                                         .progress_user = &w};
     hnbrdf_result result =
         hnbrdf_fit((const hnbrdf_measured *const *)data, count, &options, &model, NULL, error);
-    return result ? result : bench_add_model(b, model, name, error);
+    return result ? result : add(b, model, name, error);
 }
 
 hnbrdf_result bench_add_ggx(bench *b, hnbrdf_error *error)

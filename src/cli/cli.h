@@ -163,6 +163,14 @@ void cli_progress_update(cli_progress *progress, double share, const char *detai
 void cli_progress_end(cli_progress *progress);
 /* cli_progress_update() as a callback of the library: never stops it. */
 int cli_progress_show(void *progress, double share, const char *detail);
+/* A line for each of several pieces of work that follow each other, called by what they do.
+ * Zero-initialise. */
+typedef struct cli_stages {
+    cli_progress line;
+    char what[112]; /* "": no line */
+} cli_stages;
+void cli_stages_show(cli_stages *stages, const char *what, double share, const char *detail);
+void cli_stages_end(cli_stages *stages); /* before anything else is printed */
 /* Monotonic seconds. */
 double cli_seconds(void);
 

@@ -2,9 +2,9 @@
  * scene. */
 #include "base/interrupt.h"
 #include "cli/cli.h"
+#include "cli/words.h"
 #include "report/bake.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -40,94 +40,29 @@ typedef struct outputs {
     const char *model, *csv, *json, *plot;
 } outputs;
 
-/* ---- Progress -------------------------------------------------------------------------------- */
-
 typedef struct watch {
     const char *path; /* of the model */
-    cli_progress line;
-    char what[64]; /* shown on it; "": no line */
+    cli_stages stages;
 } watch;
-
-static void name_stage(const hnbrdf_bake_progress *p, char text[64])
-{
-    char first[16], last[16];
-    if (!p->first) {
-        snprintf(text, 64, "%s", p->stage == HNBRDF_BAKE_TIMING ? "timing" : "GGX");
-        return;
-    }
-    hnbrdf_bake_size_name(p->first, first);
-    hnbrdf_bake_size_name(p->last, last);
-    snprintf(text, 64, "%s fits of %s%s%s", p->stage == HNBRDF_BAKE_FULL_FITS ? "full" : "short",
-             first, strcmp(first, last) ? " to " : "", strcmp(first, last) ? last : "");
-}
-
-static void end_line(watch *w)
-{
-    if (w->what[0])
-        cli_progress_end(&w->line);
-    w->what[0] = '\0';
-}
 
 static int show(void *user, const hnbrdf_bake_progress *p)
 {
     watch *w = user;
-    char what[64], detail[64] = "";
-    if (p->new_row) {
-        end_line(w);
-        if (p->report->row_count == 1) {
-            report_bake_heading(p->report, w->path, stdout);
-            cli_print_reading();
-            report_bake_columns(p->report, stdout);
-        }
-        report_bake_row(p->report, &p->report->rows[p->report->row_count - 1], stdout);
-        fflush(stdout);
+    char what[64], detail[64];
+    if (!p->new_row) {
+        report_bake_stage(p, what, detail);
+        cli_stages_show(&w->stages, what, p->done, detail);
         return hnbrdf_interrupted();
     }
-    name_stage(p, what);
-    if (strcmp(what, w->what) != 0) {
-        end_line(w);
-        memcpy(w->what, what, sizeof what);
-        cli_progress_begin(&w->line, w->what);
+    cli_stages_end(&w->stages);
+    if (p->report->row_count == 1) {
+        report_bake_heading(p->report, w->path, stdout);
+        cli_print_reading();
+        report_bake_columns(p->report, stdout);
     }
-    if (p->stage == HNBRDF_BAKE_GGX)
-        snprintf(detail, sizeof detail, "%s", p->done < 0.5 ? "drawing data" : "fitting");
-    else if (isfinite(p->loss))
-        snprintf(detail, sizeof detail, "loss %.4f", p->loss);
-    cli_progress_update(&w->line, p->done, detail);
+    report_bake_row(p->report, &p->report->rows[p->report->row_count - 1], stdout);
+    fflush(stdout);
     return hnbrdf_interrupted();
-}
-
-/* ---- Results --------------------------------------------------------------------------------- */
-
-static int write_file(const hnbrdf_bake_report *r, const char *path,
-                      void (*write)(const void *r, FILE *file))
-{
-    cli_output output;
-    if (!path)
-        return CLI_OK;
-    if (cli_output_open(path, &output) != CLI_OK)
-        return CLI_FAILURE;
-    write(r, output.file);
-    return cli_output_close(&output);
-}
-
-/* Why the result is not what was asked for: CLI_FAILURE after a message; CLI_OK if it is. */
-static int answer(const hnbrdf_bake_report *r, double seconds, const char *output)
-{
-    if (r->end == HNBRDF_BAKE_STOPPED)
-        return cli_fail("interrupted; %s has the best of what was tried", output);
-    if (r->met)
-        return CLI_OK;
-    if (r->end == HNBRDF_BAKE_OUT_OF_TIME)
-        return cli_fail("the %g s are over; %s has the best of what was tried", seconds, output);
-    if (r->wish == HNBRDF_BAKE_ERROR && !r->from_data)
-        return cli_fail("no network that is clearly smaller than the model's comes within %g of "
-                        "it; %s has the most accurate one",
-                        r->max_error, output);
-    if (r->wish == HNBRDF_BAKE_ERROR)
-        return cli_fail("no network tried is within %g; %s has the most accurate one", r->max_error,
-                        output);
-    return cli_fail("nothing takes at most %g ns here; %s has GGX alone", r->max_ns, output);
 }
 
 static int save(const hnbrdf_model *baked, const hnbrdf_bake_report *r, double seconds,
@@ -137,16 +72,16 @@ static int save(const hnbrdf_model *baked, const hnbrdf_bake_report *r, double s
     if (hnbrdf_model_save(baked, o->model, &error) != HNBRDF_OK)
         return cli_fail("%s", error.text);
     report_bake_result(r, o->model, stdout);
-    int code = write_file(r, o->csv, report_bake_csv);
+    int code = cli_write_file(o->csv, report_bake_csv, r);
     if (code == CLI_OK)
-        code = write_file(r, o->json, report_bake_json);
+        code = cli_write_file(o->json, report_bake_json, r);
     if (code == CLI_OK)
-        code = write_file(r, o->plot, report_bake_plot);
+        code = cli_write_file(o->plot, report_bake_plot, r);
     fflush(stdout);
-    return code == CLI_OK ? answer(r, seconds, o->model) : code;
+    if (code == CLI_OK)
+        code = cli_code(report_bake_verdict(r, seconds, o->model, &error), &error);
+    return code;
 }
-
-/* ---- Command --------------------------------------------------------------------------------- */
 
 static int bake(const hnbrdf_model *model, hnbrdf_bake_options *options, const char *path,
                 const outputs *o)
@@ -160,7 +95,7 @@ static int bake(const hnbrdf_model *model, hnbrdf_bake_options *options, const c
     hnbrdf_catch_interrupts(1);
     hnbrdf_result result = hnbrdf_bake(model, options, &baked, &report, &error);
     hnbrdf_catch_interrupts(0);
-    end_line(&w);
+    cli_stages_end(&w.stages);
     if (result == HNBRDF_ERROR_CANCELLED)
         return cli_fail("%s; %s is as it was", error.text, o->model);
     if (result)
@@ -175,62 +110,52 @@ static int run(const char *path, const char *list, char *const *data_arguments, 
                hnbrdf_bake_options *options, const outputs *o)
 {
     const char *const paths[] = {o->model, o->csv, o->json, o->plot};
-    cli_source source = {NULL, NULL};
+    hnbrdf_model *model = NULL;
     cli_data data = {NULL, 0};
     int *chosen = NULL, code = CLI_OK;
     for (size_t k = 0; k < 4 && code == CLI_OK; k++)
-        code = paths[k] ? cli_output_check(paths[k]) : CLI_OK;
+        code = cli_output_check(paths[k]);
     if (code == CLI_OK)
-        code = cli_open_source(path, &source);
-    if (code == CLI_OK && !source.model)
-        code = cli_fail("%s: measured data, expected a model file", path);
+        code = cli_open_model(path, &model);
     if (code == CLI_OK)
-        code = cli_choose_materials(source.model, list, &chosen, &options->material_count);
+        code = cli_choose_materials(model, list, &chosen, &options->material_count);
     if (code == CLI_OK && data_count > 0)
         code = cli_open_data(data_arguments, data_count, &data);
     if (code == CLI_OK) {
         options->materials = chosen;
         options->data = (const hnbrdf_measured *const *)data.items;
         options->data_count = data.count;
-        code = bake(source.model, options, path, o);
+        code = bake(model, options, path, o);
     }
     free(chosen);
     cli_close_data(&data);
-    cli_close_source(&source);
+    hnbrdf_model_free(model);
     return code;
 }
 
-/* "auto" or "HxN" with --net, and that exactly one wish is there: -1 to go on, or the exit code. */
-static int read_wish(hnbrdf_bake_options *o, const char *net)
+/* Exactly one wish, --net "auto" or "HxN" among them: -1 to go on, or the exit code. */
+static int read_wish(hnbrdf_bake_options *o, const char *text)
 {
-    int length = 0;
+    int net[2];
     int limits = (o->max_error > 0.0) + (o->max_ns > 0.0) + (o->max_multiplications > 0);
-    if (limits + (net != NULL) != 1)
+    if (limits + (text != NULL) != 1)
         return cli_usage(&command, "expected exactly one of --max-error E, --max-ns T, "
                                    "--max-mults N and --net auto|HxN");
     o->wish = o->max_error > 0.0 ? HNBRDF_BAKE_ERROR
               : o->max_ns > 0.0  ? HNBRDF_BAKE_TIME
-              : !net             ? HNBRDF_BAKE_SIZE
+              : !text            ? HNBRDF_BAKE_SIZE
                                  : HNBRDF_BAKE_AUTO;
-    if (!net || strcmp(net, "auto") == 0)
+    if (!text || strcmp(text, "auto") == 0)
         return -1;
-    if (sscanf(net, "%2dx%1d%n", &o->hidden, &o->layers, &length) != 2 || net[length] ||
-        o->hidden < 1 || o->hidden > HNBRDF_MAX_HIDDEN || o->layers < 1 ||
-        o->layers > HNBRDF_MAX_LAYERS)
+    const char *after = cli_parse_net(text, net);
+    if (!after || *after)
         return cli_usage(&command,
                          "--net %s, expected auto or HxN with H from 1 to %d and N from 1 to %d",
-                         net, HNBRDF_MAX_HIDDEN, HNBRDF_MAX_LAYERS);
+                         text, HNBRDF_MAX_HIDDEN, HNBRDF_MAX_LAYERS);
     o->wish = HNBRDF_BAKE_NET;
+    o->hidden = net[0];
+    o->layers = net[1];
     return -1;
-}
-
-static int is_encoding(const char *text)
-{
-    const char *name;
-    for (int i = 0; (name = hnbrdf_encoding_name((hnbrdf_encoding)i)); i++)
-        if (strcmp(text, name) == 0)
-            return 1;
-    return 0;
 }
 
 int cmd_bake(int argc, char **argv)
@@ -238,7 +163,8 @@ int cmd_bake(int argc, char **argv)
     hnbrdf_bake_options b = {.steps = 0};
     outputs o = {NULL, NULL, NULL, NULL};
     const char *materials = NULL, *net = NULL, *data = NULL;
-    int analytic = -1, sampler = HNBRDF_SAMPLER_GRID, worst = 0, given;
+    cli_word encoding = {-1, cli_encoding_word}, sampler = {HNBRDF_SAMPLER_GRID, cli_sampler_word};
+    int analytic = -1, worst = 0, given;
     long latent = -1, mults = 0, restarts = 0, pairs = 0, pool = 0, seed = 1, threads = 0;
     /* clang-format off */
     const cli_option options[] = {
@@ -260,7 +186,7 @@ int cmd_bake(int argc, char **argv)
         {"analytic", 0, CLI_CHOICE, &analytic, 0, 0, "keep|fit",
          "kd, eta, alpha: MODEL's, or fitted to what is learned from (default keep, with "
          "--data fit)"},
-        {"encoding", 0, CLI_TEXT, &b.encoding, 0, 0, "NAME",
+        {"encoding", 0, CLI_WORD, &encoding, 0, 0, "NAME",
          "as of `fit` (default: by what is learned from)"},
         {"seconds", 0, CLI_REAL, &b.seconds, 1, 1e7, "S",
          "about the time for all fits (default: by steps)"},
@@ -268,7 +194,7 @@ int cmd_bake(int argc, char **argv)
          "training steps of a full fit; of a short one an eighth (default 32000)"},
         {"restarts", 0, CLI_INT, &restarts, 1, 32, "N",
          "seeds of a full fit, the best counts (default 4)"},
-        {"sampler", 0, CLI_CHOICE, &sampler, 0, 0, "uniform|cosine|grid",
+        {"sampler", 0, CLI_WORD, &sampler, 0, 0, "uniform|cosine|grid",
          "of the pairs that errors are measured on (default grid)"},
         {"pairs", 'n', CLI_INT, &pairs, 1, 1e9, "N",
          "pairs a material that errors are measured on (default 200000; short fits 20000)"},
@@ -298,14 +224,10 @@ int cmd_bake(int argc, char **argv)
     b.max_multiplications = (size_t)mults;
     if ((code = read_wish(&b, net)) >= 0)
         return code;
-    if (b.encoding && !is_encoding(b.encoding))
-        return cli_usage(&command,
-                         "--encoding %s, expected angles, angles-anisotropic, angles-directed, "
-                         "half-difference or directions",
-                         b.encoding);
+    b.encoding = hnbrdf_encoding_name((hnbrdf_encoding)encoding.value);
     b.judge = worst ? HNBRDF_BAKE_WORST : HNBRDF_BAKE_MEAN;
     b.analytic = (hnbrdf_bake_analytic)(analytic + 1);
-    b.sampler = (hnbrdf_sampler)sampler;
+    b.sampler = (hnbrdf_sampler)sampler.value;
     b.latent = latent > 0 ? (int)latent : 0;
     b.latent_none = latent == 0;
     b.restarts = (int)restarts;

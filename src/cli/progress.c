@@ -72,3 +72,20 @@ void cli_progress_end(cli_progress *progress)
     }
     progress->shown = 0.0;
 }
+
+void cli_stages_show(cli_stages *stages, const char *what, double share, const char *detail)
+{
+    if (strcmp(stages->what, what) != 0) {
+        cli_stages_end(stages);
+        snprintf(stages->what, sizeof stages->what, "%s", what);
+        cli_progress_begin(&stages->line, stages->what);
+    }
+    cli_progress_update(&stages->line, share, detail);
+}
+
+void cli_stages_end(cli_stages *stages)
+{
+    if (stages->what[0])
+        cli_progress_end(&stages->line);
+    stages->what[0] = '\0';
+}

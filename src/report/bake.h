@@ -13,6 +13,15 @@ void report_bake_columns(const hnbrdf_bake_report *report, FILE *file);
 void report_bake_row(const hnbrdf_bake_report *report, const hnbrdf_bake_row *row, FILE *file);
 void report_bake_result(const hnbrdf_bake_report *report, const char *output, FILE *file);
 
+/* What is being done, "short fits of 4x1 to 8x2", and how it goes, for a line that is rewritten. */
+void report_bake_stage(const hnbrdf_bake_progress *progress, char what[64], char detail[64]);
+
+/* HNBRDF_OK if the model saved as `output` is what was asked for; else why it is not: it was
+ * stopped or had `seconds` for all (HNBRDF_ERROR_CANCELLED), or nothing is good enough
+ * (HNBRDF_ERROR_LIMIT). */
+hnbrdf_result report_bake_verdict(const hnbrdf_bake_report *report, double seconds,
+                                  const char *output, hnbrdf_error *error);
+
 /* For programs; the argument is an hnbrdf_bake_report. */
 void report_bake_csv(const void *report, FILE *file);
 void report_bake_json(const void *report, FILE *file);

@@ -1,9 +1,11 @@
 /* bake_tables.c: what `bake` tried and picked, for people, as CSV and as JSON. */
+#include "base/error.h"
 #include "base/write.h"
 #include "report/bake.h"
 
 #include <inttypes.h>
 #include <math.h>
+#include <string.h>
 
 static double ratio_to_ggx(const hnbrdf_bake_report *r, const hnbrdf_bake_size *size)
 {
@@ -107,6 +109,60 @@ void report_bake_result(const hnbrdf_bake_report *r, const char *output, FILE *f
                 judge_name(r), r->half_smape);
     fprintf(file, "\nns/eval: hnbrdf_eval_batch(), one material, one thread of this machine, the "
                   "least of several interleaved rounds\n");
+}
+
+void report_bake_stage(const hnbrdf_bake_progress *p, char what[64], char detail[64])
+{
+    char first[16], last[16];
+    detail[0] = '\0';
+    if (isfinite(p->loss))
+        snprintf(detail, 64, "loss %.4f", p->loss);
+    switch (p->stage) {
+    case HNBRDF_BAKE_TIMING:
+        snprintf(what, 64, "timing");
+        return;
+    case HNBRDF_BAKE_GGX:
+        snprintf(what, 64, "GGX");
+        snprintf(detail, 64, "%s", p->done < 0.5 ? "drawing data" : "fitting");
+        return;
+    case HNBRDF_BAKE_SHORT_FITS:
+    case HNBRDF_BAKE_FULL_FITS:
+        break;
+    }
+    hnbrdf_bake_size_name(p->first, first);
+    hnbrdf_bake_size_name(p->last, last);
+    snprintf(what, 64, "%s fits of %s%s%s", p->stage == HNBRDF_BAKE_FULL_FITS ? "full" : "short",
+             first, strcmp(first, last) ? " to " : "", strcmp(first, last) ? last : "");
+}
+
+hnbrdf_result report_bake_verdict(const hnbrdf_bake_report *r, double seconds, const char *output,
+                                  hnbrdf_error *error)
+{
+    if (r->end == HNBRDF_BAKE_STOPPED)
+        return hnbrdf_fail(error, HNBRDF_ERROR_CANCELLED,
+                           "interrupted; %s has the best of what was tried", output);
+    if (r->met)
+        return HNBRDF_OK;
+    if (r->end == HNBRDF_BAKE_OUT_OF_TIME)
+        return hnbrdf_fail(error, HNBRDF_ERROR_CANCELLED,
+                           "the %s s are over; %s has the best of what was tried",
+                           HNBRDF_NUMBER(seconds), output);
+    if (r->wish == HNBRDF_BAKE_AUTO)
+        return hnbrdf_fail(error, HNBRDF_ERROR_LIMIT,
+                           "no network is clearly smaller than the model's; %s has GGX alone",
+                           output);
+    if (r->wish != HNBRDF_BAKE_ERROR)
+        return hnbrdf_fail(error, HNBRDF_ERROR_LIMIT,
+                           "nothing takes at most %s ns here; %s has GGX alone",
+                           HNBRDF_NUMBER(r->max_ns), output);
+    if (r->from_data)
+        return hnbrdf_fail(error, HNBRDF_ERROR_LIMIT,
+                           "no network tried is within %s; %s has the most accurate one",
+                           HNBRDF_NUMBER(r->max_error), output);
+    return hnbrdf_fail(error, HNBRDF_ERROR_LIMIT,
+                       "no network that is clearly smaller than the model's comes within %s of it; "
+                       "%s has the most accurate one",
+                       HNBRDF_NUMBER(r->max_error), output);
 }
 
 /* ---- CSV ------------------------------------------------------------------------------------- */
