@@ -302,32 +302,12 @@ void hnbrdf_model_free(hnbrdf_model *model)
 
 /* ---- Looking in ------------------------------------------------------------------------------ */
 
-void hnbrdf_model_describe(const hnbrdf_model *model, hnbrdf_model_desc *desc)
-{
-    *desc = model->desc;
-}
-
-int hnbrdf_model_material_count(const hnbrdf_model *model)
-{
-    return model->desc.material_count;
-}
-
 int hnbrdf_model_find(const hnbrdf_model *model, const char *name)
 {
     for (int i = 0; name && i < model->desc.material_count; ++i)
         if (strcmp(model->desc.names[i], name) == 0)
             return i;
     return -1;
-}
-
-const hnbrdf_material *hnbrdf_model_material(const hnbrdf_model *model, int index)
-{
-    return index >= 0 && index < model->desc.material_count ? &model->desc.materials[index] : NULL;
-}
-
-const char *hnbrdf_model_material_name(const hnbrdf_model *model, int index)
-{
-    return index >= 0 && index < model->desc.material_count ? model->desc.names[index] : NULL;
 }
 
 size_t hnbrdf_model_multiplications(const hnbrdf_model *model)
