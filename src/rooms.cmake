@@ -61,15 +61,15 @@ hnbrdf_room(bake
 hnbrdf_room(report
   bake_plot.c bake_tables.c compare.c compare_images.c fit_log.c gallery_choose.c
   gallery_pages.c gallery_strips.c grid.c grid_figures.c grid_fit.c grid_ggx.c
-  grid_image_tables.c grid_images.c grid_plot.c grid_rows.c grid_tables.c info_physics.c
-  lobes_table.c loss_plot.c output.c picture.c same_picture.c sampling_measure.c
-  sampling_strips.c sampling_write.c scene_compare.c sheet.c spheres.c stability_plot.c
-  stability_report.c still.c texels.c verify_report.c)
+  grid_image_tables.c grid_images.c grid_plot.c grid_rows.c grid_tables.c info.c
+  info_physics.c lobes_table.c loss_plot.c output.c picture.c same_picture.c
+  sampling_measure.c sampling_strips.c sampling_write.c scene_compare.c sheet.c
+  spheres.c stability_plot.c stability_report.c still.c texels.c verify_report.c)
 hnbrdf_room(bench
   measure.c models.c peak.c peer.c plot.c quality.c rows.c rows_cpu.c rows_gpu.c speed.c tables.c watch.c)
 hnbrdf_room(cli
   cli.c cmd_bake.c cmd_bench.c cmd_compare.c cmd_edit.c cmd_eval.c cmd_export.c
   cmd_fit.c cmd_gallery.c cmd_import.c cmd_info.c cmd_lobes.c cmd_mix.c cmd_render.c
   cmd_report.c cmd_report_images.c cmd_report_sampling.c cmd_scene.c cmd_sheet.c
-  cmd_stability.c cmd_verify.c main.c
-  output.c picture.c progress.c reading.c report_options.c sources.c watch.c words.c)
+  cmd_stability.c cmd_verify.c main.c output.c picture.c progress.c reading.c
+  report_options.c sources.c watch.c words.c)
