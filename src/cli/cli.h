@@ -105,8 +105,6 @@ typedef struct cli_data {
 
 /* Opens all; two materials of one name are an error. Returns 0, or CLI_FAILURE after a message. */
 int cli_open_data(char *const *arguments, int count, cli_data *data);
-/* The item with this material name, or NULL. */
-const hnbrdf_measured *cli_find_data(const cli_data *data, const char *name);
 void cli_close_data(cli_data *data);
 
 /* A SOURCE is a model file or one measured material (file or "builtin:NAME"): exactly one is set.

@@ -43,26 +43,13 @@ int picture_open_light(picture_options *options, render_environment *environment
     return cli_code(report_open_light(options, environment, &error), &error);
 }
 
-int picture_write_quietly(const render_image *image, const char *path,
-                          const render_write_options *options)
-{
-    hnbrdf_error error;
-    return cli_code(report_picture_write(image, path, options, &error), &error);
-}
-
 int picture_write(const render_image *image, const char *path, const render_write_options *options)
 {
-    int code = picture_write_quietly(image, path, options);
-    if (code == CLI_OK)
-        report_print_pictures(path, stdout);
-    return code;
-}
-
-int picture_compare(const render_image *image, const render_image *reference,
-                    hnbrdf_image_error *difference)
-{
     hnbrdf_error error;
-    return cli_code(report_picture_compare(image, reference, difference, &error), &error);
+    if (report_picture_write(image, path, options, &error) != HNBRDF_OK)
+        return cli_fail("%s", error.text);
+    report_print_pictures(path, stdout);
+    return CLI_OK;
 }
 
 int picture_report(void *progress, double share)

@@ -61,14 +61,7 @@ int picture_open_light(picture_options *options, render_environment *environment
 
 /* Writes path and, for an .exr, a .png beside it; says so on stdout. 0, or CLI_FAILURE. */
 int picture_write(const render_image *image, const char *path, const render_write_options *options);
-/* The same as picture_write(), but nothing on stdout. */
-int picture_write_quietly(const render_image *image, const char *path,
-                          const render_write_options *options);
 
-/* Error over the pixels that render_covered() counts, as they are, premultiplied; pictures of the
- * same size. 0, or CLI_FAILURE. */
-int picture_compare(const render_image *image, const render_image *reference,
-                    hnbrdf_image_error *error);
 /* One picture of several: `first` of `count` is being rendered. For render_options.progress. */
 typedef struct picture_progress {
     cli_progress line;

@@ -291,14 +291,6 @@ int cli_open_data(char *const *arguments, int count, cli_data *data)
     return result;
 }
 
-const hnbrdf_measured *cli_find_data(const cli_data *data, const char *name)
-{
-    for (int k = 0; k < data->count; k++)
-        if (strcmp(hnbrdf_measured_name(data->items[k]), name) == 0)
-            return data->items[k];
-    return NULL;
-}
-
 void cli_close_data(cli_data *data)
 {
     for (int k = 0; k < data->count; k++)
