@@ -86,7 +86,7 @@ static void every_range_is_held_to_its_last_float(void **state)
         m.lobes.share[0][j] = 0.5f;
         m.lobes.share[1][j] = 0.5f;
         assert_int_equal(hnbrdf_material_check(&m, NULL), HNBRDF_OK);
-        m.lobes.share[1][j] = 0.75f;
+        m.lobes.share[1][j] = 0.5f + 0x1p-23f; /* the first sum above 1 */
         assert_int_equal(hnbrdf_material_check(&m, &error), HNBRDF_ERROR_ARGUMENT);
         assert_non_null(strstr(error.text, "sum of lobes.share"));
         m.lobes.share[1][j] = 0.0f;
@@ -198,6 +198,7 @@ static void beyond_the_ends_there_are_the_ends(void **state)
     const float to_a[] = {0.0f, -0.0f, -1.0f, -INFINITY, NAN}, to_b[] = {1.0f, 1.5f, INFINITY};
     rng r = rng_make(93);
     hnbrdf_material a = random_material(&r, 0), b = random_material(&r, 0), m;
+    random_lobes(&r, &a.lobes); /* b has none: mixed there would be none */
     for (size_t k = 0; k < sizeof to_a / sizeof to_a[0]; k++) {
         hnbrdf_material_mix(&a, &b, to_a[k], &m);
         assert_memory_equal(&m, &a, sizeof m);
@@ -247,6 +248,25 @@ static void lobes_of_one_kind_are_mixed_and_others_are_left_out(void **state)
     }
 }
 
+/* Shares that fill a sum of 1 at every knot: rounding must not take the mixed sum above it. */
+static void mixed_shares_never_exceed_one(void **state)
+{
+    (void)state;
+    rng r = rng_make(95);
+    for (int k = 0; k < 5000; k++) {
+        hnbrdf_material a = random_material(&r, 1), b = random_material(&r, 1), m;
+        a.lobes.scale[0] = b.lobes.scale[0] = 1.0f; /* a scale of 1 is one too */
+        a.lobes.scale[1] = b.lobes.scale[1] = -1.0f;
+        for (int j = 0; j < HNBRDF_LOBE_KNOTS; j++) {
+            a.lobes.share[0][j] = 1.0f - (a.lobes.share[1][j] = rng_float(&r));
+            b.lobes.share[0][j] = 1.0f - (b.lobes.share[1][j] = rng_float(&r));
+        }
+        hnbrdf_material_mix(&a, &b, rng_float(&r), &m);
+        assert_true(m.lobes.scale[0] == 1.0f && m.lobes.scale[1] == -1.0f);
+        assert_int_equal(hnbrdf_material_check(&m, NULL), HNBRDF_OK);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -258,6 +278,7 @@ int main(void)
         cmocka_unit_test(angles_are_mixed_the_shorter_way),
         cmocka_unit_test(beyond_the_ends_there_are_the_ends),
         cmocka_unit_test(lobes_of_one_kind_are_mixed_and_others_are_left_out),
+        cmocka_unit_test(mixed_shares_never_exceed_one),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
