@@ -131,8 +131,12 @@ awk -F'\t' -v results="$results" '
 # AVX2 kernel beside the plain one only for the text of the kernels, which is one text; and only the
 # library behind a room, for it is linked again for every mutant.
 link="hnbrdf_fit_static hnbrdf_metrics_static" variants=OFF narrow=1
+kernels='-DHNBRDF_COMPILES_SSE2=OFF -DHNBRDF_COMPILES_AVX512=OFF'
 for file in $files; do
-    case $file in src/core/kernel*) variants=ON ;; esac
+    case $file in
+    src/core/kernel*) variants=ON ;;
+    src/core/variant*) variants=ON kernels='' ;;
+    esac
     case $file in
     src/base/* | src/core/* | src/lobes/* | src/file/* | src/model/*) ;;
     *) narrow=0 ;;
@@ -148,11 +152,12 @@ prepare() {
     sed "s/hnbrdf_fit_static hnbrdf_metrics_static/$link/; s/CONFIGURE_DEPENDS//" \
         "$root/tests/CMakeLists.txt" > "$1/tests/CMakeLists.txt" || return 1
     traps=-fsanitize=bounds,shift,integer-divide-by-zero
+    # shellcheck disable=SC2086
     cmake -S "$1" -B "$1/build" -G Ninja -DCMAKE_BUILD_TYPE=Debug \
         -DCMAKE_C_FLAGS_DEBUG="-O1 -w $traps -fsanitize-undefined-trap-on-error -include $1/tests/mutant.h" \
         -DHNBRDF_WITH_VULKAN=OFF -DHNBRDF_WITH_EMBREE=OFF -DHNBRDF_WITH_OPENEXR=OFF \
         -DHNBRDF_BUILD_EXAMPLES=OFF -DHNBRDF_BUILD_TESTS=ON -DHNBRDF_WERROR=OFF \
-        -DHNBRDF_WITH_VARIANTS=$variants -DHNBRDF_COMPILES_SSE2=OFF -DHNBRDF_COMPILES_AVX512=OFF > "$1.log" 2>&1
+        -DHNBRDF_WITH_VARIANTS=$variants $kernels > "$1.log" 2>&1
 }
 
 tests_of() {

@@ -2,6 +2,8 @@
  * hnbrdf_packing_check() holds every range to its last float. */
 #include "core_support.h"
 
+#include "core/pack.h"
+
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -183,12 +185,54 @@ static void every_range_is_held_to_its_last_float(void **state)
     assert_int_equal(hnbrdf_packing_check(&p, NULL), HNBRDF_ERROR_ARGUMENT);
 }
 
+/* 1 to 7 texels: as many as the channels fill. */
+static void texels_hold_the_channels_and_no_more(void **state)
+{
+    (void)state;
+    assert_int_equal(hnbrdf_texel_bytes(HNBRDF_TEXEL_RGBA16F), 8);
+    assert_int_equal(hnbrdf_texel_bytes(HNBRDF_TEXEL_RGBA8), 4);
+    for (int bits = 0; bits < 8; bits++)
+        for (int latent = 0; latent <= HNBRDF_MAX_LATENT; latent++) {
+            const hnbrdf_packing p = {.analytic = bits & 1,
+                                      .anisotropic = (bits & 1) && (bits & 2),
+                                      .rotated = bits >> 2,
+                                      .latent = latent};
+            int channels =
+                (bits & 1 ? 3 + 3 + (bits & 2 ? 2 : 1) : 0) + (bits & 4 ? 2 : 0) + latent;
+            hnbrdf_texel_layout layout;
+            hnbrdf_texel_layout_make(&p, &layout);
+            assert_int_equal(layout.channels, channels);
+            assert_int_equal(hnbrdf_packing_texels(&p), (channels + 3) / 4);
+        }
+}
+
+static void one_roughness_comes_back_as_both_and_no_angle_as_none(void **state)
+{
+    (void)state;
+    hnbrdf_packing p = {.format = HNBRDF_TEXEL_RGBA16F, .analytic = 1, .rotated = 1};
+    unsigned char texels[HNBRDF_MAX_TEXELS * 8];
+    hnbrdf_material m, back;
+    hnbrdf_material_init(&m);
+    m.alpha[0] = m.alpha[1] = 0.25f;
+    m.rotation = NAN;
+    hnbrdf_material_pack(&p, &m, texels);
+    hnbrdf_material_unpack(&p, texels, &back);
+    assert_true(back.alpha[0] == 0.25f && back.alpha[1] == 0.25f);
+    assert_true(back.rotation == 0.0f);
+    m.rotation = 1.0f;
+    hnbrdf_material_pack(&p, &m, texels);
+    hnbrdf_material_unpack(&p, texels, &back);
+    assert_true(fabsf(back.rotation - 1.0f) < 1e-3f); /* cosine and sine to 11 bits */
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_packing_spans_just_the_materials_chosen),
         cmocka_unit_test(a_choice_of_no_material_is_refused),
         cmocka_unit_test(every_range_is_held_to_its_last_float),
+        cmocka_unit_test(texels_hold_the_channels_and_no_more),
+        cmocka_unit_test(one_roughness_comes_back_as_both_and_no_angle_as_none),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
