@@ -77,10 +77,28 @@ static void every_lane_has_its_own_material_whatever_came_before(void **state)
         }
 }
 
+static void a_prepared_material_is_black_below_the_horizon(void **state)
+{
+    (void)state;
+    static const float up[3] = {0.6f, 0.0f, 0.8f}, down[3] = {0.6f, 0.0f, -0.8f};
+    rng r = rng_make(82);
+    hnbrdf_model *model = random_model(&r, HNBRDF_KIND_HYBRID, HNBRDF_ENCODING_ANGLES, 8, 1, 4);
+    hnbrdf_prepared prepared;
+    hnbrdf_prepare(model, hnbrdf_model_material(model, 0), &prepared);
+    for (int k = 1; k < 4; k++) {
+        float f[3] = {7.0f, 7.0f, 7.0f};
+        hnbrdf_prepared_eval(&prepared, k & 1 ? down : up, k & 2 ? down : up, f);
+        assert_true(f[0] == 0.0f && f[1] == 0.0f && f[2] == 0.0f);
+        assert_true(hnbrdf_prepared_pdf(&prepared, k & 1 ? down : up, k & 2 ? down : up) == 0.0f);
+    }
+    hnbrdf_model_free(model);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_lane_has_its_own_material_whatever_came_before),
+        cmocka_unit_test(a_prepared_material_is_black_below_the_horizon),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
