@@ -278,7 +278,9 @@ build_switches() { # copy list
         write_switches "$1" "$2"
         # shellcheck disable=SC2086
         ninja -C "$1/build" -j1 -k0 $targets > "$1.log" 2>&1 && return 0
-        sed -n 's|^.*\(src/[^:]*\):\([0-9]*\):[0-9]*: error.*|\1\t\2|p' "$1.log" | sort -u > "$2.lines"
+        sed -n -e 's|^.*\(src/[^:]*\):\([0-9]*\):[0-9]*: error.*|\1\t\2|p' \
+            -e 's|^.*\(src/[^:]*\):\([0-9]*\):[0-9]*: note: in expansion.*|\1\t\2|p' "$1.log" |
+            sort -u > "$2.lines"
         [ -s "$2.lines" ] && [ "$round" -lt 12 ] || return 1
         awk -F'\t' -v lines="$2.lines" -v reach="$((round / 4))" '
             BEGIN { while ((getline line < lines) > 0) {
