@@ -195,7 +195,8 @@ static void angles_are_mixed_the_shorter_way(void **state)
 static void beyond_the_ends_there_are_the_ends(void **state)
 {
     (void)state;
-    const float to_a[] = {0.0f, -0.0f, -1.0f, -INFINITY, NAN}, to_b[] = {1.0f, 1.5f, INFINITY};
+    const float to_a[] = {0.0f, -0.0f, -1.0f, -INFINITY, NAN},
+                to_b[] = {1.0f, 1.01f, 1.5f, INFINITY};
     rng r = rng_make(93);
     hnbrdf_material a = random_material(&r, 0), b = random_material(&r, 0), m;
     random_lobes(&r, &a.lobes); /* b has none: mixed there would be none */
@@ -206,6 +207,8 @@ static void beyond_the_ends_there_are_the_ends(void **state)
     for (size_t k = 0; k < sizeof to_b / sizeof to_b[0]; k++) {
         hnbrdf_material_mix(&a, &b, to_b[k], &m);
         assert_memory_equal(&m, &b, sizeof m);
+        hnbrdf_material_mix(&b, &a, to_b[k], &m);
+        assert_memory_equal(&m, &a, sizeof m);
     }
     hnbrdf_material_mix(&a, &b, 0x1p-149f, &m); /* the smallest step in: a, but by mixing */
     for (int c = 0; c < 3; c++)
@@ -241,6 +244,7 @@ static void lobes_of_one_kind_are_mixed_and_others_are_left_out(void **state)
                 x[l] == 0.0f ? 0.0
                              : exp(0.75 * log(fabs((double)x[l])) + 0.25 * log(fabs((double)y[l])));
             near_to((double)m.lobes.scale[l], x[l] < 0.0f ? -size : size);
+            assert_int_equal(m.lobes.scale[l] == 0.0f, x[l] == 0.0f);
             for (int j = 0; j < HNBRDF_LOBE_KNOTS; j++)
                 near_to((double)m.lobes.share[l][j],
                         0.75 * (double)a.lobes.share[l][j] + 0.25 * (double)b.lobes.share[l][j]);
