@@ -19,7 +19,8 @@ else()
   unset(CMAKE_C_INCLUDE_WHAT_YOU_USE)
 endif()
 
-# "-lm", not "m": taken for a target where CMAKE_LINK_LIBRARIES_ONLY_TARGETS is set. Windows has none.
+# "-lm", not "m": taken for a target where CMAKE_LINK_LIBRARIES_ONLY_TARGETS is set. Windows has
+# none.
 set(HNBRDF_MATH -lm)
 if(WIN32)
   set(HNBRDF_MATH "")
@@ -32,13 +33,14 @@ target_include_directories(hnbrdf_flags INTERFACE
 if(MSVC)
   # cl, and clang-cl, which takes what is not of cl behind /clang:.
   target_compile_options(hnbrdf_flags INTERFACE /fp:precise
-    $<$<C_COMPILER_ID:Clang>:/clang:-fno-fast-math> $<$<C_COMPILER_ID:Clang>:/clang:-ffp-contract=off>
+    $<$<C_COMPILER_ID:Clang>:/clang:-fno-fast-math>
+    $<$<C_COMPILER_ID:Clang>:/clang:-ffp-contract=off>
     $<$<BOOL:${HNBRDF_WERROR}>:/WX>)
   target_compile_definitions(hnbrdf_flags INTERFACE _CRT_SECURE_NO_WARNINGS)
 else()
-  # The same bits on every machine and in GLSL: whatever -ffast-math, -Ofast or their single parts from
-  # outside allow is taken back first, then no product and sum become one. -fno-trapping-math and
-  # -fno-math-errno change no value; GCC needs them to vectorise clamps and sqrt.
+  # The same bits on every machine and in GLSL: whatever -ffast-math, -Ofast or their single parts
+  # from outside allow is taken back first, then no product and sum become one. -fno-trapping-math
+  # and -fno-math-errno change no value; GCC needs them to vectorise clamps and sqrt.
   include(src/arithmetic.cmake)
   target_compile_options(hnbrdf_flags INTERFACE ${ARITHMETIC_FLAGS}
     -fno-fast-math $<$<C_COMPILER_ID:GNU>:-fno-single-precision-constant>
@@ -53,7 +55,8 @@ else()
 endif()
 
 # Linked with -ffast-math or -Ofast, what is linked gets code that flushes subnormals in the whole
-# process. Taken back for our libraries and programs; -O2 replaces -Ofast and does nothing else here.
+# process. Taken back for our libraries and programs; -O2 replaces -Ofast and does nothing else
+# here.
 set(HNBRDF_LINK_FLAGS "")
 if(CMAKE_C_COMPILER_ID MATCHES "GNU|Clang" AND NOT MSVC)
   set(HNBRDF_LINK_FLAGS -O2 -fno-fast-math -fno-unsafe-math-optimizations)

@@ -36,7 +36,8 @@ write_basic_package_version_file(${_generated}/hnbrdfConfigVersion.cmake
 install(FILES ${_generated}/hnbrdfConfig.cmake ${_generated}/hnbrdfConfigVersion.cmake
   DESTINATION ${_package_dir})
 
-# pkg-config: one file a part, which find the prefix from their own place where that is in the prefix.
+# pkg-config: one file a part, which find the prefix from their own place where that is in the
+# prefix.
 set(_about_hnbrdf "evaluate, sample, load and export hybrid neural-microfacet BRDFs")
 set(_about_hnbrdf_measured "measured and procedural BRDFs behind one interface")
 set(_about_hnbrdf_metrics "errors of BRDF models against measurements")

@@ -8,8 +8,8 @@ set(HNBRDF_VARIANT_DEFINITIONS "")
 set(_fit_kernel_flags "")
 set(_kernel_flags "")
 if(NOT MSVC)
-  # GCC's elimination of partial redundancies would turn clamps into branches, and loops with branches
-  # are not vectorised; its clones for constant arguments are only larger.
+  # GCC's elimination of partial redundancies would turn clamps into branches, and loops with
+  # branches are not vectorised; its clones for constant arguments are only larger.
   set(_fit_kernel_flags $<$<NOT:$<CONFIG:Debug>>:-O3>)
   set(_kernel_flags $<$<NOT:$<CONFIG:Debug>>:-O3>
     $<$<C_COMPILER_ID:GNU>:-fno-tree-pre> $<$<C_COMPILER_ID:GNU>:-fno-ipa-cp-clone>)
@@ -27,8 +27,8 @@ if(NOT MSVC)
   endif()
 endif()
 
-# hnbrdf_variant(NAME condition flags...): the kernel joins if the preprocessor condition holds and the
-# compiler takes the flags.
+# hnbrdf_variant(NAME condition flags...): the kernel joins if the preprocessor condition holds
+# and the compiler takes the flags.
 macro(hnbrdf_variant name condition)
   string(TOUPPER ${name} _upper)
   cmake_push_check_state(RESET)

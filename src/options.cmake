@@ -1,7 +1,7 @@
 # options.cmake: what is built, and what was found to build it with.
-# Every part can be left out. Alone, each is ON where what it needs was found; inside another project
-# the command, the tests, the examples and the installation are OFF until asked for, and what only they
-# need is not looked for.
+# Every part can be left out. Alone, each is ON where what it needs was found; inside another
+# project the command, the tests, the examples and the installation are OFF until asked for, and
+# what only they need is not looked for.
 option(HNBRDF_INSTALL "rules for cmake --install" ${PROJECT_IS_TOP_LEVEL})
 option(HNBRDF_WITH_VARIANTS
   "evaluation kernels for the instruction sets of the target, beside the plain one" ON)

@@ -4,8 +4,8 @@
 # Inside the build, tools and tests link NAME_static: it also shows them the functions that are not
 # exported.
 
-# One part may not use what another part hides. (Sanitizers leave their runtime to the executable, and
-# a parent's flags may hold some.)
+# One part may not use what another part hides. (Sanitizers leave their runtime to the executable,
+# and a parent's flags may hold some.)
 if(PROJECT_IS_TOP_LEVEL AND NOT HNBRDF_SANITIZE AND NOT HNBRDF_BUILD_FUZZERS
     AND NOT CMAKE_C_FLAGS MATCHES "-fsanitize")
   include(CheckLinkerFlag)

@@ -34,8 +34,8 @@ hnbrdf_room(measured
 hnbrdf_room(metrics
   compare.c image.c physics.c)
 hnbrdf_room(fit
-  kernel_avx2.c kernel_avx512.c adam.c checkpoint.c fit.c ggx.c gradient.c judge.c kernel.c kernel_double.c pool.c
-  stage.c train.c)
+  kernel_avx2.c kernel_avx512.c adam.c checkpoint.c fit.c ggx.c gradient.c judge.c kernel.c
+  kernel_double.c pool.c stage.c train.c)
 hnbrdf_room(check
   backends.c bounds.c cases.c half.c maps.c oracle.c pairs.c reference.c rounding.c
   rules.c run.c)
@@ -66,7 +66,8 @@ hnbrdf_room(report
   sampling_measure.c sampling_strips.c sampling_write.c scene_compare.c sheet.c
   spheres.c stability_plot.c stability_report.c still.c texels.c verify_report.c)
 hnbrdf_room(bench
-  measure.c models.c peak.c peer.c plot.c quality.c rows.c rows_cpu.c rows_gpu.c speed.c tables.c watch.c)
+  measure.c models.c peak.c peer.c plot.c quality.c rows.c rows_cpu.c rows_gpu.c speed.c tables.c
+  watch.c)
 hnbrdf_room(cli
   cli.c cmd_bake.c cmd_bench.c cmd_compare.c cmd_edit.c cmd_eval.c cmd_export.c
   cmd_fit.c cmd_gallery.c cmd_import.c cmd_info.c cmd_lobes.c cmd_mix.c cmd_render.c

@@ -1,5 +1,5 @@
-# tools.cmake: the hnbrdf command and the rooms that only it uses: static libraries, so that tests need
-# not compile them again; none is installed.
+# tools.cmake: the hnbrdf command and the rooms that only it uses: static libraries, so that tests
+# need not compile them again; none is installed.
 # hnbrdf_tool_room(NAME NEEDS targets...): hnbrdf_NAME of the files of the room.
 function(hnbrdf_tool_room name)
   add_library(hnbrdf_${name} STATIC EXCLUDE_FROM_ALL ${HNBRDF_ROOM_${name}})
@@ -24,7 +24,8 @@ if(NOT HNBRDF_WITH_VULKAN)
 endif()
 hnbrdf_tool_room(report hnbrdf_scene hnbrdf_plot hnbrdf_check hnbrdf_bake_static hnbrdf_fit_static
   hnbrdf_metrics_static)
-hnbrdf_tool_room(bench hnbrdf_plot hnbrdf_render hnbrdf_check hnbrdf_fit_static hnbrdf_metrics_static)
+hnbrdf_tool_room(bench hnbrdf_plot hnbrdf_render hnbrdf_check hnbrdf_fit_static
+  hnbrdf_metrics_static)
 
 target_include_directories(hnbrdf_image SYSTEM PRIVATE ${STB_INCLUDE_DIR})
 if(HNBRDF_WITH_OPENEXR)
@@ -64,7 +65,8 @@ if(HNBRDF_WITH_VULKAN)
     set(text ${CMAKE_CURRENT_BINARY_DIR}/generated/${symbol}.c)
     add_custom_command(OUTPUT ${text}
       COMMAND ${CMAKE_COMMAND} -DINPUT=${CMAKE_CURRENT_SOURCE_DIR}/shaders/${shader}
-              -DOUTPUT=${text} -DNAME=hnbrdf_${symbol} -P ${CMAKE_CURRENT_SOURCE_DIR}/src/embed.cmake
+              -DOUTPUT=${text} -DNAME=hnbrdf_${symbol} -P
+              ${CMAKE_CURRENT_SOURCE_DIR}/src/embed.cmake
       DEPENDS shaders/${shader} src/embed.cmake VERBATIM)
     list(APPEND HNBRDF_SHADER_TEXTS ${text})
   endforeach()

@@ -1,8 +1,8 @@
 # The command line and the error figures.
 hnbrdf_test(test_metrics test_metrics.c)
 
-# hnbrdf_cli_test(NAME [arguments...]): NAME.sh run with the command, and the program that writes what
-# it reads.
+# hnbrdf_cli_test(NAME [arguments...]): NAME.sh run with the command, and the program that writes
+# what it reads.
 hnbrdf_program(test_cli_files test_cli_files.c)
 target_link_libraries(hnbrdf_test_cli_files PRIVATE hnbrdf_measured_static)
 function(hnbrdf_cli_test name)

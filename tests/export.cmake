@@ -1,13 +1,15 @@
 # Materials in textures, sampling and stripping in GLSL.
 hnbrdf_test(test_pack test_pack.c core_support.c)
 add_test(NAME test_export_cli COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/test_export_cli.sh
-  $<TARGET_FILE:hnbrdf_cli> $<TARGET_FILE:hnbrdf_glsl_scenes> ${PROJECT_SOURCE_DIR}/examples/models/rgl_32x2.safetensors)
+  $<TARGET_FILE:hnbrdf_cli> $<TARGET_FILE:hnbrdf_glsl_scenes>
+  ${PROJECT_SOURCE_DIR}/examples/models/rgl_32x2.safetensors)
 if(HNBRDF_WITH_VULKAN)
   foreach(name unpack sample strip)
     hnbrdf_test(test_glsl_${name} test_glsl_${name}.c gpu_run.c gpu_support.c)
     target_link_libraries(hnbrdf_test_glsl_${name} PRIVATE hnbrdf_gpu ${CMAKE_DL_LIBS})
   endforeach()
-  hnbrdf_test(test_glsl_sampling_density test_glsl_sampling_density.c sampling_statistics.c gpu_run.c)
+  hnbrdf_test(test_glsl_sampling_density test_glsl_sampling_density.c sampling_statistics.c
+    gpu_run.c)
   target_link_libraries(hnbrdf_test_glsl_sampling_density PRIVATE hnbrdf_gpu ${CMAKE_DL_LIBS})
   target_compile_definitions(hnbrdf_test_glsl_sampling_density PRIVATE
     HNBRDF_EXAMPLE_MODEL="${PROJECT_SOURCE_DIR}/examples/models/rgl_32x2.safetensors")

@@ -4,9 +4,11 @@ hnbrdf_test(test_fit_choices test_fit_choices.c)
 hnbrdf_test(test_fit_checkpoint test_fit_checkpoint.c)
 hnbrdf_test(test_fit_divergence test_fit_divergence.c)
 hnbrdf_test(test_fit_stiff test_fit_stiff.c)
-# Long enough to be interrupted, so too long under sanitizers; test_fit holds the same of the library there.
+# Long enough to be interrupted, so too long under sanitizers; test_fit holds the same of the
+# library there.
 if(NOT HNBRDF_SANITIZE)
-  add_test(NAME test_fit_cli COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/test_fit_cli.sh $<TARGET_FILE:hnbrdf_cli>)
+  add_test(NAME test_fit_cli COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/test_fit_cli.sh
+    $<TARGET_FILE:hnbrdf_cli>)
   set_tests_properties(test_fit_cli PROPERTIES SKIP_RETURN_CODE 77)
 endif()
 add_test(NAME test_fit_hostile_cli

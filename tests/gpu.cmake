@@ -6,7 +6,8 @@ target_link_libraries(hnbrdf_glsl_scenes PRIVATE hnbrdf_measured_static ${CMOCKA
 target_include_directories(hnbrdf_glsl_scenes SYSTEM PRIVATE ${CMOCKA_INCLUDE_DIR})
 foreach(target "" _directx _metal)
   string(REPLACE "_" "" argument "${target}")
-  add_test(NAME test_glsl_languages${target} COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/test_glsl_languages.sh
+  add_test(NAME test_glsl_languages${target} COMMAND sh
+    ${CMAKE_CURRENT_SOURCE_DIR}/test_glsl_languages.sh
     $<TARGET_FILE:hnbrdf_glsl_scenes> ${PROJECT_SOURCE_DIR}/shaders ${argument})
   set_tests_properties(test_glsl_languages${target} PROPERTIES SKIP_RETURN_CODE 77)
 endforeach()

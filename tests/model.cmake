@@ -1,4 +1,5 @@
-# Model files: numbers as text, the JSON reader, creation, loading and saving, hostile files, import.
+# Model files: numbers as text, the JSON reader, creation, loading and saving, hostile files,
+# import.
 hnbrdf_test(test_text test_text.c core_support.c)
 hnbrdf_test(test_model_json test_model_json.c core_support.c)
 hnbrdf_test(test_model_create test_model_create.c model_support.c core_support.c)

@@ -2,14 +2,14 @@
  *
  *   mutate list SEED FILE      one line a change: number, order, line, before, after, text
  *   mutate apply NUMBER FILE   the file with that change, to standard output
- *   mutate switch 0 FILE       the file with many changes that a variable switches on; which ones: lines of
- *                              `number id` from standard input
+ *   mutate switch 0 FILE       the file with many changes that a variable switches on; which ones:
+ *                              lines of `number id` from standard input
  *
  * The fields of a list are separated by tabs; `order` is a number made from seed and change, to
  * choose some of them by. A change is one token: a comparison, an operator, a sign, a constant; or
- * one statement that is left out. Comments, strings, lines of the preprocessor, messages, assertions
- * and the insides of struct and attribute are left alone. Binary operators are told from pointers
- * and signs by the blanks around them, which clang-format puts. */
+ * one statement that is left out. Comments, strings, lines of the preprocessor, messages,
+ * assertions and the insides of struct and attribute are left alone. Binary operators are told from
+ * pointers and signs by the blanks around them, which clang-format puts. */
 #include <ctype.h>
 #include <stdint.h>
 #include <stdio.h>

@@ -8,10 +8,11 @@ wanted="gcc libc6-dev make cmake pkg-config libopenexr-dev libvulkan-dev mesa-vu
 case ${1:-} in
 demo) ;;
 tests)
-    wanted="$wanted g++ clang libcmocka-dev vulkan-validationlayers spirv-cross"
+    wanted="$wanted g++ clang clang-format-14 clang-tidy-14 libcmocka-dev vulkan-validationlayers
+        spirv-cross"
     # Other machines and locales; what needs them is skipped without.
     optional="locales qemu-user-static gcc-aarch64-linux-gnu libc6-dev-arm64-cross gcc-i686-linux-gnu
-        libc6-dev-i386-cross gcc-s390x-linux-gnu libc6-dev-s390x-cross"
+        libc6-dev-i386-cross gcc-s390x-linux-gnu libc6-dev-s390x-cross gcc-mingw-w64-x86-64 ninja-build"
     # libFuzzer and the sanitizers of clang; the package carries the version of the clang that is installed or
     # will be. Without it clang fuzzes nothing.
     clang=$(clang -dumpversion 2> /dev/null || apt-cache depends clang 2> /dev/null | sed -n 's/.*Depends: clang-//p')

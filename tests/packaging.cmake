@@ -1,22 +1,28 @@
 # What is installed and what the libraries need and show.
-add_test(NAME test_headers COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/test_headers.sh ${PROJECT_SOURCE_DIR})
+add_test(NAME test_headers COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/test_headers.sh
+  ${PROJECT_SOURCE_DIR})
 set_tests_properties(test_headers PROPERTIES SKIP_RETURN_CODE 77)
 
 if(HNBRDF_BUILD_EXAMPLES)
-  add_test(NAME test_examples COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/test_examples.sh ${PROJECT_SOURCE_DIR}
-    $<TARGET_FILE:hnbrdf_cli> $<TARGET_FILE_DIR:hnbrdf_example_eval> ${CMAKE_CURRENT_BINARY_DIR}/examples)
+  add_test(NAME test_examples COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/test_examples.sh
+    ${PROJECT_SOURCE_DIR}
+    $<TARGET_FILE:hnbrdf_cli> $<TARGET_FILE_DIR:hnbrdf_example_eval>
+    ${CMAKE_CURRENT_BINARY_DIR}/examples)
 endif()
 
 # Sanitizers change what a library needs and what its consumers must link.
 if(NOT HNBRDF_SANITIZE)
-  add_test(NAME test_exports COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/test_exports.sh ${PROJECT_SOURCE_DIR}
+  add_test(NAME test_exports COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/test_exports.sh
+    ${PROJECT_SOURCE_DIR}
     ${PROJECT_BINARY_DIR} hnbrdf hnbrdf_measured hnbrdf_metrics hnbrdf_fit hnbrdf_bake)
   add_test(NAME test_install COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/test_install.sh
     ${PROJECT_BINARY_DIR} ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}/install)
   set_tests_properties(test_install PROPERTIES SKIP_RETURN_CODE 77)
   add_test(NAME test_minimal COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/test_minimal.sh
-    ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR} ${CMAKE_C_COMPILER} ${CMAKE_CURRENT_BINARY_DIR}/minimal)
-  add_test(NAME test_guest COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/test_guest.sh ${PROJECT_SOURCE_DIR}
+    ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR} ${CMAKE_C_COMPILER}
+    ${CMAKE_CURRENT_BINARY_DIR}/minimal)
+  add_test(NAME test_guest COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/test_guest.sh
+    ${PROJECT_SOURCE_DIR}
     ${CMAKE_CURRENT_BINARY_DIR}/guest $<TARGET_FILE:hnbrdf_fast_math_plain>
     ${PROJECT_SOURCE_DIR}/examples/models/rgl_32x2.safetensors)
   set_tests_properties(test_guest PROPERTIES SKIP_RETURN_CODE 77)

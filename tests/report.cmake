@@ -1,4 +1,5 @@
-# Editing, mixing, baking, the reports, pictures compared, the gallery. (cli.cmake, read before, knows how to run the scripts.)
+# Editing, mixing, baking, the reports, pictures compared, the gallery. (cli.cmake, read before,
+# knows how to run the scripts.)
 hnbrdf_test(test_edit test_edit.c)
 hnbrdf_test(test_edit_materials test_edit_materials.c model_support.c core_support.c)
 hnbrdf_cli_test(test_edit_cli)

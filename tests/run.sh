@@ -1,14 +1,33 @@
 #!/bin/sh
-# run.sh: everything that must hold before a change is accepted. Installs what is missing, builds with gcc and
-# clang without a warning, with parts left out, and with sanitizers, fuzzes the readers for a moment, and runs the
-# tests, those of the release build last. Stops at the first failure. tests/coverage.sh is a command of its own.
+# run.sh [quick]: what must hold before a change is accepted. Stops at the first failure.
+#   sh tests/run.sh         everything, as continuous integration runs it: installs what is missing,
+#                           checks formatting, builds with gcc and clang without a warning, with parts
+#                           left out, and with sanitizers, fuzzes the readers for a moment, and runs the
+#                           tests, those of the release build last. Less than half an hour on two cores.
+#   sh tests/run.sh quick   for daily work: builds the release in build/ and runs the tests that are
+#                           labelled quick (tests/CMakeLists.txt lists the others). Less than three
+#                           minutes where build/ is up to date.
+# HNBRDF_FUZZ_SECONDS: how long each reader is fuzzed (10). tests/coverage.sh, tests/mutants.sh and
+# tests/lint.sh are commands of their own.
 set -eu
 cd "$(dirname "$0")/.."
 jobs=$(getconf _NPROCESSORS_ONLN 2> /dev/null || echo 2)
 start=$(date +%s)
-everything="-DHNBRDF_BUILD_FIT=ON -DHNBRDF_BUILD_CLI=ON -DHNBRDF_BUILD_TESTS=ON -DHNBRDF_BUILD_EXAMPLES=ON
-    -DHNBRDF_WITH_OPENEXR=ON -DHNBRDF_WITH_VULKAN=ON -DHNBRDF_WERROR=ON"
-steps=7 step=0
+everything="-DHNBRDF_BUILD_FIT=ON -DHNBRDF_BUILD_CLI=ON -DHNBRDF_BUILD_TESTS=ON
+    -DHNBRDF_BUILD_EXAMPLES=ON -DHNBRDF_WITH_OPENEXR=ON -DHNBRDF_WITH_VULKAN=ON -DHNBRDF_WERROR=ON"
+steps=7 step=0 quick=0
+case ${1:-} in
+"") ;;
+quick) quick=1 steps=2 ;;
+-h | --help)
+    sed -n '2,/^set /s/^# \{0,1\}//p' tests/run.sh
+    exit 0
+    ;;
+*)
+    echo "run.sh: unknown argument $1, expected quick or nothing (--help)" >&2
+    exit 2
+    ;;
+esac
 
 announce() {
     step=$((step + 1))
@@ -18,50 +37,63 @@ fail() {
     echo "run.sh: FAILED in step $step/$steps: $1" >&2
     exit 1
 }
-# build COMPILER DIRECTORY cmake-arguments...: configures and builds; what was printed is shown on failure.
+# build COMPILER DIRECTORY cmake-arguments...: configures and builds; what was printed is shown on
+# failure.
 build() {
     compiler=$1 directory=$2
     shift 2
     mkdir -p "$directory"
     log=$directory/build.log
     # shellcheck disable=SC2086 # $everything is words; what comes later wins
-    { CC=$compiler cmake -S . -B "$directory" $everything "$@" && cmake --build "$directory" -j "$jobs"; } \
-        > "$log" 2>&1 || {
+    { CC=$compiler cmake -S . -B "$directory" $everything "$@" &&
+        cmake --build "$directory" -j "$jobs"; } > "$log" 2>&1 || {
         grep -E -A 12 'error:|warning:|Error at|undefined' "$log" | head -n 60 >&2
         tail -n 10 "$log" >&2
         fail "building $directory, all of it in $log"
     }
 }
 
-announce "packages"
+if [ $quick = 1 ]; then
+    announce "release build with gcc, warnings are errors"
+    build gcc build -DCMAKE_BUILD_TYPE=Release
+    announce "quick tests"
+    exec ctest --test-dir build -L quick -j "$jobs" --output-on-failure
+fi
+
+echo "packages"
 sh tests/packages.sh tests || fail "packages"
+
+announce "formatting and static analysis"
+sh tests/lint.sh || fail "formatting and static analysis"
 
 announce "clang, warnings are errors"
 build clang build/clang -DCMAKE_BUILD_TYPE=Release
-ctest --test-dir build/clang -R '^test_(math|core_)' -j "$jobs" --output-on-failure > build/clang/test.log 2>&1 || {
+ctest --test-dir build/clang -R '^test_(math|core_)' -j "$jobs" --output-on-failure \
+    > build/clang/test.log 2>&1 || {
     cat build/clang/test.log
     fail "the core tests under clang"
 }
 
 announce "without Vulkan, OpenEXR and Embree"
-build gcc build/plain -DCMAKE_BUILD_TYPE=Debug -DHNBRDF_WITH_OPENEXR=OFF -DHNBRDF_WITH_VULKAN=OFF -DHNBRDF_WITH_EMBREE=OFF \
-    -DHNBRDF_BUILD_TESTS=OFF
+build gcc build/plain -DCMAKE_BUILD_TYPE=Debug -DHNBRDF_WITH_OPENEXR=OFF -DHNBRDF_WITH_VULKAN=OFF \
+    -DHNBRDF_WITH_EMBREE=OFF -DHNBRDF_BUILD_TESTS=OFF
 build/plain/hnbrdf --help > /dev/null || fail "hnbrdf --help without Vulkan, OpenEXR and Embree"
 
 announce "AddressSanitizer and UndefinedBehaviorSanitizer"
 build gcc build/sanitize -DCMAKE_BUILD_TYPE=RelWithDebInfo -DHNBRDF_SANITIZE=ON
-# Tests of what other programs make of our text or flags, of a second driver, and of how good long fits end (test_fit
-# runs the same code) find nothing here that the release tests do not.
+# Tests of what other programs make of our text or flags, of a second driver, and of how good long
+# fits end (test_fit runs the same code) find nothing here that the release tests do not.
 elsewhere='^test_(glsl_languages|minimal|fit_divergence|fit_stiff|.*_second_driver)'
-UBSAN_OPTIONS=print_stacktrace=1 ctest --test-dir build/sanitize -E "$elsewhere" -j "$jobs" --output-on-failure ||
-    fail "tests under sanitizers"
+UBSAN_OPTIONS=print_stacktrace=1 ctest --test-dir build/sanitize -E "$elsewhere" -j "$jobs" \
+    --output-on-failure || fail "tests under sanitizers"
 
 seconds=${HNBRDF_FUZZ_SECONDS:-10}
 announce "fuzzing every reader for $seconds s (HNBRDF_FUZZ_SECONDS)"
 HNBRDF_FUZZ_JOBS=$jobs sh tests/fuzz/run.sh "$seconds" || fail "fuzzing"
 
 announce "MemorySanitizer on what every reader but EXR makes of seeds and crashers"
-HNBRDF_FUZZ_SANITIZERS=memory HNBRDF_FUZZ_JOBS=$jobs sh tests/fuzz/run.sh 1 || fail "values that were never set"
+HNBRDF_FUZZ_SANITIZERS=memory HNBRDF_FUZZ_JOBS=$jobs sh tests/fuzz/run.sh 1 ||
+    fail "values that were never set"
 
 announce "release build with gcc, warnings are errors"
 build gcc build -DCMAKE_BUILD_TYPE=Release

@@ -1,6 +1,7 @@
 # What runs on a Vulkan device once more on a second driver, where one is installed.
 function(hnbrdf_second_driver_test name)
-  add_test(NAME ${name}_second_driver COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/second_driver.sh ${ARGN})
+  add_test(NAME ${name}_second_driver COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/second_driver.sh
+    ${ARGN})
   set_tests_properties(${name}_second_driver PROPERTIES SKIP_RETURN_CODE 77)
 endfunction()
 
@@ -13,6 +14,7 @@ if(HNBRDF_WITH_VULKAN)
     $<TARGET_FILE:hnbrdf_cli> $<TARGET_FILE:hnbrdf_glsl_scenes>)
   # Both drivers in one table.
   hnbrdf_second_driver_test(test_stability_cli sh ${CMAKE_CURRENT_SOURCE_DIR}/test_stability_cli.sh
-    $<TARGET_FILE:hnbrdf_cli> ${PROJECT_SOURCE_DIR}/examples/models/rgl_32x2.safetensors $<TARGET_FILE:hnbrdf_glsl_scenes> all)
+    $<TARGET_FILE:hnbrdf_cli> ${PROJECT_SOURCE_DIR}/examples/models/rgl_32x2.safetensors
+    $<TARGET_FILE:hnbrdf_glsl_scenes> all)
   set_tests_properties(test_stability_cli_second_driver PROPERTIES ENVIRONMENT HNBRDF_BESIDE=1)
 endif()

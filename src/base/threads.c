@@ -1,4 +1,4 @@
-/* threads.c: a small pool of POSIX threads handing out pieces of work through one atomic counter. */
+/* threads.c: a small pool of POSIX threads that take pieces of work from one atomic counter. */
 #define _POSIX_C_SOURCE 200809L
 #include "base/threads.h"
 

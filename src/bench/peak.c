@@ -18,7 +18,7 @@ enum { PEAK_CHAINS = 12, PEAK_STEPS = 1 << 16, PEAK_RUNS_AT_LEAST = 8 };
 /* Twelve chains x = x a + b hide the latency of an operation and fit sixteen registers; a < 1 keeps
  * them near 1. Returns a number that depends on all. */
 #define PEAK_EACH(DO) DO(0) DO(1) DO(2) DO(3) DO(4) DO(5) DO(6) DO(7) DO(8) DO(9) DO(10) DO(11)
-#define PEAK_DECLARE(k) vector x##k = {(float)(k + 1)};
+#define PEAK_DECLARE(k) vector x##k = {(float)((k) + 1)};
 #define PEAK_STEP(k) x##k = STEP(x##k);
 #define PEAK_SUM(k) sum += x##k[0];
 #define PEAK_CHAIN                                                   \

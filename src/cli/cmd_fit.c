@@ -44,7 +44,7 @@ static int show(void *user, const hnbrdf_fit_progress *p)
 {
     display *d = user;
     char detail[128];
-    if (!d->stage || strcmp(d->stage, p->stage)) {
+    if (!d->stage || strcmp(d->stage, p->stage) != 0) {
         if (d->stage)
             cli_progress_end(&d->line);
         d->stage = p->stage;

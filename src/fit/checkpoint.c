@@ -146,7 +146,7 @@ hnbrdf_result hnbrdf_fit_checkpoint_load(trainer *t, hnbrdf_error *error)
                            "%s: no checkpoint to resume from can be read there", path);
     header h;
     hnbrdf_result result = HNBRDF_OK;
-    if (fread(&h, sizeof h, 1, file) != 1 || memcmp(h.magic, magic, sizeof magic))
+    if (fread(&h, sizeof h, 1, file) != 1 || memcmp(h.magic, magic, sizeof magic) != 0)
         result = hnbrdf_fail(error, HNBRDF_ERROR_FORMAT,
                              "%s: not a checkpoint of this version of hnbrdf", path);
     else if (h.fingerprint != fingerprint(t))

@@ -119,7 +119,7 @@ const hnbrdf_material *report_material(const report *r, const hnbrdf_model *mode
                                  hnbrdf_model_find(model, hnbrdf_measured_name(r->data.items[m])));
 }
 
-/* ---- Files of the report's folder ------------------------------------------------------------- */
+/* ---- Files of the report's folder ------------------------------------------------------------ */
 
 char *report_path_in(const report *r, const char *name)
 {

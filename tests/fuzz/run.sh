@@ -25,7 +25,8 @@ case ${1:-} in
     shift
     ;;
 esac
-all=$(sed -n 's/^set(HNBRDF_FUZZ_TARGETS \(.*\))$/\1/p' "$here/CMakeLists.txt")
+all=$(sed -n '/^set(HNBRDF_FUZZ_TARGETS/,/)$/p' "$here/CMakeLists.txt" | tr -s '\n )' ' ' |
+    sed 's/^set(HNBRDF_FUZZ_TARGETS //; s/ $//')
 options=""
 if [ "$sanitizers" = memory ]; then
     all=$(echo " $all " | sed 's/ exr / /')

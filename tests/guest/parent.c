@@ -1,5 +1,5 @@
-/* parent.c MODEL SCRATCH: a program of somebody else's project: its assertions are alive, and a model
- * with a weight that is no number is refused, whatever everything was compiled with. */
+/* parent.c MODEL SCRATCH: a program of somebody else's project: its assertions are alive, and a
+ * model with a weight that is no number is refused, whatever everything was compiled with. */
 #include <assert.h>
 #include <stdio.h>
 #include <stdlib.h>
