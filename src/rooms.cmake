@@ -60,7 +60,7 @@ hnbrdf_room(bake
   bake.c ggx.c half.c options.c report.c rows.c search.c sizes.c teacher.c tell.c wave.c)
 hnbrdf_room(report
   bake_plot.c bake_tables.c compare.c compare_images.c fit_log.c gallery_choose.c
-  gallery_pages.c gallery_strips.c grid.c grid_figures.c grid_fit.c grid_ggx.c
+  gallery_pages.c gallery_strips.c grid.c grid_columns.c grid_figures.c grid_fit.c grid_ggx.c
   grid_image_tables.c grid_images.c grid_plot.c grid_rows.c grid_tables.c info.c
   info_physics.c lobes_table.c loss_plot.c output.c picture.c same_picture.c
   sampling_measure.c sampling_strips.c sampling_write.c scene_compare.c sheet.c

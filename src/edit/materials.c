@@ -3,6 +3,7 @@
 #include "hnbrdf/edit.h"
 
 #include "base/error.h"
+#include "base/hash.h"
 #include "base/memory.h"
 #include "model/check_name.h"
 
@@ -30,13 +31,9 @@ static hnbrdf_result fail(hnbrdf_error *error, const char *format, const char *n
     return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT, format, name);
 }
 
-/* FNV-1a. */
 static uint32_t hash_of(const char *name)
 {
-    uint32_t hash = 2166136261u;
-    for (; *name; ++name)
-        hash = (hash ^ (unsigned char)*name) * 16777619u;
-    return hash;
+    return hnbrdf_hash32(HNBRDF_HASH32_START, name, strlen(name));
 }
 
 static void set_name(material_list *list, int index, const char *name)

@@ -22,13 +22,6 @@ typedef struct watch {
     double later;       /* expected for the entries after this one */
 } watch;
 
-hnbrdf_result report_interrupted(const report *r)
-{
-    return hnbrdf_fail(r->error, HNBRDF_ERROR_CANCELLED,
-                       "%s: interrupted; what is finished is there, --resume goes on",
-                       r->directory);
-}
-
 /* ---- What a finished model was made with --------------------------------------------------------
  * models/NAME.txt: the settings in one line, then what the fit took. Written last: it says that the
  * model beside it is complete. */

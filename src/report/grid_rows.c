@@ -225,3 +225,9 @@ hnbrdf_result report_rows_write(const report *r)
     free(rows);
     return code;
 }
+hnbrdf_result report_interrupted(const report *r)
+{
+    return hnbrdf_fail(r->error, HNBRDF_ERROR_CANCELLED,
+                       "%s: interrupted; what is finished is there, --resume goes on",
+                       r->directory);
+}
