@@ -48,6 +48,9 @@ else()
   if(PROJECT_IS_TOP_LEVEL)
     target_compile_options(hnbrdf_flags INTERFACE
       -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wstrict-prototypes -Wmissing-prototypes)
+    if(MINGW) # isfinite() and others of its math.h convert doubles to floats
+      target_compile_options(hnbrdf_flags INTERFACE -Wno-float-conversion)
+    endif()
   elseif(NOT HNBRDF_WERROR)
     target_compile_options(hnbrdf_flags INTERFACE -Wno-error)
   endif()

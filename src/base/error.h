@@ -12,7 +12,7 @@
 /* Writes the message if error is not NULL and returns result, so that a failure is one statement:
  *     return hnbrdf_fail(error, HNBRDF_ERROR_FORMAT, "%s: header is %zu bytes, expected ...", ...);
  * Numbers with a fraction go in as %s and HNBRDF_NUMBER(): a %g would follow the locale. */
-#if defined(__GNUC__)
+#if defined(__GNUC__) && !defined(__MINGW32__) /* whose printf attribute knows no %zu */
 __attribute__((format(printf, 3, 4)))
 #endif
 static inline hnbrdf_result

@@ -20,7 +20,7 @@ void hnbrdf_put_flush(hnbrdf_printer *out);
 void hnbrdf_put_bytes(hnbrdf_printer *out, const char *text, size_t size);
 
 /* Whole numbers and text only: a %g would follow the locale. At most 511 characters a call. */
-#if defined(__GNUC__)
+#if defined(__GNUC__) && !defined(__MINGW32__) /* whose printf attribute knows no %zu */
 __attribute__((format(printf, 2, 3)))
 #endif
 void hnbrdf_put(hnbrdf_printer *out, const char *format, ...);
