@@ -50,7 +50,7 @@ int main(int argc, char **argv)
         double theta = degrees[k] * 3.14159265358979 / 180, sum[3] = {0, 0, 0}, square = 0;
         const float wo[3] = {(float)sin(theta), 0.0f, (float)cos(theta)};
         for (int n = 0; n < DRAWS; n++) {
-            const float u[3] = {uniform(&state), uniform(&state), uniform(&state)};
+            const float u[2] = {uniform(&state), uniform(&state)};
             hnbrdf_sample_result s;
             hnbrdf_sample(model, hnbrdf_model_material(model, index), wo, u, &s);
             for (int c = 0; c < 3; c++)

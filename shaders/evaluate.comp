@@ -21,7 +21,7 @@ vec4 read4(uint at)
     return vec4(inputs[at], inputs[at + 1], inputs[at + 2], inputs[at + 3]);
 }
 
-// hnbrdf_material read_material(uint at): wi, wo, kd, eta, alpha, cosine and sine, latent, lobes, then u: 45 numbers.
+// hnbrdf_material read_material(uint at): wi, wo, kd, eta, alpha, cosine and sine, latent, lobes, then u: 44 numbers.
 #include "material.glsl"
 
 void main()
@@ -29,7 +29,7 @@ void main()
     uint k = gl_GlobalInvocationID.x;
     if (k >= count)
         return;
-    uint at = 45 * k, to = 8 * k;
+    uint at = 44 * k, to = 8 * k;
     hnbrdf_material m = read_material(at);
     vec3 wi = read3(at), wo = read3(at + 3), f = vec3(0.0);
     if (WHAT == 0)
@@ -39,7 +39,7 @@ void main()
     else if (WHAT == 2)
         f.x = hnbrdf_pdf(m, wi, wo);
     else {
-        hnbrdf_sample_result s = hnbrdf_sample(m, wo, read3(at + 42));
+        hnbrdf_sample_result s = hnbrdf_sample(m, wo, vec2(inputs[at + 42], inputs[at + 43]));
         f = s.wi;
         values[to + 3] = s.weight.x;
         values[to + 4] = s.weight.y;

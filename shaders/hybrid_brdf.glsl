@@ -519,29 +519,27 @@ HNBRDF_PRECISE vec3 hnbrdf_draw_lobe(float scale, vec2 alpha, vec3 wo, vec2 u)
     return k * h - wo;
 }
 
-// What is left of u0 once it has chosen its part [low, low + size) of [0, 1) turns the azimuth on: a pair (u.x, u.z)
-// that is stratified stays so in each lobe.
-HNBRDF_PRECISE float hnbrdf_azimuth(float u0, float low, float size, float u1)
+// What is left of u0 once it has chosen its part [low, low + size) of [0, 1), as an azimuth: a pair (u0, u1) that is
+// stratified stays so in each lobe.
+HNBRDF_PRECISE float hnbrdf_azimuth(float u0, float low, float size)
 {
     HNBRDF_PRECISE float within = (u0 - low) / size;
-    HNBRDF_PRECISE float turn = u1 + hnbrdf_clamp(within, 0.0, 0.99999994);
-    turn = turn >= 1.0 ? turn - 1.0 : turn;
-    return hnbrdf_clamp(turn, 0.0, 1.0);
+    return hnbrdf_clamp(within, 0.0, 0.99999994);
 }
 
-// The lobe that u.x falls to, or cosine.
-vec3 hnbrdf_draw(vec2 alpha, hnbrdf_lobes lobes, vec3 wo, vec3 u)
+// The lobe that u.x falls to, or cosine. NaN counts as 0.
+vec3 hnbrdf_draw(vec2 alpha, hnbrdf_lobes lobes, vec3 wo, vec2 u)
 {
     vec2 share = hnbrdf_lobe_shares(lobes, wo.z);
     HNBRDF_PRECISE float both = share.x + share.y;
-    float u2 = hnbrdf_clamp(u.z, 0.0, 0.99999994); // NaN: 0
-    if (u.x < both) {
-        bool first = u.x < share.x;
-        float turn = first ? hnbrdf_azimuth(u.x, 0.0, share.x, u.y) : hnbrdf_azimuth(u.x, share.x, share.y, u.y);
-        return hnbrdf_draw_lobe(first ? lobes.scale.x : lobes.scale.y, alpha, wo, vec2(turn, u2));
+    float u0 = hnbrdf_clamp(u.x, 0.0, 0.99999994), u1 = hnbrdf_clamp(u.y, 0.0, 0.99999994);
+    if (u0 < both) {
+        bool first = u0 < share.x;
+        float turn = first ? hnbrdf_azimuth(u0, 0.0, share.x) : hnbrdf_azimuth(u0, share.x, share.y);
+        return hnbrdf_draw_lobe(first ? lobes.scale.x : lobes.scale.y, alpha, wo, vec2(turn, u1));
     }
     HNBRDF_PRECISE float rest = 1.0 - both;
-    return hnbrdf_draw_cosine(vec2(hnbrdf_azimuth(u.x, both, rest, u.y), u2));
+    return hnbrdf_draw_cosine(vec2(hnbrdf_azimuth(u0, both, rest), u1));
 }
 
 #endif

@@ -274,7 +274,7 @@ drawn_direction draw_brdf(hnbrdf_material m, hit_point p, uvec2 u)
 {
     drawn_direction d;
     precise float density =
-        hnbrdf_sample_direction(m, p.wo, vec3(unit_float(u.x), 0.0, unit_float(u.y)), d.wi);
+        hnbrdf_sample_direction(m, p.wo, vec2(unit_float(u.x), unit_float(u.y)), d.wi);
     d.number = 0;
     d.density = density;
     if (!(density > 0.0))

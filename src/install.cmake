@@ -5,7 +5,7 @@ include(CMakePackageConfigHelpers)
 get_property(HNBRDF_PARTS GLOBAL PROPERTY HNBRDF_PARTS)
 set(_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/hnbrdf)
 
-set(_headers_hnbrdf hnbrdf edit)
+set(_headers_hnbrdf hnbrdf glsl edit)
 set(_headers_hnbrdf_measured measured)
 set(_headers_hnbrdf_metrics metrics)
 set(_headers_hnbrdf_fit fit)

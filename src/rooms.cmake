@@ -17,7 +17,7 @@ set(HNBRDF_BASE_FIT src/base/clock.c src/base/threads.c)
 set(HNBRDF_BASE_BAKE src/base/probe.c)
 hnbrdf_room(core
   eval.c kernel_plain.c material.c model.c network.c pack.c prepare.c sample.c
-  strerror.c variant.c)
+  names.c strerror.c variant.c)
 hnbrdf_room(model check_name.c choose_kernel.c create.c)
 hnbrdf_room(file
   decode.c load.c safetensors.c save.c)
@@ -25,7 +25,7 @@ hnbrdf_room(import
   brdf_network.c brdf_text.c import_brdf.c)
 hnbrdf_room(glsl
   export_evaluate.c export_glsl.c export_input.c export_library.c export_loops.c export_material.c
-  export_network.c export_scene.c export_unpack.c export_weights.c half.c printer.c)
+  export_network.c export_scene.c export_unpack.c export_weights.c half.c names.c printer.c)
 hnbrdf_room(lobes
   fit_lobes.c)
 hnbrdf_room(measured

@@ -3,6 +3,7 @@ hnbrdf_test(test_math test_math.c)
 hnbrdf_test(test_core_analytic test_core_analytic.c core_support.c)
 hnbrdf_test(test_core_network test_core_network.c core_support.c)
 hnbrdf_test(test_core_eval test_core_eval.c core_support.c)
+hnbrdf_test(test_core_batches test_core_batches.c core_support.c)
 hnbrdf_test(test_sampling test_sampling.c core_support.c)
 hnbrdf_test(test_sampling_density test_sampling_density.c sampling_statistics.c core_support.c)
 target_compile_definitions(hnbrdf_test_sampling_density PRIVATE

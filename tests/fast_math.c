@@ -37,7 +37,7 @@ int main(int argc, char **argv)
     for (int k = 0; k < 1000; k++) {
         const hnbrdf_material *material =
             hnbrdf_model_material(model, k % hnbrdf_model_material_count(model));
-        const float u[3] = {next(), next(), next()};
+        const float u[2] = {next(), next()};
         hnbrdf_sample_result sample;
         float f[3], pdf;
         hnbrdf_sample(model, material, wo, u, &sample);

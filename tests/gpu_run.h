@@ -3,7 +3,7 @@
 #ifndef HNBRDF_TESTS_GPU_RUN_H
 #define HNBRDF_TESTS_GPU_RUN_H
 
-#include "hnbrdf/hnbrdf.h"
+#include "hnbrdf/glsl.h"
 
 #include "gpu/probe.h"
 

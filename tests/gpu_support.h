@@ -2,7 +2,7 @@
 #ifndef HNBRDF_TESTS_GPU_SUPPORT_H
 #define HNBRDF_TESTS_GPU_SUPPORT_H
 
-#include "hnbrdf/hnbrdf.h"
+#include "hnbrdf/glsl.h"
 
 enum { SCENE_MATERIALS = 3 };
 

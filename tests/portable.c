@@ -7,6 +7,7 @@
  * prints whole numbers only; values go in as checksums of their bits, low byte first. */
 #include "hnbrdf/measured.h"
 #include "variants_sweep.h"
+#include "hnbrdf/glsl.h"
 
 #include <locale.h>
 #include <stdio.h>
@@ -109,7 +110,7 @@ static uint64_t values_of(const hnbrdf_model *model)
     for (int k = 0; k < 400; k++) {
         const hnbrdf_material *material =
             hnbrdf_model_material(model, k % hnbrdf_model_material_count(model));
-        const float u[3] = {sweep_unit(&s), sweep_unit(&s), sweep_unit(&s)};
+        const float u[2] = {sweep_unit(&s), sweep_unit(&s)};
         float wi[3], wo[3], out[3];
         hnbrdf_sample_result sample;
         sweep_pair(&s, wi, wo);

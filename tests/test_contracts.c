@@ -299,7 +299,7 @@ static void weights_of_fitted_lobes_are_bounded(void **state)
         hnbrdf_material m = random_material(&r, n != 2);
         assert_int_equal(hnbrdf_lobes_fit(model, &m, &m.lobes, NULL), HNBRDF_OK);
         for (int k = 0; k < 20000; k++) {
-            const float u[3] = {rng_float(&r), rng_float(&r), rng_float(&r)};
+            const float u[2] = {rng_float(&r), rng_float(&r)};
             hnbrdf_sample_result s;
             float wo[3], f[3];
             direction_uniform(&r, wo);
@@ -327,7 +327,7 @@ static void prepared_materials_stand_alone(void **state)
             hnbrdf_material m = random_material(&r, 0), spoiled;
             hnbrdf_prepared first, copy;
             hnbrdf_sample_result s, t;
-            const float u[3] = {rng_float(&r), rng_float(&r), rng_float(&r)};
+            const float u[2] = {rng_float(&r), rng_float(&r)};
             float wi[3], wo[3], f[3], g[3], drawn[3];
             if (k & 1)
                 random_lobes(&r, &m.lobes);

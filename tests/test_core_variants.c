@@ -23,7 +23,7 @@ enum { SHAPES = sizeof shapes / sizeof shapes[0], PAIRS = 53, MATERIALS = 9 };
 
 /* One model's inputs, and the values that the definition gives for them. */
 typedef struct scene {
-    float wi[PAIRS][3], wo[PAIRS][3], u[PAIRS][3];
+    float wi[PAIRS][3], wo[PAIRS][3], u[PAIRS][2];
     hnbrdf_material materials[PAIRS]; /* [MATERIALS] are used by index, all of them without */
     int index[PAIRS];
 } scene;
@@ -169,7 +169,7 @@ static void fill_scene(sweep *s, scene *made)
 {
     for (int k = 0; k < PAIRS; k++) {
         sweep_pair(s, made->wi[k], made->wo[k]);
-        for (int i = 0; i < 3; i++)
+        for (int i = 0; i < 2; i++)
             made->u[k][i] = sweep_unit(s);
         sweep_material(s, k >= MATERIALS, &made->materials[k]);
         /* some runs, some disorder */

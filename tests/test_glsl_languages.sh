@@ -31,7 +31,7 @@ fragment() { # version scene exact output
         echo '    colour = vec4(hnbrdf_eval(m, wi, wo), 1.0);'
         # What the scene has besides evaluation.
         has "$2" hnbrdf_eval_analytic && echo '    colour.rgb += hnbrdf_eval_analytic(m, wi, wo);'
-        has "$2" hnbrdf_sample && echo '    colour.rgb += hnbrdf_sample(m, wo, wi).weight * hnbrdf_pdf(m, wi, wo);'
+        has "$2" hnbrdf_sample && echo '    colour.rgb += hnbrdf_sample(m, wo, wi.xy).weight * hnbrdf_pdf(m, wi, wo);'
         has "$2" hnbrdf_eval_GOLD_PAINT && echo '    colour.rgb += hnbrdf_eval_GOLD_PAINT(wi, wo);'
         has "$2" hnbrdf_material_unpack &&
             echo '    colour.rgb += hnbrdf_eval(hnbrdf_material_unpack(wi.xyzx, wo.xyzx, wi.zyxz), wi, wo);'

@@ -18,7 +18,7 @@ static const char BODY[] =
     "    if (k >= count)\n        return;\n"
     "    hnbrdf_material m = hnbrdf_scene_material(material);\n"
     "    vec3 wo = in_vec3(9 * k);\n"
-    "    hnbrdf_sample_result r = hnbrdf_sample(m, wo, in_vec3(9 * k + 3));\n"
+    "    hnbrdf_sample_result r = hnbrdf_sample(m, wo, in_vec3(9 * k + 3).xy);\n"
     "    store3(8 * k, r.wi);\n"
     "    results[8 * k + 3] = r.pdf;\n"
     "    store3(8 * k + 4, r.weight);\n"

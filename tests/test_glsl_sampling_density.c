@@ -20,7 +20,7 @@ static const char BODY[] = "void main() {\n"
                            "    hnbrdf_material m = hnbrdf_scene_material(int(in_words[at + 6]));\n"
                            "    vec3 wo = in_vec3(at), v = in_vec3(at + 3);\n"
                            "    if (in_words[at + 7] == 1u) {\n"
-                           "        hnbrdf_sample_result r = hnbrdf_sample(m, wo, v);\n"
+                           "        hnbrdf_sample_result r = hnbrdf_sample(m, wo, v.xy);\n"
                            "        store3(4 * k, r.wi);\n"
                            "        results[4 * k + 3] = r.pdf;\n"
                            "    } else {\n"
@@ -60,7 +60,7 @@ static void prepare(const hnbrdf_model *model, int material, hnbrdf_rng *rng, ex
     e->wo[2] = (float)view[0];
     e->chart = sampling_chart_make(hnbrdf_model_material(model, material), e->wo);
     for (int k = 0; k < SAMPLING_DRAWS; k++, words += IN) {
-        const float u[3] = {hnbrdf_rng_float(rng), hnbrdf_rng_float(rng), hnbrdf_rng_float(rng)};
+        const float u[3] = {hnbrdf_rng_float(rng), hnbrdf_rng_float(rng), 0.0f};
         write_words(e, 1, u, words);
     }
     for (int k = 0; k < SAMPLING_POINTS; k++, words += IN) {

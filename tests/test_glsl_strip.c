@@ -157,7 +157,7 @@ static const char EVAL_AND_SAMPLE[] =
     "    if (k >= count)\n        return;\n"
     "    hnbrdf_material m = hnbrdf_scene_material(material);\n"
     "    vec3 wo = in_vec3(6 * k);\n"
-    "    hnbrdf_sample_result r = hnbrdf_sample(m, wo, in_vec3(6 * k + 3));\n"
+    "    hnbrdf_sample_result r = hnbrdf_sample(m, wo, in_vec3(6 * k + 3).xy);\n"
     "    store3(3 * k, hnbrdf_eval(m, r.wi, wo) * hnbrdf_pdf(m, r.wi, wo) + r.weight);\n"
     "}\n";
 

@@ -23,7 +23,7 @@ static double variance(const hnbrdf_model *model, const hnbrdf_material *m, uint
         float wo[3];
         direction(sqrt((v + 0.5) / VIEWS), 2.4 * v, wo);
         for (int k = 0; k < DRAWS; k++) {
-            const float u[3] = {rng_float(&r), rng_float(&r), rng_float(&r)};
+            const float u[2] = {rng_float(&r), rng_float(&r)};
             hnbrdf_sample_result s;
             hnbrdf_sample(model, m, wo, u, &s);
             for (int c = 0; c < 3; c++) {

@@ -66,7 +66,7 @@ static void the_albedo_is_the_mean_weight_of_samples(void **state)
         direction(0.15 + 0.4 * (k / 8), 0.7, wo);
         hnbrdf_albedo(model, &m, wo, albedo);
         for (int i = 0; i < DRAWS; i++) {
-            const float u[3] = {rng_float(&r), rng_float(&r), rng_float(&r)};
+            const float u[2] = {rng_float(&r), rng_float(&r)};
             hnbrdf_sample_result s;
             hnbrdf_sample(model, &m, wo, u, &s);
             sum += (double)s.weight[1];

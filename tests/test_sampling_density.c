@@ -50,7 +50,7 @@ static void draw(const hnbrdf_model *model, const hnbrdf_material *m, const floa
     memset(e, 0, sizeof *e);
     hnbrdf_prepare(model, m, &prepared);
     for (int k = 0; k < SAMPLING_DRAWS; k++) {
-        const float u[3] = {rng_float(r), rng_float(r), rng_float(r)};
+        const float u[2] = {rng_float(r), rng_float(r)};
         hnbrdf_sample_result s;
         hnbrdf_prepared_sample(&prepared, wo, u, &s);
         if (!(s.pdf > 0.0f)) {
@@ -260,7 +260,7 @@ static void weights_of_the_analytic_part_are_bounded(void **state)
     for (int k = 0; k < 200000; k++) {
         hnbrdf_material m = random_material(&r, k % 2);
         hnbrdf_sample_result s;
-        const float u[3] = {rng_float(&r), rng_float(&r), rng_float(&r)};
+        const float u[2] = {rng_float(&r), rng_float(&r)};
         float wo[3];
         if (k % 3 == 0) /* coloured, white or black; a mirror of metal or hardly any */
             for (int c = 0; c < 3; c++) {

@@ -12,10 +12,6 @@
 
 #include "hnbrdf/metrics.h"
 
-#ifndef HNBRDF_EXPERIMENTAL
-#define HNBRDF_EXPERIMENTAL HNBRDF_API
-#endif
-
 #ifdef __cplusplus
 extern "C" {
 #endif

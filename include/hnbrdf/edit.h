@@ -9,10 +9,6 @@
 
 #include "hnbrdf/hnbrdf.h"
 
-#ifndef HNBRDF_EXPERIMENTAL
-#define HNBRDF_EXPERIMENTAL HNBRDF_API
-#endif
-
 #ifdef __cplusplus
 extern "C" {
 #endif

@@ -1,7 +1,9 @@
-/* hnbrdf.h: evaluate, sample, load, save and export hybrid neural-microfacet BRDFs.
+/* hnbrdf.h: evaluate, sample, load and save hybrid neural-microfacet BRDFs.
  *
  * This one header is enough to put measured materials into a renderer. It needs libhnbrdf and
- * libm, nothing else. Fitting (fit.h) and measured data (measured.h) are libraries of their own.
+ * libm, nothing else. In the same library: export to shaders (glsl.h) and editing the materials of
+ * a model (edit.h). Libraries of their own: measured data (measured.h), errors (metrics.h),
+ * fitting (fit.h) and finding the smallest network for a scene (bake.h).
  *
  *   Frame       Right-handed local shading frame, surface normal n = +z, tangent +x, bitangent +y.
  *   Directions  wi points towards the light, wo towards the viewer; both are unit vectors and both
@@ -21,16 +23,27 @@
  * and b constants of the model. One network serves every material of a model.
  *
  * Threads: a loaded model never changes and may be shared. Every function that evaluates is pure:
- * no allocation, no I/O, no errno, no locale, no global state. */
+ * no allocation, no I/O, no errno, no locale, no global state. No function of the library prints,
+ * exits, or reads the environment.
+ *
+ * Options: every options struct is zero-initialised for defaults. 0 is the default of each field;
+ * where 0 is a value that one may ask for, an enum or a flag named ..._none asks for it.
+ *
+ * Stability: versions are numbers major.minor.patch (semantic versioning, semver.org). A patch
+ * changes no declaration. From 1.0 on a minor version only adds: programs that compiled and linked
+ * go on doing so, but for what is marked HNBRDF_EXPERIMENTAL. Before 1.0 a minor version may change
+ * the rest too; the README then says what. Bits of values, samples,
+ * models and shaders change only where the README says so. Files of format "hnbrdf/1" are read
+ * for ever. */
 #ifndef HNBRDF_H
 #define HNBRDF_H
 
 #include <stddef.h>
 
 #define HNBRDF_VERSION_MAJOR 0
-#define HNBRDF_VERSION_MINOR 1
+#define HNBRDF_VERSION_MINOR 2
 #define HNBRDF_VERSION_PATCH 0
-#define HNBRDF_VERSION_STRING "0.1.0"
+#define HNBRDF_VERSION_STRING "0.2.0"
 
 #if defined(HNBRDF_STATIC)
 #define HNBRDF_API
@@ -45,6 +58,9 @@
 #else
 #define HNBRDF_API
 #endif
+
+/* Marks what may still change in a minor version, see "Stability" above. */
+#define HNBRDF_EXPERIMENTAL HNBRDF_API
 
 #ifdef __cplusplus
 extern "C" {
@@ -171,11 +187,16 @@ typedef enum hnbrdf_encoding {
  * "angles-anisotropic"; NULL for any other value. */
 HNBRDF_API const char *hnbrdf_kind_name(hnbrdf_kind kind);
 HNBRDF_API const char *hnbrdf_encoding_name(hnbrdf_encoding encoding);
+/* The way back: 1 and *kind or *encoding, or 0 for any other name, *kind and *encoding untouched. */
+HNBRDF_API int hnbrdf_kind_from_name(const char *name, hnbrdf_kind *kind);
+HNBRDF_API int hnbrdf_encoding_from_name(const char *name, hnbrdf_encoding *encoding);
+/* 1 if swapping wi and wo changes no bit of what the network sees. */
+HNBRDF_API int hnbrdf_encoding_is_reciprocal(hnbrdf_encoding encoding);
+/* 1 if turning both directions about the normal changes what the network sees. */
+HNBRDF_API int hnbrdf_encoding_sees_azimuth(hnbrdf_encoding encoding);
 
 /* Which instructions evaluation uses. All give the same bits; only the time differs. Chosen once,
- * when a model is made: HNBRDF_VARIANT_AUTO takes the one that the environment variable
- * HNBRDF_VARIANT names ("plain", "avx2", ...; unset, empty and "auto" name none), else the
- * fastest this machine runs. */
+ * when a model is made: HNBRDF_VARIANT_AUTO takes the fastest that this machine runs. */
 typedef enum hnbrdf_variant {
     HNBRDF_VARIANT_AUTO = 0,
     HNBRDF_VARIANT_PLAIN, /* portable C, the reference; always there */
@@ -187,6 +208,8 @@ typedef enum hnbrdf_variant {
 
 /* "auto", "plain", "sse2", "avx2", "avx512", "neon"; NULL for any other value. */
 HNBRDF_API const char *hnbrdf_variant_name(hnbrdf_variant variant);
+/* The way back: 1 and *variant, or 0 for any other name, *variant untouched. */
+HNBRDF_API int hnbrdf_variant_from_name(const char *name, hnbrdf_variant *variant);
 /* 1 if this build holds the variant and this machine runs it (HNBRDF_VARIANT_AUTO: always), else
  * 0. */
 HNBRDF_API int hnbrdf_variant_available(hnbrdf_variant variant);
@@ -243,12 +266,12 @@ typedef struct hnbrdf_load_options {
 } hnbrdf_load_options;
 
 /* Build a model from a description; everything is checked and copied. allocator may be NULL. A
- * variant that is not available here, by desc or by HNBRDF_VARIANT, is HNBRDF_ERROR_UNSUPPORTED. */
+ * variant that is not available here is HNBRDF_ERROR_UNSUPPORTED. */
 HNBRDF_API hnbrdf_result hnbrdf_model_create(const hnbrdf_model_desc *desc,
                                              const hnbrdf_allocator *allocator,
                                              hnbrdf_model **model, hnbrdf_error *error);
 
-/* Read a model file (safetensors with hnbrdf metadata, see README "Model files"). options may be
+/* Read a model file (safetensors with hnbrdf metadata, see src/README.md, "Model files"). options may be
  * NULL. A file is read whole, every size is checked against the bytes that are there. */
 HNBRDF_API hnbrdf_result hnbrdf_model_load(const char *path, const hnbrdf_load_options *options,
                                            hnbrdf_model **model, hnbrdf_error *error);
@@ -297,7 +320,8 @@ HNBRDF_API size_t hnbrdf_model_multiplications(const hnbrdf_model *model);
  * wo|/2 for wi.h), as long as squares of their lengths are floats, clamped to [0,
  * HNBRDF_MAX_VALUE]; a subnormal wi.z or wo.z is below the horizon where the caller or the device
  * flushes those; NaN or infinity in any argument gives a finite value, 0 where undefined.
- * Swapping wi and wo gives the same bits, unless the encoding is HNBRDF_ENCODING_DIRECTIONS. */
+ * Swapping wi and wo gives the same bits if the encoding is reciprocal
+ * (hnbrdf_encoding_is_reciprocal()) or there is no network. */
 
 /* f(wi, wo) without the cosine. */
 HNBRDF_API void hnbrdf_eval(const hnbrdf_model *model, const hnbrdf_material *material,
@@ -342,12 +366,13 @@ typedef struct hnbrdf_sample_result {
     float weight[3]; /* f wi.z / pdf per channel, finite, >= 0 */
 } hnbrdf_sample_result;
 
-/* Draw wi given wo. u is three numbers in [0, 1): make them as (u32 >> 8) * 2^-24. u[0] chooses a
- * lobe, and what is left of it turns the azimuth further than u[1]: where two numbers are
- * stratified together (Sobol and the like), pass them as u[0] and u[2], with u[1] = 0, and the
- * samples of every lobe are stratified. */
+/* Draw wi given wo. u is two numbers in [0, 1): make them as (u32 >> 8) * 2^-24. u[0] chooses a
+ * lobe, and what is left of it becomes the azimuth: pairs that are stratified (Sobol and the
+ * like) stay so in every lobe. A lobe has a share of at least 1/64 where it has any that was
+ * fitted, so 18 bits or more are left for the azimuth. Numbers outside [0, 1) and NaN count as
+ * the nearest that is inside, NaN as 0. */
 HNBRDF_API void hnbrdf_sample(const hnbrdf_model *model, const hnbrdf_material *material,
-                              const float wo[3], const float u[3], hnbrdf_sample_result *result);
+                              const float wo[3], const float u[2], hnbrdf_sample_result *result);
 
 /* Density with which hnbrdf_sample() draws wi given wo; 0 below the horizon. Integrates to at
  * most 1 (GGX reflections that would go below the horizon are rejected). */
@@ -359,13 +384,13 @@ HNBRDF_API float hnbrdf_pdf(const hnbrdf_model *model, const hnbrdf_material *ma
  * each view against its albedo. No share is under 1/64, so that no weight exceeds 64 pi f. Always
  * the same lobes for the same material; some tens of milliseconds. Memory comes from the model's
  * allocator. */
-HNBRDF_API hnbrdf_result hnbrdf_lobes_fit(const hnbrdf_model *model,
-                                          const hnbrdf_material *material, hnbrdf_lobes *lobes,
-                                          hnbrdf_error *error);
+HNBRDF_EXPERIMENTAL hnbrdf_result hnbrdf_lobes_fit(const hnbrdf_model *model,
+                                                   const hnbrdf_material *material,
+                                                   hnbrdf_lobes *lobes, hnbrdf_error *error);
 /* The paper's scheme, to compare with: half of the samples cosine, half GGX with normals drawn
  * from D, all of them and not only the visible ones; the density is that of the mixture
  * (one-sample MIS, balance heuristic). */
-HNBRDF_API void hnbrdf_lobes_paper(hnbrdf_lobes *lobes);
+HNBRDF_EXPERIMENTAL void hnbrdf_lobes_paper(hnbrdf_lobes *lobes);
 
 /* ---- Prepared materials ----------------------------------------------------------------------
  * For renderers that shade one hit at a time: what depends on the material alone is worked out
@@ -392,13 +417,38 @@ HNBRDF_API void hnbrdf_prepare(const hnbrdf_model *model, const hnbrdf_material 
 HNBRDF_API void hnbrdf_prepared_eval(const hnbrdf_prepared *prepared, const float wi[3],
                                      const float wo[3], float f[3]);
 HNBRDF_API void hnbrdf_prepared_sample(const hnbrdf_prepared *prepared, const float wo[3],
-                                       const float u[3], hnbrdf_sample_result *result);
+                                       const float u[2], hnbrdf_sample_result *result);
 /* hnbrdf_prepared_sample() without the weight, for renderers that evaluate in batches: wi and the
  * pdf, which is returned; 0 with wi = (0, 0, 1) where there is no direction. */
 HNBRDF_API float hnbrdf_prepared_draw(const hnbrdf_prepared *prepared, const float wo[3],
-                                      const float u[3], float wi[3]);
+                                      const float u[2], float wi[3]);
 HNBRDF_API float hnbrdf_prepared_pdf(const hnbrdf_prepared *prepared, const float wi[3],
                                      const float wo[3]);
+
+/* Batches of a prepared material, for renderers that work in waves. Strides are in bytes, a
+ * multiple of sizeof(float); 0 stands for items that follow each other without gaps: float[3]
+ * directions, float[2] random numbers, float densities, hnbrdf_sample_result. What is written must
+ * not overlap what is read. Each item has the bits of the single call. */
+HNBRDF_API void hnbrdf_prepared_eval_batch(const hnbrdf_prepared *prepared, size_t count,
+                                           const float *wi, size_t wi_stride, const float *wo,
+                                           size_t wo_stride, float *f, size_t f_stride);
+HNBRDF_API void hnbrdf_prepared_sample_batch(const hnbrdf_prepared *prepared, size_t count,
+                                             const float *wo, size_t wo_stride, const float *u,
+                                             size_t u_stride, hnbrdf_sample_result *results,
+                                             size_t result_stride);
+HNBRDF_API void hnbrdf_prepared_pdf_batch(const hnbrdf_prepared *prepared, size_t count,
+                                          const float *wi, size_t wi_stride, const float *wo,
+                                          size_t wo_stride, float *pdf, size_t pdf_stride);
+
+/* The same with a material for each item, as hnbrdf_eval_many() has it: materials[index[k]], or
+ * materials[k] where index is NULL. */
+HNBRDF_API void hnbrdf_sample_many(const hnbrdf_model *model, const hnbrdf_material *materials,
+                                   const int *index, size_t count, const float *wo,
+                                   size_t wo_stride, const float *u, size_t u_stride,
+                                   hnbrdf_sample_result *results, size_t result_stride);
+HNBRDF_API void hnbrdf_pdf_many(const hnbrdf_model *model, const hnbrdf_material *materials,
+                                const int *index, size_t count, const float *wi, size_t wi_stride,
+                                const float *wo, size_t wo_stride, float *pdf, size_t pdf_stride);
 
 /* ---- Materials in textures -------------------------------------------------------------------
  * For scenes with a material of its own in every pixel: a material as a few RGBA texels, which
@@ -463,103 +513,6 @@ HNBRDF_API void hnbrdf_material_unpack(const hnbrdf_packing *packing, const void
 /* The same from what a texture's sampler returns, filtered or not: channels is [4 * texels]. */
 HNBRDF_API void hnbrdf_material_unpack_channels(const hnbrdf_packing *packing,
                                                 const float *channels, hnbrdf_material *material);
-
-/* ---- GLSL export ----------------------------------------------------------------------------- */
-
-/* How a shader holds the network. The sums go in the same order in each: the same bits, where the
- * device rounds + and * correctly and HNBRDF_EXACT is 1. */
-typedef enum hnbrdf_glsl_weights {
-    /* literals, every unit an expression of its own: one shader a network; compilers take the
-     * longer the larger it is, 64x3 many seconds */
-    HNBRDF_GLSL_CONSTANTS = 0,
-    /* the same literals, four units at a time as vec4 columns: as fast, less SPIR-V */
-    HNBRDF_GLSL_COLUMNS,
-    /* a uniform buffer read in loops: compiles soon whatever the size, ten times slower to run on
-     * a CPU driver; one shader for every network of the same kind, encoding, hidden, layers and
-     * latent, see hnbrdf_export_weights() */
-    HNBRDF_GLSL_UNIFORM
-} hnbrdf_glsl_weights;
-
-/* What the hidden layers compute in. Encoding, last layer, exp, sigmoid and the analytic part are
- * in single precision either way. */
-typedef enum hnbrdf_glsl_precision {
-    HNBRDF_GLSL_FLOAT = 0, /* single: the values of hnbrdf_eval() */
-    /* float16_t in Vulkan GLSL (the device needs shaderFloat16), mediump in GLSL ES, single
-     * elsewhere or where HNBRDF_HALF_NATIVE is defined as 0. Weights are rounded to half, those
-     * of hidden layers clamped to 2048, biases to 8192, and units to what the next layer can sum
-     * without passing 65504: finite whatever the weights. SMAPE against measurements grew by at
-     * most 0.0003 on the models tried; the tests allow 0.002. */
-    HNBRDF_GLSL_HALF
-} hnbrdf_glsl_precision;
-
-/* "constants", "columns", "uniform"; "float", "half"; NULL for any other value. */
-HNBRDF_API const char *hnbrdf_glsl_weights_name(hnbrdf_glsl_weights weights);
-HNBRDF_API const char *hnbrdf_glsl_precision_name(hnbrdf_glsl_precision precision);
-
-/* What a shader calls; the rest is left out. Each takes what its namesake in C takes. */
-typedef enum hnbrdf_glsl_only {
-    HNBRDF_GLSL_EVERYTHING = 0, /* hnbrdf_eval, hnbrdf_eval_analytic, hnbrdf_sample, hnbrdf_pdf */
-    HNBRDF_GLSL_EVAL,           /* hnbrdf_eval */
-    HNBRDF_GLSL_EVAL_SAMPLE     /* hnbrdf_eval, hnbrdf_sample, hnbrdf_pdf */
-} hnbrdf_glsl_only;
-
-/* Zero-initialise for defaults. */
-typedef struct hnbrdf_glsl_options {
-    const int *materials; /* indices of the materials to export; NULL means all */
-    int material_count;   /* how many; ignored when materials is NULL */
-    int standalone;       /* 1: put the text of shaders/hybrid_brdf.glsl first, so that the result
-                               can be pasted as it is; 0: the includer includes that file before */
-    const hnbrdf_packing *packing; /* if set: write hnbrdf_material_unpack() for materials from
-                               textures too; analytic and latent are those of the model */
-    hnbrdf_glsl_weights weights;
-    hnbrdf_glsl_precision precision;
-    /* a standalone text also leaves out of hybrid_brdf.glsl what it does not use */
-    hnbrdf_glsl_only only;
-    /* 1: the materials are constants that the shader does not change. What depends on the
-     * material alone is worked out here, and its latent code is folded into the first layer's
-     * bias (but for half precision and uniform weights): the same bits for less. hnbrdf_material
-     * then has no kd and eta to edit; hnbrdf_eval_NAME(wi, wo) takes none at all, NAME as in
-     * HNBRDF_MATERIAL_NAME. Not together with packing. */
-    int fixed;
-    /* if set: a factor on all values of each exported material, in (0, 1], one over its albedo
-     * where that is above 1 (hnbrdf_physics_of() in metrics.h): the shader then gives off no more
-     * light than it gets. C does not do that. Not together with packing. */
-    const float *energy;
-} hnbrdf_glsl_options;
-
-/* Write one GLSL include with the network, the chosen materials, and the functions
- *   hnbrdf_material hnbrdf_scene_material(int index)
- *   vec3 hnbrdf_eval(hnbrdf_material m, vec3 wi, vec3 wo)
- *   hnbrdf_sample_result hnbrdf_sample(hnbrdf_material m, vec3 wo, vec3 u)
- *   float hnbrdf_pdf(hnbrdf_material m, vec3 wi, vec3 wo)
- * whose values are those of their namesakes in C. Its first lines state what it holds. options
- * may be NULL. */
-HNBRDF_API hnbrdf_result hnbrdf_export_glsl(const hnbrdf_model *model,
-                                            const hnbrdf_glsl_options *options,
-                                            hnbrdf_write_fn write, void *user, hnbrdf_error *error);
-
-/* Bytes of the uniform block of a shader exported with HNBRDF_GLSL_UNIFORM; 0 for a ggx model,
- * which has none. At most 58000; every Vulkan, GL and GL ES 3 device takes 16384, desktop ones
- * 65536. */
-HNBRDF_API size_t hnbrdf_weights_size(const hnbrdf_model *model);
-
-/* Write the contents of that block, std140: vec4 after vec4, floats in the byte order of this
- *   machine.
- *   vec4 0, 1         s, m, b of the model, and for half precision the largest input and the
- *                     largest unit of each hidden layer (else 0)
- *   then a layer      for every four outputs, the last group filled with zeros: their biases,
- *                     then one vec4
- *   after the other   an input, the weights of that input to the four outputs. Inputs of the
- *                     first layer: the latent code, then the encoded directions; of the others
- *                     the units of the layer before, filled with zeros to a multiple of four.
- * The shader's block is hnbrdf_weights_block; in Vulkan at set HNBRDF_WEIGHTS_SET, binding
- * HNBRDF_WEIGHTS_BINDING, both 0 unless defined before the include. Of the options, which may be
- * NULL, only the precision matters: it must be that of the shader. HNBRDF_ERROR_ARGUMENT for a
- * ggx model. */
-HNBRDF_API hnbrdf_result hnbrdf_export_weights(const hnbrdf_model *model,
-                                               const hnbrdf_glsl_options *options,
-                                               hnbrdf_write_fn write, void *user,
-                                               hnbrdf_error *error);
 
 #ifdef __cplusplus
 }

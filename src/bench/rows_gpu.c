@@ -9,6 +9,7 @@
 #include "base/threads.h"
 #include "gpu/compile.h"
 #include "gpu/timed.h"
+#include "hnbrdf/glsl.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -4,6 +4,7 @@
 #define HNBRDF_CHECK_BOUNDS_H
 
 #include "core/network.h"
+#include "hnbrdf/glsl.h"
 #include "check/rules.h"
 
 /* A number as C computes it, and a bound on |device - C|; infinite where nothing is promised. */

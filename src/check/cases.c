@@ -445,7 +445,7 @@ void stability_block_make(const stability_case *what, int number, const hnbrdf_m
     what->change(&rng, number, &block->material);
     for (int k = 0; k < STABILITY_BLOCK; k++) {
         what->pair(&rng, k, &block->material, block->pairs[k], block->pairs[k] + 3);
-        for (int i = 0; i < 3; i++) {
+        for (int i = 0; i < 2; i++) {
             float u = hnbrdf_rng_float(&rng);
             block->u[k][i] = what->broken_u && k % 2 ? broken[pick(&rng, 8)]
                              : k % 3 == 0            ? ends[pick(&rng, 3)]

@@ -10,7 +10,7 @@ enum { STABILITY_BLOCK = 64 };
 typedef struct stability_block {
     hnbrdf_material material;
     float pairs[STABILITY_BLOCK][6]; /* wi, wo */
-    float u[STABILITY_BLOCK][3];     /* for sampling wo: every third one at an end of [0, 1) */
+    float u[STABILITY_BLOCK][2];     /* for sampling wo: every third one at an end of [0, 1) */
 } stability_block;
 
 /* All of hnbrdf_material is floats. */

@@ -4,6 +4,7 @@
 
 #include "check/bounds.h"
 #include "check/pairs.h"
+#include "hnbrdf/glsl.h"
 
 /* What a pipeline of a scene runs. Also the values of STAGE in shaders/verify.comp. */
 typedef enum check_stage {

@@ -1,6 +1,7 @@
 /* cmd_export.c: `hnbrdf export`: a model's materials as one GLSL include. */
 #include "cli/cli.h"
 #include "cli/words.h"
+#include "hnbrdf/glsl.h"
 #include "hnbrdf/metrics.h"
 #include "report/texels.h"
 
@@ -13,7 +14,7 @@ static const cli_command command = {
     "              [--precision P] [--conserve] [--pack P] [--standalone] -o FILE.glsl",
     "Writes one GLSL include: the network, the chosen materials, and\n"
     "  vec3 hnbrdf_eval(hnbrdf_material m, vec3 wi, vec3 wo)      1/sr, without the cosine\n"
-    "  hnbrdf_sample_result hnbrdf_sample(hnbrdf_material m, vec3 wo, vec3 u)\n"
+    "  hnbrdf_sample_result hnbrdf_sample(hnbrdf_material m, vec3 wo, vec2 u)\n"
     "  float hnbrdf_pdf(hnbrdf_material m, vec3 wi, vec3 wo)\n"
     "for m = hnbrdf_scene_material(HNBRDF_MATERIAL_NAME). Include shaders/hybrid_brdf.glsl before "
     "it, "

@@ -6,6 +6,7 @@
 #include "cli/words.h"
 #include "report/verify_report.h"
 #include "gpu/compile.h"
+#include "hnbrdf/glsl.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -4,6 +4,7 @@
 #include "hnbrdf/fit.h"
 #include "hnbrdf/hnbrdf.h"
 #include "hnbrdf/metrics.h"
+#include "hnbrdf/glsl.h"
 
 #include <stddef.h>
 

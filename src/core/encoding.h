@@ -7,6 +7,20 @@
 #include "core/microfacet.h"
 #include "hnbrdf/hnbrdf.h"
 
+/* The table of encodings, one row each. What depends on which encodings there are is made from it:
+ * names, kernels, exported shaders. row(ENUM, function, name, reciprocal, sees_azimuth):
+ *   ENUM          HNBRDF_ENCODING_ENUM in hnbrdf.h
+ *   function      hnbrdf_encode_FUNCTION(), here and in shaders/hybrid_brdf.glsl
+ *   name          in model files, messages and on the command line
+ *   reciprocal    1: swapping wi and wo changes no bit
+ *   sees_azimuth  1: turning both directions about the normal changes it */
+#define HNBRDF_ENCODINGS(row)                                              \
+    row(DIRECTIONS, directions, "directions", 0, 1)                        \
+        row(HALF_DIFFERENCE, half_difference, "half-difference", 1, 0)     \
+            row(ANGLES_DIRECTED, angles_directed, "angles-directed", 0, 0) \
+                row(ANGLES, angles, "angles", 1, 0)                        \
+                    row(ANGLES_ANISOTROPIC, angles_anisotropic, "angles-anisotropic", 1, 1)
+
 /* The paper's: the six Cartesian components. */
 static inline void hnbrdf_encode_directions(const hnbrdf_pair *p, float x[6])
 {
@@ -81,26 +95,17 @@ static inline void hnbrdf_encode_angles_anisotropic(const hnbrdf_pair *p, float 
     x[3] = fabsf(p->sy) / length;
 }
 
+/* An encoding that is none of these leaves x alone; no model has one. */
 static inline void hnbrdf_encode(hnbrdf_encoding encoding, const hnbrdf_pair *p, float x[6])
 {
+#define HNBRDF_ENCODE_CASE(ENUM, function, name, reciprocal, azimuth) \
+    case HNBRDF_ENCODING_##ENUM:                                      \
+        hnbrdf_encode_##function(p, x);                               \
+        break;
     switch (encoding) {
-    case HNBRDF_ENCODING_DIRECTIONS:
-        hnbrdf_encode_directions(p, x);
-        break;
-    case HNBRDF_ENCODING_HALF_DIFFERENCE:
-        hnbrdf_encode_half_difference(p, x);
-        break;
-    case HNBRDF_ENCODING_ANGLES_DIRECTED:
-        hnbrdf_encode_angles_directed(p, x);
-        break;
-    case HNBRDF_ENCODING_ANGLES:
-        hnbrdf_encode_angles(p, x);
-        break;
-    case HNBRDF_ENCODING_ANGLES_ANISOTROPIC:
-    default:
-        hnbrdf_encode_angles_anisotropic(p, x);
-        break;
+        HNBRDF_ENCODINGS(HNBRDF_ENCODE_CASE)
     }
+#undef HNBRDF_ENCODE_CASE
 }
 
 #endif

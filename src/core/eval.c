@@ -64,7 +64,17 @@ void hnbrdf_eval_batch(const hnbrdf_model *model, const hnbrdf_material *materia
     const hnbrdf_pairs pairs = pairs_of(count, wi, wi_stride, wo, wo_stride, f, f_stride);
     hnbrdf_prepared prepared;
     hnbrdf_prepare_eval(model, material, &prepared);
-    model->kernel->batch(&prepared, &pairs);
+    const hnbrdf_materials of = {.model = model, .prepared = &prepared};
+    model->kernel->eval(&of, &pairs);
+}
+
+void hnbrdf_prepared_eval_batch(const hnbrdf_prepared *prepared, size_t count, const float *wi,
+                                size_t wi_stride, const float *wo, size_t wo_stride, float *f,
+                                size_t f_stride)
+{
+    const hnbrdf_pairs pairs = pairs_of(count, wi, wi_stride, wo, wo_stride, f, f_stride);
+    const hnbrdf_materials of = {.model = prepared->model, .prepared = prepared};
+    prepared->model->kernel->eval(&of, &pairs);
 }
 
 void hnbrdf_eval_many(const hnbrdf_model *model, const hnbrdf_material *materials, const int *index,
@@ -72,7 +82,8 @@ void hnbrdf_eval_many(const hnbrdf_model *model, const hnbrdf_material *material
                       size_t wo_stride, float *f, size_t f_stride)
 {
     const hnbrdf_pairs pairs = pairs_of(count, wi, wi_stride, wo, wo_stride, f, f_stride);
-    model->kernel->many(model, materials, index, &pairs);
+    const hnbrdf_materials of = {.model = model, .materials = materials, .index = index};
+    model->kernel->eval(&of, &pairs);
 }
 
 void hnbrdf_eval_analytic_batch(const hnbrdf_model *model, const hnbrdf_material *material,

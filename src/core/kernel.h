@@ -14,6 +14,23 @@ typedef struct hnbrdf_pairs {
     size_t wi_stride, wo_stride, f_stride;
 } hnbrdf_pairs;
 
+/* What a batch draws, likewise. */
+typedef struct hnbrdf_draws {
+    size_t count;
+    const float *wo, *u;
+    hnbrdf_sample_result *results;
+    size_t wo_stride, u_stride, result_stride;
+} hnbrdf_draws;
+
+/* The materials of a batch: `prepared` for all, or, where that is NULL, materials[index[k]] for
+ * item k, or materials[k] where index is NULL too. */
+typedef struct hnbrdf_materials {
+    const hnbrdf_model *model;
+    const hnbrdf_prepared *prepared;
+    const hnbrdf_material *materials;
+    const int *index;
+} hnbrdf_materials;
+
 typedef struct hnbrdf_kernel {
     hnbrdf_variant variant;
     /* prepared->first from the latent code; models with a network only. */
@@ -21,11 +38,12 @@ typedef struct hnbrdf_kernel {
     /* One pair, both above the horizon. */
     void (*single)(const hnbrdf_prepared *prepared, const float wi[3], const float wo[3],
                    float f[3]);
-    void (*batch)(const hnbrdf_prepared *prepared, const hnbrdf_pairs *pairs);
+    void (*eval)(const hnbrdf_materials *of, const hnbrdf_pairs *pairs);
     /* The analytic part alone, of any kind of model. */
     void (*analytic)(const hnbrdf_prepared *prepared, const hnbrdf_pairs *pairs);
-    void (*many)(const hnbrdf_model *model, const hnbrdf_material *materials, const int *index,
-                 const hnbrdf_pairs *pairs);
+    /* f of the pairs is one float each: the density. */
+    void (*pdf)(const hnbrdf_materials *of, const hnbrdf_pairs *pairs);
+    void (*sample)(const hnbrdf_materials *of, const hnbrdf_draws *draws);
     void (*network)(const hnbrdf_prepared *prepared, float x[HNBRDF_ENCODING_SIZE][HNBRDF_LANES],
                     float out[HNBRDF_MAX_OUTPUTS][HNBRDF_LANES]);
 } hnbrdf_kernel;

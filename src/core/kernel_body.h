@@ -8,7 +8,7 @@
 #include "core/compose.h"
 #include "core/encoding.h"
 #include "core/kernel.h"
-#include "core/prepared.h"
+#include "core/sampling.h"
 
 #include <string.h>
 
@@ -373,6 +373,35 @@ static void put_material(const hnbrdf_prepared *prepared, int l, lane_materials 
     }
 }
 
+/* The sampling lobes of a block. */
+typedef struct lane_lobes {
+    lane ax[HNBRDF_LOBES], ay[HNBRDF_LOBES], area[HNBRDF_LOBES], scale[HNBRDF_LOBES];
+    lane share[HNBRDF_LOBES][HNBRDF_LOBE_KNOTS];
+} lane_lobes;
+
+static void put_lobes(const hnbrdf_prepared *prepared, int l, lane_lobes *m)
+{
+    for (int k = 0; k < HNBRDF_LOBES; k++) {
+        m->ax[k][l] = prepared->lobe_alpha[k][0];
+        m->ay[k][l] = prepared->lobe_alpha[k][1];
+        m->area[k][l] = prepared->lobe_area[k];
+        m->scale[k][l] = prepared->lobes.scale[k];
+        for (int j = 0; j < HNBRDF_LOBE_KNOTS; j++)
+            m->share[k][j][l] = prepared->lobes.share[k][j];
+    }
+}
+
+static inline void lobes_of(const lane_lobes *m, int l, hnbrdf_lobe lobes[HNBRDF_LOBES])
+{
+    for (int k = 0; k < HNBRDF_LOBES; k++)
+        lobes[k] = (hnbrdf_lobe){
+            m->ax[k][l],
+            m->ay[k][l],
+            m->area[k][l],
+            m->scale[k][l],
+            {m->share[k][0][l], m->share[k][1][l], m->share[k][2][l], m->share[k][3][l]}};
+}
+
 static const float *at(const float *first, size_t stride, size_t index)
 {
     return (const float *)((const char *)first + index * stride);
@@ -442,6 +471,81 @@ static inline hnbrdf_pair pair_of(const lane_pairs *b, int l)
                          .c = b->c[l]};
 }
 
+/* Of pairs in the tangent frame. */
+KERNEL_APART void density_lanes(const lane_lobes *restrict m, const lane_pairs *restrict b,
+                                float *restrict pdf)
+{
+    for (int l = 0; l < LANES; l++) {
+        hnbrdf_lobe lobes[HNBRDF_LOBES];
+        hnbrdf_pair pair = pair_of(b, l);
+        lobes_of(m, l, lobes);
+        pdf[l] = hnbrdf_density(lobes, &pair);
+    }
+}
+
+/* wo, and the two random numbers in wi. */
+KERNEL_APART void gather_draws(const hnbrdf_draws *draws, size_t first, size_t count, lane_pairs *b)
+{
+    static const float normal[3] = {0.0f, 0.0f, 1.0f};
+    for (size_t l = 0; l < LANES; l++) {
+        const float *wo = normal, *u = normal;
+        b->above[l] = 0;
+        if (l < count) {
+            const float *o = at(draws->wo, draws->wo_stride, first + l);
+            b->above[l] = o[2] > 0.0f;
+            wo = b->above[l] ? o : normal;
+            u = at(draws->u, draws->u_stride, first + l);
+        }
+        for (int k = 0; k < 3; k++)
+            b->wo[k][l] = wo[k];
+        for (int k = 0; k < 2; k++)
+            b->wi[k][l] = u[k];
+    }
+}
+
+/* The lobe of each draw from the first number. */
+typedef struct lane_choices {
+    lane ax, ay, azimuth;
+    int is_lobe[LANES], is_all[LANES];
+} lane_choices;
+
+KERNEL_APART void choose_lanes(const lane_lobes *restrict s, const lane_pairs *restrict b,
+                               lane_choices *restrict to)
+{
+    for (int l = 0; l < LANES; l++) {
+        hnbrdf_lobe lobes[HNBRDF_LOBES];
+        lobes_of(s, l, lobes);
+        hnbrdf_choice choice = hnbrdf_choose(lobes, b->wo[2][l], b->wi[0][l], 0.0f);
+        to->ax[l] = choice.ax;
+        to->ay[l] = choice.ay;
+        to->azimuth[l] = choice.azimuth;
+        to->is_lobe[l] = choice.is_lobe;
+        to->is_all[l] = choice.is_all;
+    }
+}
+
+/* wi from what was chosen and the second number; `above` falls to 0 where nothing above the
+ * horizon comes out, and wi is n there. */
+KERNEL_APART void draw_lanes(const lane_materials *restrict m, const lane_choices *restrict from,
+                             lane_pairs *restrict b)
+{
+    for (int l = 0; l < LANES; l++) {
+        const hnbrdf_frame frame = {m->cosine[l], m->sine[l]};
+        const hnbrdf_choice choice = {from->ax[l], from->ay[l], from->azimuth[l], from->is_lobe[l],
+                                      from->is_all[l]};
+        const float wo[3] = {b->wo[0][l], b->wo[1][l], b->wo[2][l]};
+        float o[3], i[3], wi[3];
+        hnbrdf_to_tangent(frame, wo, o);
+        int drawn = hnbrdf_draw_chosen(&choice, o, b->wi[1][l], i);
+        hnbrdf_from_tangent(frame, i, wi);
+        int above = b->above[l] & drawn & (wi[2] > 0.0f);
+        b->above[l] = above;
+        b->wi[0][l] = above ? wi[0] : 0.0f;
+        b->wi[1][l] = above ? wi[1] : 0.0f;
+        b->wi[2][l] = above ? wi[2] : 1.0f;
+    }
+}
+
 /* f = f_a */
 KERNEL_APART void analytic_lanes(const lane_materials *restrict m, lane_pairs *restrict b)
 {
@@ -472,24 +576,14 @@ KERNEL_APART void finish_lanes(lane_pairs *b)
 
 static void encode_lanes(hnbrdf_encoding encoding, lane_pairs *restrict b, lane *restrict x)
 {
+#define ENCODE_CASE(ENUM, function, name, reciprocal, azimuth) \
+    case HNBRDF_ENCODING_##ENUM:                               \
+        ENCODE_LANES(hnbrdf_encode_##function)                 \
+        break;
     switch (encoding) {
-    case HNBRDF_ENCODING_DIRECTIONS:
-        ENCODE_LANES(hnbrdf_encode_directions)
-        break;
-    case HNBRDF_ENCODING_HALF_DIFFERENCE:
-        ENCODE_LANES(hnbrdf_encode_half_difference)
-        break;
-    case HNBRDF_ENCODING_ANGLES_DIRECTED:
-        ENCODE_LANES(hnbrdf_encode_angles_directed)
-        break;
-    case HNBRDF_ENCODING_ANGLES:
-        ENCODE_LANES(hnbrdf_encode_angles)
-        break;
-    case HNBRDF_ENCODING_ANGLES_ANISOTROPIC:
-    default:
-        ENCODE_LANES(hnbrdf_encode_angles_anisotropic)
-        break;
+        HNBRDF_ENCODINGS(ENCODE_CASE)
     }
+#undef ENCODE_CASE
 }
 
 static void compose_lanes(const hnbrdf_model_desc *desc, lane_pairs *b)
@@ -542,19 +636,6 @@ static size_t smaller(size_t a, size_t b)
     return a < b ? a : b;
 }
 
-static void kernel_batch(const hnbrdf_prepared *prepared, const hnbrdf_pairs *pairs)
-{
-    lane_materials materials;
-    lane_pairs block;
-    spread_material(prepared, &materials);
-    for (size_t k = 0; k < pairs->count; k += LANES) {
-        size_t count = smaller(LANES, pairs->count - k);
-        gather(pairs, k, count, &block);
-        evaluate_lanes(prepared->model, prepared, &materials, &block);
-        scatter(pairs, k, count, &block);
-    }
-}
-
 static void kernel_analytic(const hnbrdf_prepared *prepared, const hnbrdf_pairs *pairs)
 {
     const int none = prepared->model->desc.kind == HNBRDF_KIND_NEURAL;
@@ -573,63 +654,139 @@ static void kernel_analytic(const hnbrdf_prepared *prepared, const hnbrdf_pairs 
     }
 }
 
-/* The materials of one block, by lane. Where all lanes have the same one, that is prepared
- * (unless it is already: *held) and returned; else NULL, and the latent codes are put before what
- * will be encoded. */
-static const hnbrdf_prepared *take_materials(const hnbrdf_model *model,
-                                             const hnbrdf_material *const *of,
-                                             const hnbrdf_material **held,
-                                             hnbrdf_prepared *prepared, lane_materials *m,
-                                             lane_pairs *b)
-{
-    int same = 1;
-    for (int l = 1; l < LANES; l++)
-        same &= of[l] == of[0];
-    if (same) {
-        if (*held != of[0]) {
-            hnbrdf_prepare(model, of[0], prepared);
-            spread_material(prepared, m);
-            *held = of[0];
-        }
-        return prepared;
-    }
-    *held = NULL;
-    for (int l = 0; l < LANES; l++) {
-        if (l == 0 || of[l] != of[l - 1])
-            hnbrdf_prepare_analytic(model, of[l], prepared);
-        put_material(prepared, l, m);
-        for (int i = 0; i < model->desc.latent; i++)
-            b->x[i][l] = of[l]->latent[i];
-    }
-    return NULL;
-}
-
-static void kernel_many(const hnbrdf_model *model, const hnbrdf_material *materials,
-                        const int *index, const hnbrdf_pairs *pairs)
-{
-    const hnbrdf_material *held = NULL;
+/* The materials of the blocks of one batch, by lane. */
+typedef struct block_materials {
+    const hnbrdf_materials *of;
+    const hnbrdf_prepared *shared; /* that of all lanes, or NULL */
+    const hnbrdf_material *held;   /* what `prepared` was made from, or NULL */
     hnbrdf_prepared prepared;
     lane_materials by_lane;
+    lane_lobes lobes;
+    int sampled; /* 1: the lobes are wanted */
+} block_materials;
+
+static void begin_materials(const hnbrdf_materials *of, int sampled, block_materials *m)
+{
+    m->of = of;
+    m->held = NULL;
+    m->sampled = sampled;
+    m->shared = of->prepared;
+    if (!m->shared)
+        return;
+    spread_material(m->shared, &m->by_lane);
+    for (int l = 0; l < LANES && sampled; l++)
+        put_lobes(m->shared, l, &m->lobes);
+}
+
+/* Those of items first to first + count of the batch. Where all lanes have the same one, that is
+ * prepared (unless it is already) and `shared`; else the latent codes are put before what will be
+ * encoded. */
+static void take_materials(block_materials *m, size_t first, size_t count, lane_pairs *b)
+{
+    const hnbrdf_materials *of = m->of;
+    const hnbrdf_material *own[LANES];
+    int same = 1;
+    if (of->prepared)
+        return;
+    for (size_t l = 0; l < LANES; l++) {
+        size_t item = first + smaller(l, count - 1);
+        own[l] = of->index ? of->materials + of->index[item] : of->materials + item;
+        same &= own[l] == own[0];
+    }
+    m->shared = same ? &m->prepared : NULL;
+    if (same && m->held == own[0])
+        return;
+    m->held = same ? own[0] : NULL;
+    for (int l = 0; l < LANES; l++) {
+        if (l == 0 && same)
+            hnbrdf_prepare(of->model, own[0], &m->prepared);
+        else if (l == 0 || own[l] != own[l - 1]) {
+            hnbrdf_prepare_analytic(of->model, own[l], &m->prepared);
+            if (m->sampled)
+                hnbrdf_prepare_lobes(of->model, own[l], &m->prepared);
+        }
+        put_material(&m->prepared, l, &m->by_lane);
+        if (m->sampled)
+            put_lobes(&m->prepared, l, &m->lobes);
+        for (int i = 0; i < of->model->desc.latent && !same; i++)
+            b->x[i][l] = own[l]->latent[i];
+    }
+}
+
+static void kernel_eval(const hnbrdf_materials *of, const hnbrdf_pairs *pairs)
+{
+    block_materials materials;
     lane_pairs block;
+    begin_materials(of, 0, &materials);
     for (size_t k = 0; k < pairs->count; k += LANES) {
         size_t count = smaller(LANES, pairs->count - k);
-        const hnbrdf_material *of[LANES];
-        for (size_t l = 0; l < LANES; l++) {
-            size_t pair = k + smaller(l, count - 1);
-            of[l] = index ? materials + index[pair] : materials + pair;
-        }
+        take_materials(&materials, k, count, &block);
         gather(pairs, k, count, &block);
-        const hnbrdf_prepared *shared =
-            take_materials(model, of, &held, &prepared, &by_lane, &block);
-        evaluate_lanes(model, shared, &by_lane, &block);
+        evaluate_lanes(of->model, materials.shared, &materials.by_lane, &block);
         scatter(pairs, k, count, &block);
+    }
+}
+
+static void kernel_pdf(const hnbrdf_materials *of, const hnbrdf_pairs *pairs)
+{
+    block_materials materials;
+    lane_pairs block;
+    begin_materials(of, 1, &materials);
+    for (size_t k = 0; k < pairs->count; k += LANES) {
+        size_t count = smaller(LANES, pairs->count - k);
+        take_materials(&materials, k, count, &block);
+        gather(pairs, k, count, &block);
+        make_pairs(&materials.by_lane, &block);
+        lane pdf;
+        density_lanes(&materials.lobes, &block, pdf);
+        for (size_t l = 0; l < count; l++)
+            *(float *)((char *)pairs->f + (k + l) * pairs->f_stride) =
+                block.above[l] ? pdf[l] : 0.0f;
+    }
+}
+
+/* Draws, then evaluates what was drawn. */
+static void kernel_sample(const hnbrdf_materials *of, const hnbrdf_draws *draws)
+{
+    block_materials materials;
+    lane_pairs block;
+    begin_materials(of, 1, &materials);
+    for (size_t k = 0; k < draws->count; k += LANES) {
+        size_t count = smaller(LANES, draws->count - k);
+        lane_choices choices;
+        lane wi[3], wo[3], pdf;
+        take_materials(&materials, k, count, &block);
+        gather_draws(draws, k, count, &block);
+        memcpy(wo, block.wo, sizeof wo);
+        choose_lanes(&materials.lobes, &block, &choices);
+        draw_lanes(&materials.by_lane, &choices, &block);
+        memcpy(wi, block.wi, sizeof wi);
+        make_pairs(&materials.by_lane, &block);
+        density_lanes(&materials.lobes, &block, pdf);
+        for (int l = 0; l < LANES; l++)
+            block.above[l] &= pdf[l] > 0.0f;
+        memcpy(block.wi, wi, sizeof wi);
+        memcpy(block.wo, wo, sizeof wo);
+        evaluate_lanes(of->model, materials.shared, &materials.by_lane, &block);
+        for (size_t l = 0; l < count; l++) {
+            hnbrdf_sample_result *to =
+                (hnbrdf_sample_result *)(void *)((char *)draws->results +
+                                                 (k + l) * draws->result_stride);
+            const int drawn = block.above[l];
+            to->pdf = drawn ? pdf[l] : 0.0f;
+            for (int c = 0; c < 3; c++) {
+                to->wi[c] = drawn ? wi[c][l] : c == 2 ? 1.0f : 0.0f;
+                to->weight[c] = drawn ? hnbrdf_finish(block.f[c][l] * wi[2][l] / pdf[l]) : 0.0f;
+            }
+        }
     }
 }
 
 const hnbrdf_kernel KERNEL_TABLE = {.variant = KERNEL_VARIANT,
                                     .fold = kernel_fold,
                                     .single = kernel_single,
-                                    .batch = kernel_batch,
+                                    .eval = kernel_eval,
                                     .analytic = kernel_analytic,
-                                    .many = kernel_many,
+                                    .pdf = kernel_pdf,
+                                    .sample = kernel_sample,
                                     .network = kernel_network};

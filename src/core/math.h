@@ -14,6 +14,12 @@
 #error floats are computed in a wider type: see src/arithmetic.cmake for the flags
 #endif
 
+/* -ffast-math, -Ofast and -ffinite-math-only let a compiler reorder sums and take it that there are
+ * no NaN: other bits, and a NaN weight would pass the checks. Put -fno-fast-math after them. */
+#if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
+#error compiled with -ffast-math or -ffinite-math-only: add -fno-fast-math after it
+#endif
+
 /* Before a function that may divide by 0. Only the smallest cosines, directions that are no unit
  * vectors and materials that break their ranges bring that about; what IEEE 754 then gives,
  * infinity or NaN, is clamped where the value ends, and to ask for it here would cost every
@@ -101,8 +107,12 @@ static inline void hnbrdf_sincos_turn(float u, float *sine, float *cosine)
     c = c * a2 + 4.16666647e-2f;
     c = (1.0f - 0.5f * a2) + (a2 * a2) * c;
     int swap = (quadrant & 1) != 0;
-    *sine = (quadrant & 2) != 0 ? -(swap ? c : s) : (swap ? c : s);
-    *cosine = ((quadrant + 1) & 2) != 0 ? -(swap ? s : c) : (swap ? s : c);
+    float upright = swap ? c : s, across = swap ? s : c;
+    /* signs by their bits: without branches */
+    int32_t flip = (int32_t)(((uint32_t)quadrant & 2u) << 30);
+    int32_t flip_across = (int32_t)((((uint32_t)quadrant + 1u) & 2u) << 30);
+    *sine = hnbrdf_bits_to_float(hnbrdf_float_to_bits(upright) ^ flip);
+    *cosine = hnbrdf_bits_to_float(hnbrdf_float_to_bits(across) ^ flip_across);
 }
 
 #endif

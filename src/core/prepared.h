@@ -23,6 +23,10 @@ float hnbrdf_specular_share(const hnbrdf_model *model, const hnbrdf_material *ma
 void hnbrdf_prepare_lobes(const hnbrdf_model *model, const hnbrdf_material *material,
                           hnbrdf_prepared *prepared);
 
+/* hnbrdf_prepared_draw() with the azimuth turned by `turn`, in [0, 1). */
+float hnbrdf_prepared_draw_turned(const hnbrdf_prepared *prepared, const float wo[3], float u0,
+                                  float u1, float turn, float wi[3]);
+
 static inline int hnbrdf_above_horizon(const float wi[3], const float wo[3])
 {
     return wi[2] > 0.0f && wo[2] > 0.0f;

@@ -2,23 +2,28 @@
  * */
 #include "core/kernel.h"
 
+#include <string.h>
+
+static const char names[][8] = {
+    [HNBRDF_VARIANT_AUTO] = "auto",     [HNBRDF_VARIANT_PLAIN] = "plain",
+    [HNBRDF_VARIANT_SSE2] = "sse2",     [HNBRDF_VARIANT_AVX2] = "avx2",
+    [HNBRDF_VARIANT_AVX512] = "avx512", [HNBRDF_VARIANT_NEON] = "neon",
+};
+enum { VARIANTS = sizeof names / sizeof names[0] };
+
 const char *hnbrdf_variant_name(hnbrdf_variant variant)
 {
-    switch (variant) {
-    case HNBRDF_VARIANT_AUTO:
-        return "auto";
-    case HNBRDF_VARIANT_PLAIN:
-        return "plain";
-    case HNBRDF_VARIANT_SSE2:
-        return "sse2";
-    case HNBRDF_VARIANT_AVX2:
-        return "avx2";
-    case HNBRDF_VARIANT_AVX512:
-        return "avx512";
-    case HNBRDF_VARIANT_NEON:
-        return "neon";
-    }
-    return NULL;
+    return (unsigned)variant < VARIANTS ? names[variant] : NULL;
+}
+
+int hnbrdf_variant_from_name(const char *name, hnbrdf_variant *variant)
+{
+    for (int k = 0; k < VARIANTS; k++)
+        if (strcmp(name, names[k]) == 0) {
+            *variant = (hnbrdf_variant)k;
+            return 1;
+        }
+    return 0;
 }
 
 /* From slow to fast. */

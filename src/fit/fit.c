@@ -250,17 +250,6 @@ static float default_rate(float units)
     return DEFAULT_RATE * fminf(1.0f, (float)RATE_UNITS / units);
 }
 
-/* 1 and *encoding, or 0 for a name of none. */
-static int encoding_named(const char *name, hnbrdf_encoding *encoding)
-{
-    for (int k = 0; hnbrdf_encoding_name((hnbrdf_encoding)k); k++)
-        if (strcmp(name, hnbrdf_encoding_name((hnbrdf_encoding)k)) == 0) {
-            *encoding = (hnbrdf_encoding)k;
-            return 1;
-        }
-    return 0;
-}
-
 /* A number and the flag that asks for none exclude each other. */
 static hnbrdf_result check_flags(const hnbrdf_fit_options *o, hnbrdf_error *error)
 {
@@ -277,7 +266,7 @@ static hnbrdf_result check_flags(const hnbrdf_fit_options *o, hnbrdf_error *erro
             return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT,
                                "fit options: %s is %s and %s is set, expected one of them",
                                pairs[k].number, HNBRDF_NUMBER(pairs[k].value), pairs[k].flag);
-    if (o->encoding && !encoding_named(o->encoding, &encoding))
+    if (o->encoding && !hnbrdf_encoding_from_name(o->encoding, &encoding))
         return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT,
                            "fit options: no encoding is named \"%s\", expected angles or another",
                            o->encoding);
@@ -474,7 +463,7 @@ hnbrdf_result hnbrdf_fit(const hnbrdf_measured *const *data, int count,
         result = check_names(&t, error);
     if (result)
         return result;
-    if (!t.options.encoding || !encoding_named(t.options.encoding, &t.encoding))
+    if (!t.options.encoding || !hnbrdf_encoding_from_name(t.options.encoding, &t.encoding))
         t.encoding = default_encoding(data, count);
     int unit = FIT_TILE * FIT_CHUNKS;
     t.tiles_per_step = (t.options.batch + unit - 1) / unit * FIT_CHUNKS;

@@ -110,12 +110,12 @@ static void put_pdf(hnbrdf_printer *out, const hnbrdf_scene *s)
 
 static void put_sample_direction(hnbrdf_printer *out, const hnbrdf_scene *s)
 {
-    hnbrdf_put(out, "\n// Draws wi alone, for renderers that weigh it otherwise; u is three "
+    hnbrdf_put(out, "\n// Draws wi alone, for renderers that weigh it otherwise; u is two "
                     "numbers in [0, 1): make "
                     "them as\n// float(u32 >> 8) * 2^-24. Returns its density; 0: no direction, "
                     "(0, 0, 1).\n");
     hnbrdf_put(out,
-               "float hnbrdf_sample_direction(hnbrdf_material m, vec3 wo, vec3 u, out vec3 wi)\n{\n"
+               "float hnbrdf_sample_direction(hnbrdf_material m, vec3 wo, vec2 u, out vec3 wi)\n{\n"
                "    wi = vec3(0.0, 0.0, 1.0);\n"
                "    if (!(wo.z > 0.0))\n        return 0.0;\n");
     hnbrdf_put(out, "    vec3 drawn = hnbrdf_draw(%s, m.lobes, %s, u);\n", alpha_text(s),
@@ -132,7 +132,7 @@ static void put_sample(hnbrdf_printer *out)
     hnbrdf_put(out, "\n// Draws wi given wo and weighs it.\n");
     hnbrdf_put(
         out,
-        "hnbrdf_sample_result hnbrdf_sample(hnbrdf_material m, vec3 wo, vec3 u)\n{\n"
+        "hnbrdf_sample_result hnbrdf_sample(hnbrdf_material m, vec3 wo, vec2 u)\n{\n"
         "    hnbrdf_sample_result drawn;\n"
         "    drawn.pdf = hnbrdf_sample_direction(m, wo, u, drawn.wi);\n"
         "    drawn.weight = vec3(0.0);\n"

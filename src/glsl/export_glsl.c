@@ -7,6 +7,7 @@
 #include "glsl/export_network.h"
 #include "glsl/export_unpack.h"
 #include "glsl/export_weights.h"
+#include "hnbrdf/glsl.h"
 
 #include <stdio.h>
 

@@ -3,6 +3,7 @@
 #define HNBRDF_GLSL_EXPORT_SCENE_H
 
 #include "core/model.h"
+#include "hnbrdf/glsl.h"
 
 enum { HNBRDF_MACRO_NAME_SIZE = HNBRDF_MAX_NAME + 32 };
 typedef char hnbrdf_macro_name[HNBRDF_MACRO_NAME_SIZE]; /* what follows HNBRDF_MATERIAL_ */

@@ -4,6 +4,7 @@
 #define HNBRDF_GLSL_EXPORT_WEIGHTS_H
 
 #include "core/model.h"
+#include "hnbrdf/glsl.h"
 
 enum { HNBRDF_WEIGHTS_HEADER = 2 }; /* vec4 before the first layer */
 

@@ -23,7 +23,7 @@ enum {
     AT_SCALE = 32,
     AT_SHARE = 34,
     AT_U = 42,
-    INPUTS = 45
+    INPUTS = 44
 };
 
 /* The fields that the exporter gives to the struct of a scene that is anisotropic and turned. */
@@ -174,7 +174,7 @@ hnbrdf_result gpu_evaluator_run(gpu_evaluator *e, gpu_evaluation what,
         memcpy(to + AT_LATENT, material->latent, sizeof material->latent);
         memcpy(to + AT_SCALE, prepared.lobes.scale, sizeof prepared.lobes.scale);
         memcpy(to + AT_SHARE, prepared.lobes.share, sizeof prepared.lobes.share);
-        memcpy(to + AT_U, u + 3 * k, 3 * sizeof *to);
+        memcpy(to + AT_U, u + 2 * k, 2 * sizeof *to);
     }
     hnbrdf_result result =
         gpu_upload(e->device, &e->inputs, e->packed, count * INPUTS * sizeof(float), error);

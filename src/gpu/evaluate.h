@@ -4,6 +4,7 @@
 #define HNBRDF_GPU_EVALUATE_H
 
 #include "gpu/scene.h"
+#include "hnbrdf/glsl.h"
 
 /* Which shader. */
 typedef struct gpu_style {

@@ -4,6 +4,7 @@
 
 #include "check/reference.h"
 #include "gpu/compute.h"
+#include "hnbrdf/glsl.h"
 
 /* What is exported; the caller keeps it. */
 typedef struct gpu_scene {

@@ -5,6 +5,7 @@
  * multiplicative update minimises; the two widths are searched for. Plain arithmetic and the
  * library's own exp and log: the same lobes on every machine. */
 #include "base/error.h"
+#include "core/compose.h"
 #include "core/math.h"
 #include "core/prepared.h"
 #include "base/memory.h"
@@ -100,16 +101,15 @@ static double observe_view(search *s, const float scales[SOURCES], int view, flo
         float *wi = s->pairs[n][0], *wo = s->pairs[n][1];
         /* the R2 sequence (Roberts 2018) */
         double step = i / SOURCES + 1 + DRAWS * (i % SOURCES) + 7 * view;
-        const float u[3] = {scales[i % SOURCES] > 0.0f ? 0.0f : 0.5f,
-                            fraction(0.5 + step * 0.7548776662466927),
-                            fraction(0.5 + step * 0.5698402909980532)};
-        hnbrdf_sample_result drawn;
+        const float choice = scales[i % SOURCES] > 0.0f ? 0.0f : 0.5f;
+        const float turn = fraction(0.5 + step * 0.7548776662466927);
+        const float u = fraction(0.5 + step * 0.5698402909980532);
         make_view(view, wo);
         use_source(s, scales[i % SOURCES]);
-        hnbrdf_prepared_sample(&s->source, wo, u, &drawn);
-        memcpy(wi, drawn.wi, sizeof drawn.wi);
+        float pdf = hnbrdf_prepared_draw_turned(&s->source, wo, choice, u, turn, wi), f[3];
+        hnbrdf_prepared_eval(&s->source, wi, wo, f);
         for (int c = 0; c < 3; c++)
-            values[i][c] = drawn.pdf > 0.0f ? drawn.weight[c] * drawn.pdf : 0.0f;
+            values[i][c] = pdf > 0.0f ? hnbrdf_finish(f[c] * wi[2] / pdf) * pdf : 0.0f;
     }
     for (int k = 0; k < SOURCES; k++) {
         use_source(s, scales[k]);

@@ -4,9 +4,8 @@
 
 #include "core/kernel.h"
 
-/* The kernel of a variant; for HNBRDF_VARIANT_AUTO the one that the environment variable
- * HNBRDF_VARIANT names, else the fastest. HNBRDF_ERROR_UNSUPPORTED if it is unknown or not
- * available here. */
+/* The kernel of a variant; for HNBRDF_VARIANT_AUTO the fastest. HNBRDF_ERROR_UNSUPPORTED if it is
+ * not available here. */
 hnbrdf_result hnbrdf_choose_kernel(hnbrdf_variant variant, const hnbrdf_kernel **kernel,
                                    hnbrdf_error *error);
 

@@ -16,7 +16,7 @@ static float lobe_pdf(const hnbrdf_prepared *prepared, int retro, const float wi
 }
 
 static int lobe_sample(const hnbrdf_prepared *prepared, int retro, const float wo[3],
-                       const float u[3], float wi[3])
+                       const float u[2], float wi[3])
 {
     float pdf = hnbrdf_prepared_draw(prepared, wo, u, wi);
     wi[0] = retro ? -wi[0] : wi[0];
@@ -45,7 +45,7 @@ static float guide_sample(const render_surface *surface, const float wo[3], cons
     while (k < guide->count - 1 && left >= guide->lobes[k].share)
         left -= guide->lobes[k++].share;
     float rest = left / guide->lobes[k].share, last = 1.0f - 0x1p-24f;
-    float numbers[3] = {rest < last ? rest : last, 0.0f, u[2]};
+    float numbers[2] = {rest < last ? rest : last, u[2]};
     if (!lobe_sample(&guide->lobes[k].prepared, guide->lobes[k].retro, wo, numbers, wi))
         return 0.0f;
     return guide_pdf(surface, wi, wo);

@@ -27,7 +27,7 @@ static void eval_measured(const render_surface *surface, size_t count, const flo
 static float sample_model(const render_surface *surface, const float wo[3], const float u[3],
                           float wi[3])
 {
-    const float stratified[3] = {u[1], 0.0f, u[2]};
+    const float stratified[2] = {u[1], u[2]};
     return hnbrdf_prepared_draw(&surface->prepared, wo, stratified, wi);
 }
 

@@ -3,6 +3,7 @@
 
 #include "base/text.h"
 #include "base/write.h"
+#include "hnbrdf/glsl.h"
 #include "report/output.h"
 
 #include <math.h>

@@ -29,7 +29,7 @@ int main()
         return 1;
     }
     const std::unique_ptr<hnbrdf_model, Free> model(raw);
-    const float wo[3] = {0.6f, 0.0f, 0.8f}, u[3] = {0.25f, 0.5f, 0.75f};
+    const float wo[3] = {0.6f, 0.0f, 0.8f}, u[2] = {0.25f, 0.75f};
     hnbrdf_sample_result sample;
     hnbrdf_sample(model.get(), &material, wo, u, &sample);
     const float pdf = hnbrdf_pdf(model.get(), &material, sample.wi, wo);

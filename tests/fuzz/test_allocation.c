@@ -8,6 +8,7 @@
 #include "hnbrdf/fit.h"
 #include "hnbrdf/metrics.h"
 #include "render/environment.h"
+#include "hnbrdf/glsl.h"
 
 #include <unistd.h>
 #ifdef HNBRDF_WITH_OPENEXR

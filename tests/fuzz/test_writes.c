@@ -5,6 +5,7 @@
 #include "model_support.h"
 
 #include "image/image.h"
+#include "hnbrdf/glsl.h"
 
 #include <setjmp.h>
 #include <signal.h>
