@@ -51,8 +51,11 @@ endmacro()
 if(HNBRDF_WITH_VARIANTS AND NOT MSVC)
   set(_x86 "defined(__x86_64__) || defined(__i386__)")
   hnbrdf_variant(sse2 "${_x86}" -msse2 -mfpmath=sse)
-  hnbrdf_variant(avx2 "${_x86}" -mavx2 -mfpmath=sse)
-  hnbrdf_variant(avx512 "${_x86}"
-    -mavx512f -mavx512dq -mavx512vl -mprefer-vector-width=512 -mfpmath=sse)
+  # GCC for Windows aligns no stack to more than 16 bytes: 32-byte vectors on it end in a crash.
+  if(NOT (MINGW AND CMAKE_C_COMPILER_ID STREQUAL "GNU"))
+    hnbrdf_variant(avx2 "${_x86}" -mavx2 -mfpmath=sse)
+    hnbrdf_variant(avx512 "${_x86}"
+      -mavx512f -mavx512dq -mavx512vl -mprefer-vector-width=512 -mfpmath=sse)
+  endif()
   hnbrdf_variant(neon "defined(__aarch64__)")
 endif()

@@ -9,8 +9,8 @@ hnbrdf_room(base
   clock.c csv.c files.c files_posix.c files_windows.c guess.c interrupt.c json.c probe.c
   text.c text_buffer.c threads.c write.c)
 # Each file of base that an installed library needs is in exactly one of the static ones: here what
-# libhnbrdf, libhnbrdf_fit and libhnbrdf_bake hold. Shared libraries take what they need from hnbrdf_base and hide
-# it.
+# libhnbrdf, libhnbrdf_fit and libhnbrdf_bake hold. Shared libraries take what they need from
+# hnbrdf_base and hide it.
 set(HNBRDF_BASE_HNBRDF src/base/files.c src/base/files_posix.c src/base/files_windows.c
   src/base/guess.c src/base/json.c src/base/text.c)
 set(HNBRDF_BASE_FIT src/base/clock.c src/base/threads.c)

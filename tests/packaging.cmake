@@ -21,6 +21,10 @@ if(NOT HNBRDF_SANITIZE)
   add_test(NAME test_minimal COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/test_minimal.sh
     ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR} ${CMAKE_C_COMPILER}
     ${CMAKE_CURRENT_BINARY_DIR}/minimal)
+  add_test(NAME test_windows COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/test_windows.sh
+    ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}/windows
+    $<TARGET_FILE:hnbrdf_test_core_variants>)
+  set_tests_properties(test_windows PROPERTIES SKIP_RETURN_CODE 77)
   add_test(NAME test_guest COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/test_guest.sh
     ${PROJECT_SOURCE_DIR}
     ${CMAKE_CURRENT_BINARY_DIR}/guest $<TARGET_FILE:hnbrdf_fast_math_plain>

@@ -83,7 +83,8 @@ typedef struct fit_kernel {
 const fit_kernel *hnbrdf_fit_kernel_choose(void);
 
 extern const fit_kernel hnbrdf_fit_kernel_plain;
-#if defined(__x86_64__) || defined(__i386__)
+/* Not GCC for Windows, which aligns no stack to more than 16 bytes. */
+#if (defined(__x86_64__) || defined(__i386__)) && (!defined(__MINGW32__) || defined(__clang__))
 #define FIT_KERNEL_X86 1
 extern const fit_kernel hnbrdf_fit_kernel_avx2, hnbrdf_fit_kernel_avx512;
 #endif
