@@ -20,7 +20,8 @@
  * best state, and Adam and the warm-up start anew at 0.3 times the rate. So a rate that is 100
  * times too large costs a few hundred steps. The report says how often that happened and what the
  * rate was at the end. The last state is returned, unless an earlier one was better by more than
- * 5 % plus 0.001: smaller differences are within the error of such a sample. A hybrid is never worse
+ * 5 % plus 0.001: smaller differences are within the error of such a sample. A hybrid is never
+ * worse
  * than GGX alone by more than that: where no state was better, the network returned leaves GGX as
  * it is. Every number in a model is finite. */
 #ifndef HNBRDF_FIT_H
