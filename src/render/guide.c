@@ -1,6 +1,8 @@
 /* guide.c: fit a mixture of GGX densities to a BRDF, to know where to look for light. */
 #include "render/render.h"
 
+#include "core/prepared.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -15,10 +17,11 @@ static float lobe_pdf(const hnbrdf_prepared *prepared, int retro, const float wi
     return hnbrdf_prepared_pdf(prepared, w, wo);
 }
 
-static int lobe_sample(const hnbrdf_prepared *prepared, int retro, const float wo[3],
-                       const float u[2], float wi[3])
+/* With the azimuth turned by `turn`, in [0, 1). */
+static int lobe_sample(const hnbrdf_prepared *prepared, int retro, const float wo[3], float u0,
+                       float u1, float turn, float wi[3])
 {
-    float pdf = hnbrdf_prepared_draw(prepared, wo, u, wi);
+    float pdf = hnbrdf_prepared_draw_turned(prepared, wo, u0, u1, turn, wi);
     wi[0] = retro ? -wi[0] : wi[0];
     wi[1] = retro ? -wi[1] : wi[1];
     return pdf > 0.0f;
@@ -45,8 +48,8 @@ static float guide_sample(const render_surface *surface, const float wo[3], cons
     while (k < guide->count - 1 && left >= guide->lobes[k].share)
         left -= guide->lobes[k++].share;
     float rest = left / guide->lobes[k].share, last = 1.0f - 0x1p-24f;
-    float numbers[2] = {rest < last ? rest : last, u[2]};
-    if (!lobe_sample(&guide->lobes[k].prepared, guide->lobes[k].retro, wo, numbers, wi))
+    if (!lobe_sample(&guide->lobes[k].prepared, guide->lobes[k].retro, wo,
+                     rest < last ? rest : last, u[2], 0.0f, wi))
         return 0.0f;
     return guide_pdf(surface, wi, wo);
 }
@@ -122,7 +125,7 @@ static int observe(const render_surface *surface, const hnbrdf_prepared prepared
         observation *o = &observations[count];
         double mixture = 0.0;
         int from = draw % CANDIDATES;
-        if (!lobe_sample(&prepared[from], candidates[from].retro, wo, u, wi))
+        if (!lobe_sample(&prepared[from], candidates[from].retro, wo, u[0], u[2], u[1], wi))
             continue;
         for (int k = 0; k < CANDIDATES; k++) {
             o->pdf[k] = lobe_pdf(&prepared[k], candidates[k].retro, wi, wo);
