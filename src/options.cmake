@@ -25,6 +25,19 @@ endmacro()
 find_package(Threads)
 hnbrdf_option(HNBRDF_BUILD_FIT "the measured-data readers and the trainer" Threads_FOUND)
 
+# libhdf5, the serial one, for measured data in HDF5 files. Another project gets it only on request.
+if(PROJECT_IS_TOP_LEVEL OR HNBRDF_WITH_HDF5)
+  find_path(HNBRDF_HDF5_INCLUDE_DIR hdf5.h PATH_SUFFIXES hdf5/serial)
+  find_library(HNBRDF_HDF5_LIBRARY NAMES hdf5_serial hdf5)
+  mark_as_advanced(HNBRDF_HDF5_INCLUDE_DIR HNBRDF_HDF5_LIBRARY)
+endif()
+hnbrdf_option(HNBRDF_WITH_HDF5 "HDF5 files as measured data: hnbrdf_hdf5, which links libhdf5"
+  PROJECT_IS_TOP_LEVEL HNBRDF_BUILD_FIT HNBRDF_HDF5_INCLUDE_DIR HNBRDF_HDF5_LIBRARY)
+if(HNBRDF_WITH_HDF5 AND NOT (HNBRDF_HDF5_INCLUDE_DIR AND HNBRDF_HDF5_LIBRARY))
+  message(FATAL_ERROR "HNBRDF_WITH_HDF5=ON needs libhdf5 (package libhdf5-dev); found headers: "
+    "${HNBRDF_HDF5_INCLUDE_DIR}, library: ${HNBRDF_HDF5_LIBRARY}")
+endif()
+
 if(PROJECT_IS_TOP_LEVEL OR HNBRDF_BUILD_CLI OR HNBRDF_BUILD_FUZZERS)
   find_package(OpenEXR CONFIG QUIET)
   find_package(Vulkan QUIET)

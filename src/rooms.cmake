@@ -30,7 +30,10 @@ hnbrdf_room(lobes
   fit_lobes.c)
 hnbrdf_room(measured
   builtin.c builtin_film.c builtin_materials.c cie.c custom.c formats.c measured.c merl.c
-  merl_known.c pairs.c read_file.c rgl.c rgl_eval.c sha256.c tensor_file.c utia.c)
+  merl_known.c nbrdf.c nbrdf_npy.c pairs.c
+  read_file.c rgl.c rgl_eval.c sha256.c tensor_file.c utia.c)
+hnbrdf_room(hdf5
+  nbrdf_hdf5.c)
 hnbrdf_room(metrics
   compare.c image.c physics.c)
 hnbrdf_room(fit

@@ -4,7 +4,7 @@
 set -eu
 
 optional=""
-wanted="gcc libc6-dev make cmake pkg-config libopenexr-dev libvulkan-dev mesa-vulkan-drivers glslang-tools libstb-dev libembree-dev"
+wanted="gcc libc6-dev make cmake pkg-config libopenexr-dev libhdf5-dev libvulkan-dev mesa-vulkan-drivers glslang-tools libstb-dev libembree-dev"
 case ${1:-} in
 demo) ;;
 tests)

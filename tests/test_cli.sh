@@ -81,7 +81,7 @@ run "$HNBRDF" eval builtin
 expect_failure "eval builtin" "choose one"
 mkdir empty twice
 run "$HNBRDF" info empty
-expect_failure "an empty directory" "empty: the directory has no measured file: RGL .bsdf, MERL .binary or UTIA .bin"
+expect_failure "an empty directory" "empty: the directory has no measured file: RGL .bsdf, MERL .binary, UTIA .bin or NBRDF .h5/.npy"
 cp lambert_rgb.bsdf twice/lambert_rgb.bsdf
 cp lambert_rgb.bsdf twice/lambert.bsdf
 run "$HNBRDF" info twice

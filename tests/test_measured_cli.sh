@@ -54,6 +54,35 @@ run "$HNBRDF" info brace.bin
 expect_ok "UTIA with a brace"
 grep -q "format  *UTIA" out || fail "UTIA with a brace is taken for something else"
 
+# NBRDF: six files are one material, whichever is named. All weights 0, the last biases 1: e - 1.
+put_npy() { # FILE SHAPE NUMBERS
+    printf "%-117s\n" "{'descr': '<f4', 'fortran_order': False, 'shape': ($2), }" >header
+    { printf '\223NUMPY\001\000\166\000'; cat header; head -c $((4 * $3)) /dev/zero; } >"$1"
+}
+mkdir nets
+for name in gold gold_b; do
+    put_npy nets/${name}_fc1.npy "6, 21" 126
+    put_npy nets/${name}_b1.npy "21," 21
+    put_npy nets/${name}_fc2.npy "21, 21" 441
+    put_npy nets/${name}_b2.npy "21," 21
+    put_npy nets/${name}_fc3.npy "21, 3" 63
+    put_npy nets/${name}_b3.npy "3," 0
+    for channel in 1 2 3; do printf '\000\000\200\077' >>nets/${name}_b3.npy; done
+done
+run "$HNBRDF" info nets
+expect_ok "info of a directory of NBRDF"
+[ "$(wc -l <out)" -eq 3 ] || fail "two materials in twelve files: $(cat out)"
+grep -q "^gold  *NBRDF  *yes  *NBRDF network 6-21-21-3 from six .npy files" out || fail "info of NBRDF: $(cat out)"
+for path in nets/gold nets/gold_fc1.npy nets/gold_b3.npy nets/gold_b_b2.npy; do
+    run_in "$pair" "$HNBRDF" eval $path
+    expect_out "eval $path" 'f_r,f_g,f_b\n1.71828187,1.71828187,1.71828187\n'
+done
+rm nets/gold_b2.npy
+run "$HNBRDF" info nets
+expect_failure "a part is missing" "nets/gold_b2.npy: cannot be opened for reading"
+run "$HNBRDF" info nets/gol
+expect_failure "no such material" "nets/gol: No such file or directory"
+
 # MERL: the lookup is told, the checksum compared.
 run "$HNBRDF" info lambert.binary --merl trilinear --merl-node edge
 grep -q "trilinear between lower edges" out || fail "info of MERL does not tell the lookup"

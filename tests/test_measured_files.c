@@ -181,7 +181,8 @@ static void long_paths_leave_room_for_the_message(void **state)
     assert_int_equal(hnbrdf_measured_open_memory("123456789012", 12, path, NULL, &measured, &error),
                      HNBRDF_ERROR_FORMAT);
     assert_non_null(strstr(error.text, "aaa/last.bsdf: 12 bytes starting with"));
-    assert_non_null(strstr(error.text, "90 90 180) or a UTIA .bin (1990656 bytes)"));
+    assert_non_null(
+        strstr(error.text, "UTIA .bin (1990656 bytes) or an NBRDF .h5/.npy (HDF, NUMPY)"));
 }
 
 static void options_outside_their_range_are_refused(void **state)
@@ -276,12 +277,13 @@ static void the_length_of_directions_does_not_matter(void **state)
 /* A format that is forgotten in the table has no name; a name stands once. */
 static void every_format_has_one_row(void **state)
 {
+    enum { LAST = HNBRDF_MEASURED_NBRDF };
     (void)state;
     int rows = 0;
     while (hnbrdf_measured_format_at(rows))
         rows++;
     assert_null(hnbrdf_measured_format_at(-1));
-    for (int format = HNBRDF_MEASURED_BUILTIN; format <= HNBRDF_MEASURED_CUSTOM; format++) {
+    for (int format = HNBRDF_MEASURED_BUILTIN; format <= LAST; format++) {
         int found = 0;
         for (int k = 0; k < rows; k++) {
             const hnbrdf_measured_format_info *info = hnbrdf_measured_format_at(k);
@@ -295,8 +297,8 @@ static void every_format_has_one_row(void **state)
         if (found != 1)
             fail_msg("format %d has %d rows", format, found);
     }
-    assert_int_equal(rows, HNBRDF_MEASURED_CUSTOM + 1);
-    assert_null(hnbrdf_measured_format_name((hnbrdf_measured_format)(HNBRDF_MEASURED_CUSTOM + 1)));
+    assert_int_equal(rows, LAST + 1);
+    assert_null(hnbrdf_measured_format_name((hnbrdf_measured_format)(LAST + 1)));
     assert_null(hnbrdf_measured_format_name((hnbrdf_measured_format)-1));
 }
 
@@ -310,6 +312,8 @@ static void files_are_known_by_their_endings(void **state)
                  {"a_rgb.bsdf", HNBRDF_MEASURED_RGL, 5},
                  {"m01.bin", HNBRDF_MEASURED_UTIA, 3},
                  {".bin", -1, 0},
+                 {"a_rgb.h5", HNBRDF_MEASURED_NBRDF, 5},
+                 {"a.npy", -1, 0},
                  {"a.binary.txt", -1, 0},
                  {"", -1, 0}};
     (void)state;
@@ -323,6 +327,11 @@ static void files_are_known_by_their_endings(void **state)
         assert_int_equal(part, info ? -1 : 99);
         assert_true(hnbrdf_measured_format_of_file(cases[i].name, NULL, NULL) == info);
     }
+    int part = 99;
+    size_t stem = 99;
+    assert_non_null(hnbrdf_measured_format_of_file("a_b_b2.npy", &stem, &part));
+    assert_int_equal(stem, 3);
+    assert_int_equal(part, 3);
 }
 
 /* Each option stands for one member, and 0 in all members is the default. */

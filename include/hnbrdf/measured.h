@@ -6,8 +6,10 @@
  *
  * Formats: MERL .binary (Matusik et al. 2003), RGL .bsdf, isotropic and anisotropic, RGB and
  * spectral (Dupuy and Jakob 2018), UTIA .bin (Filip and Vavra 2014; the set of 150 anisotropic
- * materials, not the dense one of 1.5 GB a file), and built-in procedural materials. A file is
- * recognised by its content; a UTIA file, which has no header, by its size. */
+ * materials, not the dense one of 1.5 GB a file), networks of Neural-BRDF (Sztrajman et al. 2021;
+ * .h5 as published with the part of hdf5.h, and the six .npy of its own renderer), and built-in
+ * procedural materials. A file is recognised by its content; a UTIA file, which has no header, by
+ * its size. */
 #ifndef HNBRDF_MEASURED_H
 #define HNBRDF_MEASURED_H
 
@@ -24,11 +26,12 @@ typedef enum hnbrdf_measured_format {
     HNBRDF_MEASURED_MERL,
     HNBRDF_MEASURED_RGL,
     HNBRDF_MEASURED_UTIA,
-    HNBRDF_MEASURED_CUSTOM
+    HNBRDF_MEASURED_CUSTOM,
+    HNBRDF_MEASURED_NBRDF
 } hnbrdf_measured_format;
 
-/* "builtin", "MERL", "RGL", "UTIA", "custom"; NULL for any other value. So do the other functions
- * that name a value of an enum here: its word, and NULL for a value that is none. */
+/* "builtin", "MERL", "RGL", "UTIA", "custom", "NBRDF"; NULL for any other value. So do the other
+ * functions that name a value of an enum here: its word, and NULL for a value that is none. */
 HNBRDF_API const char *hnbrdf_measured_format_name(hnbrdf_measured_format format);
 
 /* One measured material. Immutable after opening, may be shared between threads. */
@@ -66,6 +69,9 @@ typedef enum hnbrdf_utia_mode {
 /* "djb", "raw", "srgb" */
 HNBRDF_API const char *hnbrdf_utia_mode_name(hnbrdf_utia_mode mode);
 
+/* What read_hdf5 below fills in; only the library looks inside. */
+typedef struct hnbrdf_hdf5_arrays hnbrdf_hdf5_arrays;
+
 /* Zero-initialise for defaults. A value outside its range is HNBRDF_ERROR_ARGUMENT on opening. */
 typedef struct hnbrdf_measured_options {
     /* refuse larger files; 0 stands for 1 GiB. Whatever a file claims of itself, opening takes at
@@ -87,18 +93,23 @@ typedef struct hnbrdf_measured_options {
     /* 1: beyond the last sample at 75 degrees use its value. 0: go on linearly from the last two,
      * as all readers that descend from the author's do */
     int utia_no_extrapolate;
+    /* Reads HDF5 files (NBRDF .h5): hnbrdf_hdf5_read of hdf5.h, a part of its own, so that nobody
+     * links libhdf5 who does not want it. NULL: such files are refused. */
+    hnbrdf_result (*read_hdf5)(const void *bytes, size_t size, const char *label,
+                               hnbrdf_hdf5_arrays *arrays, hnbrdf_error *error);
 } hnbrdf_measured_options;
 
 /* Open a file; its material's name is the file's name without directory, extension and a trailing
  * "_rgb", cut to HNBRDF_MAX_NAME bytes; control characters and what is not UTF-8 become '_'. The
  * file is read whole, and never beyond the limit by more than the buffer that holds it. options
- * may be NULL. */
+ * may be NULL. An NBRDF material in six files, NAME_fc1.npy to NAME_b3.npy, is opened by the path
+ * of any of them, or by NAME where no file is called so. */
 HNBRDF_API hnbrdf_result hnbrdf_measured_open(const char *path,
                                               const hnbrdf_measured_options *options,
                                               hnbrdf_measured **measured, hnbrdf_error *error);
 
 /* The same from bytes in memory; `path` gives the name and is used in messages. The bytes are
- * copied. */
+ * copied. Not for materials in several files. */
 HNBRDF_API hnbrdf_result hnbrdf_measured_open_memory(const void *data, size_t size,
                                                      const char *path,
                                                      const hnbrdf_measured_options *options,
@@ -130,8 +141,6 @@ typedef struct hnbrdf_measured_format_info {
     const char *const *part_endings;
     const hnbrdf_measured_option *options;
     int option_count;
-    /* Why this build reads not all of its files, or NULL. */
-    const char *limits;
 } hnbrdf_measured_format_info;
 
 /* The formats in the order in which files are tried, index 0 on; NULL past the last. */

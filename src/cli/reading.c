@@ -1,12 +1,19 @@
 /* reading.c: the options with which commands read measured files, and what they call those files;
  * all from the library's table of formats. */
 #include "cli/cli.h"
+#ifdef HNBRDF_WITH_HDF5
+#include "hnbrdf/hdf5.h"
+#endif
 
 #include <string.h>
 
 enum { MOST_OPTIONS = 32, WORDS_SIZE = 256 };
 
+#ifdef HNBRDF_WITH_HDF5
+hnbrdf_measured_options cli_read = {.read_hdf5 = hnbrdf_hdf5_read};
+#else
 hnbrdf_measured_options cli_read;
+#endif
 
 /* The argument of an option for the help: "djb|raw|srgb", "X", or NULL of a flag. */
 static const char *argument_of(const hnbrdf_measured_option *option, char *words, size_t *used)

@@ -137,12 +137,34 @@ static int fail_missing(const char *path)
     return cli_fail("%s: %s", path, strerror(reason));
 }
 
+/* Is it the name of a material that lies in several files? */
+static int is_in_parts(const char *path)
+{
+    const hnbrdf_measured_format_info *info;
+    size_t size = strlen(path) + 32;
+    char *part = malloc(size);
+    int found = 0;
+    for (int row = 0; part && (info = hnbrdf_measured_format_at(row)); row++)
+        for (int k = 0; info->part_endings && info->part_endings[k] && !found; k++) {
+            struct stat status;
+            snprintf(part, size, "%s%s", path, info->part_endings[k]);
+            found = stat(part, &status) == 0;
+        }
+    free(part);
+    return found;
+}
+
 static int open_measured_file(const char *path, hnbrdf_measured **measured)
 {
     hnbrdf_error error;
     struct stat status;
-    if (stat(path, &status) != 0)
-        return fail_missing(path);
+    if (stat(path, &status) != 0) {
+        int reason = errno;
+        if (!is_in_parts(path)) {
+            errno = reason;
+            return fail_missing(path);
+        }
+    }
     if (has_extension(path, ".brdf"))
         return cli_fail("%s: a published shader; make a model of it first: hnbrdf import", path);
     if (hnbrdf_measured_open(path, &cli_read, measured, &error) == HNBRDF_OK)
@@ -232,6 +254,24 @@ static int compare_bytes(const struct dirent **a, const struct dirent **b)
     return strcmp((*a)->d_name, (*b)->d_name);
 }
 
+/* Of a material in several files the first that is there, in the order of its format, stands for
+ * all. */
+static int is_further_part(struct dirent **entries, int count, int index)
+{
+    const char *name = entries[index]->d_name;
+    size_t stem, other_stem;
+    int part, other_part;
+    const hnbrdf_measured_format_info *info = hnbrdf_measured_format_of_file(name, &stem, &part);
+    for (int k = 0; part > 0 && k < count; k++) {
+        const char *other = entries[k]->d_name;
+        if (hnbrdf_measured_format_of_file(other, &other_stem, &other_part) == info &&
+            other_part >= 0 && other_part < part && other_stem == stem &&
+            strncmp(name, other, stem) == 0)
+            return 1;
+    }
+    return 0;
+}
+
 static int add_directory(data_builder *builder, const char *path)
 {
     struct dirent **entries = NULL;
@@ -247,16 +287,18 @@ static int add_directory(data_builder *builder, const char *path)
     const char *slash = has_extension(path, "/") ? "" : "/";
     for (int k = 0; k < count; k++) {
         size_t size = strlen(path) + strlen(entries[k]->d_name) + 2;
-        char *file = result == CLI_OK ? malloc(size) : NULL;
+        int wanted = result == CLI_OK && !is_further_part(entries, count, k);
+        char *file = wanted ? malloc(size) : NULL;
         if (file) {
             snprintf(file, size, "%s%s%s", path, slash, entries[k]->d_name);
             result = add_file(builder, file);
-        } else if (result == CLI_OK) {
+        } else if (wanted) {
             result = cli_fail("out of memory");
         }
         free(file);
-        free(entries[k]);
     }
+    for (int k = 0; k < count; k++)
+        free(entries[k]);
     free(entries);
     return result;
 }

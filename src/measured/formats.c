@@ -7,12 +7,12 @@
 #include <string.h>
 
 extern const measured_reader hnbrdf_rgl_reader, hnbrdf_merl_reader, hnbrdf_utia_reader,
-    hnbrdf_builtin_reader, hnbrdf_custom_reader;
+    hnbrdf_nbrdf_reader, hnbrdf_builtin_reader, hnbrdf_custom_reader;
 
 /* In the order in which a file's content is tried: those with a magic number first. */
 static const measured_reader *const readers[] = {
-    &hnbrdf_rgl_reader,     &hnbrdf_merl_reader,   &hnbrdf_utia_reader,
-    &hnbrdf_builtin_reader, &hnbrdf_custom_reader,
+    &hnbrdf_rgl_reader,   &hnbrdf_merl_reader,    &hnbrdf_utia_reader,
+    &hnbrdf_nbrdf_reader, &hnbrdf_builtin_reader, &hnbrdf_custom_reader,
 };
 enum { READERS = sizeof readers / sizeof readers[0] };
 

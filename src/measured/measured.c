@@ -80,12 +80,15 @@ static const char *base_name(const char *path)
     return base;
 }
 
-/* The file's name without directory, extension and a trailing "_rgb"; all of it if nothing is
- * left. */
+/* The file's name without directory, extension (and what numbers the parts of a material in several
+ * files) and a trailing "_rgb"; all of it if nothing is left. */
 static void make_name(char name[HNBRDF_MAX_NAME + 1], const char *path)
 {
     const char *base = base_name(path), *dot = strrchr(base, '.');
-    size_t length = dot ? (size_t)(dot - base) : strlen(base);
+    size_t length = dot ? (size_t)(dot - base) : strlen(base), stem;
+    int part = -1;
+    if (hnbrdf_measured_format_of_file(base, &stem, &part) && part >= 0)
+        length = stem;
     if (length >= 4 && memcmp(base + length - 4, "_rgb", 4) == 0)
         length -= 4;
     if (length == 0)
@@ -140,25 +143,60 @@ static hnbrdf_result open_file(const measured_file *file, const char *path,
     return HNBRDF_OK;
 }
 
+static int can_be_read(const char *path)
+{
+    FILE *stream = fopen(path, "rb");
+    if (stream)
+        fclose(stream);
+    return stream != NULL;
+}
+
+/* Where `path` is no file but the name of a material in several: the path of a part that is there,
+ * malloc'ed. NULL if it is a file, or there is none, or no memory. */
+static char *find_part(const char *path)
+{
+    const hnbrdf_measured_format_info *info;
+    size_t size = strlen(path) + 32;
+    char *part = can_be_read(path) ? NULL : malloc(size);
+    for (int row = 0; part && (info = hnbrdf_measured_format_at(row)); row++)
+        for (int k = 0; info->part_endings && info->part_endings[k]; k++) {
+            snprintf(part, size, "%s%s", path, info->part_endings[k]);
+            if (can_be_read(part))
+                return part;
+        }
+    free(part);
+    return NULL;
+}
+
+static hnbrdf_result open_path(const char *path, const hnbrdf_measured_options *options,
+                               hnbrdf_measured **measured, hnbrdf_error *error)
+{
+    char label[LABEL_SIZE];
+    make_label(label, path);
+    unsigned char *bytes = NULL;
+    measured_file file = {.label = label, .path = path};
+    hnbrdf_result result =
+        hnbrdf_read_file(path, options->max_bytes, label, &bytes, &file.size, error);
+    file.bytes = bytes;
+    if (!result)
+        result = open_file(&file, path, options, measured, error);
+    free(bytes);
+    return result;
+}
+
 hnbrdf_result hnbrdf_measured_open(const char *path, const hnbrdf_measured_options *options,
                                    hnbrdf_measured **measured, hnbrdf_error *error)
 {
     if (!path || !measured)
         return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT,
                            "hnbrdf_measured_open: path or result is NULL");
-    char label[LABEL_SIZE];
     hnbrdf_measured_options settled;
     hnbrdf_result result = hnbrdf_measured_settle(options, &settled, error);
     if (result)
         return result;
-    make_label(label, path);
-    unsigned char *bytes = NULL;
-    measured_file file = {.label = label, .path = path};
-    result = hnbrdf_read_file(path, settled.max_bytes, label, &bytes, &file.size, error);
-    file.bytes = bytes;
-    if (!result)
-        result = open_file(&file, path, &settled, measured, error);
-    free(bytes);
+    char *part = find_part(path);
+    result = open_path(part ? part : path, &settled, measured, error);
+    free(part);
     return result;
 }
 

@@ -298,7 +298,7 @@ const measured_reader hnbrdf_merl_reader = {
              .endings = endings,
              .options = merl_options,
              .option_count = sizeof merl_options / sizeof merl_options[0]},
-    .expected = "a MERL .binary (starts with the sizes 90 90 180)",
+    .expected = "a MERL .binary (starts with 90 90 180)",
     .recognise = merl_recognise,
     .open = merl_open,
 };

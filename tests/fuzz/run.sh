@@ -25,12 +25,11 @@ case ${1:-} in
     shift
     ;;
 esac
-all=$(sed -n '/^set(HNBRDF_FUZZ_TARGETS/,/)$/p' "$here/CMakeLists.txt" | tr -s '\n )' ' ' |
-    sed 's/^set(HNBRDF_FUZZ_TARGETS //; s/ $//')
-options=""
+all=$(cd "$here" && ls fuzz_*.c | sed 's/^fuzz_\(.*\)\.c$/\1/' | tr '\n' ' ')
+options="-DHNBRDF_WITH_HDF5=OFF" # libhdf5 is not instrumented
 if [ "$sanitizers" = memory ]; then
     all=$(echo " $all " | sed 's/ exr / /')
-    options="-DHNBRDF_WITH_OPENEXR=OFF"
+    options="$options -DHNBRDF_WITH_OPENEXR=OFF"
 fi
 [ -z "$sanitizers" ] || options="$options -DHNBRDF_FUZZ_SANITIZERS=$sanitizers"
 targets=${*:-$all}

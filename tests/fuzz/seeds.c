@@ -4,6 +4,7 @@
 #include "fuzz.h"
 
 #include "measured_support.h"
+#include "nbrdf_support.h"
 #include "image/image.h"
 
 #include <sys/stat.h>
@@ -140,6 +141,31 @@ static void write_measured(void)
     put("djb", patch, 5 + 24);
     patch[0] = 2 | 4;
     put("srgb", patch, 5 + 24);
+}
+
+/* As fuzz_nbrdf.c has it. */
+static void put_network(const char *name, size_t first, size_t second, const char *type,
+                        int version)
+{
+    test_network network;
+    test_network_make(&network, first, second, 1);
+    FILE *file = create(name);
+    for (int k = 0; k < TEST_PARTS; k++) {
+        unsigned char length[2];
+        test_bytes part = test_npy(&network, k, type, k == 2, version);
+        put_le(length, part.size, 2);
+        FUZZ_CHECK(fwrite(length, 1, 2, file) == 2);
+        FUZZ_CHECK(fwrite(part.data, 1, part.size, file) == part.size);
+        free(part.data);
+    }
+    FUZZ_CHECK(fclose(file) == 0);
+}
+
+static void write_networks(void)
+{
+    target = "nbrdf";
+    put_network("usual", 21, 21, "<f4", 1);
+    put_network("small", 2, 1, ">f8", 2);
 }
 
 /* ---- Pictures -------------------------------------------------------------------------------- */
@@ -280,6 +306,7 @@ int main(int argc, char **argv)
     write_models();
     write_shaders();
     write_measured();
+    write_networks();
     write_pictures();
     write_pairs();
     write_texels();

@@ -3,6 +3,7 @@
  */
 #include "failing_malloc.h"
 #include "measured_support.h"
+#include "nbrdf_support.h"
 
 #include "hnbrdf/edit.h"
 #include "hnbrdf/fit.h"
@@ -175,6 +176,21 @@ static void rgl_files_survive(void **state)
         survive(open_measured, &files[i], 10);
         free(files[i].bytes.data);
     }
+}
+
+static void networks_survive(void **state)
+{
+    char directory[] = "/tmp/hnbrdf_allocation_XXXXXX", path[64];
+    test_network network;
+    (void)state;
+    assert_non_null(mkdtemp(directory));
+    test_network_make(&network, 21, 21, 1);
+    test_write_npy(directory, "a", &network);
+    snprintf(path, sizeof path, "%s/a_b2.npy", directory);
+    const measured_file six = {{NULL, 0}, path, {0}};
+    survive(open_measured, &six, 20);
+    test_remove_npy(directory, "a");
+    assert_int_equal(rmdir(directory), 0);
 }
 
 static void tables_survive(void **state)
@@ -355,10 +371,15 @@ static void pictures_survive(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(models_survive),  cmocka_unit_test(edits_survive),
-        cmocka_unit_test(imports_survive), cmocka_unit_test(rgl_files_survive),
-        cmocka_unit_test(tables_survive),  cmocka_unit_test(built_in_and_custom_materials_survive),
-        cmocka_unit_test(fits_survive),    cmocka_unit_test(pictures_survive),
+        cmocka_unit_test(models_survive),
+        cmocka_unit_test(edits_survive),
+        cmocka_unit_test(imports_survive),
+        cmocka_unit_test(rgl_files_survive),
+        cmocka_unit_test(networks_survive),
+        cmocka_unit_test(tables_survive),
+        cmocka_unit_test(built_in_and_custom_materials_survive),
+        cmocka_unit_test(fits_survive),
+        cmocka_unit_test(pictures_survive),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
