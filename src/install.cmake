@@ -33,7 +33,7 @@ set(_generated ${CMAKE_CURRENT_BINARY_DIR}/generated)
 configure_package_config_file(src/hnbrdfConfig.cmake.in ${_generated}/hnbrdfConfig.cmake
   INSTALL_DESTINATION ${_package_dir} PATH_VARS HNBRDF_SHADER_DIR)
 write_basic_package_version_file(${_generated}/hnbrdfConfigVersion.cmake
-  COMPATIBILITY SameMajorVersion)
+  COMPATIBILITY SameMinorVersion)
 install(FILES ${_generated}/hnbrdfConfig.cmake ${_generated}/hnbrdfConfigVersion.cmake
   DESTINATION ${_package_dir})
 

@@ -339,7 +339,7 @@ static void bad_options_are_refused(void **state)
     REFUSE("sampler is 9", .sampler = (hnbrdf_sampler)9);
     REFUSE("latent is -1", .latent = -1);
     REFUSE("latent is 4 and latent_none is set", .latent = 4, .latent_none = 1);
-    REFUSE("encoding is polar, expected angles", .encoding = "polar");
+    REFUSE("encoding is polar, expected one of directions, ", .encoding = "polar");
     REFUSE("restarts is 33", .restarts = 33);
     REFUSE("pool is 63", .pool = 63);
     REFUSE("threads is 257", .threads = 257);

@@ -187,7 +187,8 @@ typedef enum hnbrdf_encoding {
  * "angles-anisotropic"; NULL for any other value. */
 HNBRDF_API const char *hnbrdf_kind_name(hnbrdf_kind kind);
 HNBRDF_API const char *hnbrdf_encoding_name(hnbrdf_encoding encoding);
-/* The way back: 1 and *kind or *encoding, or 0 for any other name, *kind and *encoding untouched. */
+/* The way back: 1 and *kind or *encoding, or 0 for any other name, *kind and *encoding untouched.
+ * */
 HNBRDF_API int hnbrdf_kind_from_name(const char *name, hnbrdf_kind *kind);
 HNBRDF_API int hnbrdf_encoding_from_name(const char *name, hnbrdf_encoding *encoding);
 /* 1 if swapping wi and wo changes no bit of what the network sees. */
@@ -271,8 +272,8 @@ HNBRDF_API hnbrdf_result hnbrdf_model_create(const hnbrdf_model_desc *desc,
                                              const hnbrdf_allocator *allocator,
                                              hnbrdf_model **model, hnbrdf_error *error);
 
-/* Read a model file (safetensors with hnbrdf metadata, see src/README.md, "Model files"). options may be
- * NULL. A file is read whole, every size is checked against the bytes that are there. */
+/* Read a model file (safetensors with hnbrdf metadata, see src/README.md, "Model files"). options
+ * may be NULL. A file is read whole, every size is checked against the bytes that are there. */
 HNBRDF_API hnbrdf_result hnbrdf_model_load(const char *path, const hnbrdf_load_options *options,
                                            hnbrdf_model **model, hnbrdf_error *error);
 HNBRDF_API hnbrdf_result hnbrdf_model_load_memory(const void *data, size_t size,

@@ -1,5 +1,6 @@
 /* options.c: which options of a bake are refused, and what 0 stands for. */
 #include "bake/task.h"
+#include "core/encoding.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -117,19 +118,17 @@ static hnbrdf_result choose_materials(bake_task *b, hnbrdf_error *error)
 
 static hnbrdf_result find_encoding(bake_task *b, hnbrdf_error *error)
 {
-    const char *name;
     b->encoding = -1;
     if (!b->options.encoding)
         return HNBRDF_OK;
-    for (int i = 0; (name = hnbrdf_encoding_name((hnbrdf_encoding)i)); i++)
-        if (strcmp(b->options.encoding, name) == 0) {
-            b->encoding = i;
-            return HNBRDF_OK;
-        }
+    hnbrdf_encoding encoding;
+    if (hnbrdf_encoding_from_name(b->options.encoding, &encoding)) {
+        b->encoding = (int)encoding;
+        return HNBRDF_OK;
+    }
     return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT,
-                       "bake options: encoding is %.40s, expected angles, angles-anisotropic, "
-                       "angles-directed, half-difference or directions",
-                       b->options.encoding);
+                       "bake options: encoding is %.40s, expected one of %s", b->options.encoding,
+                       HNBRDF_ENCODING_LIST);
 }
 
 static hnbrdf_result choose_analytic(bake_task *b, hnbrdf_error *error)

@@ -21,6 +21,11 @@
                 row(ANGLES, angles, "angles", 1, 0)                        \
                     row(ANGLES_ANISOTROPIC, angles_anisotropic, "angles-anisotropic", 1, 1)
 
+/* All names, each after ", ": to be joined to a text; the list alone. For help and messages. */
+#define HNBRDF_ENCODING_COMMA(ENUM, function, name, reciprocal, sees_azimuth) ", " name
+#define HNBRDF_ENCODING_NAMES HNBRDF_ENCODINGS(HNBRDF_ENCODING_COMMA)
+#define HNBRDF_ENCODING_LIST (&(HNBRDF_ENCODING_NAMES)[2])
+
 /* The paper's: the six Cartesian components. */
 static inline void hnbrdf_encode_directions(const hnbrdf_pair *p, float x[6])
 {

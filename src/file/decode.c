@@ -1,6 +1,7 @@
 /* decode.c: make a model of the header and the data of a safetensors file. */
 #include "base/error.h"
 #include "base/memory.h"
+#include "core/encoding.h"
 #include "file/safetensors.h"
 #include "base/text.h"
 
@@ -83,9 +84,7 @@ static hnbrdf_result read_encoding(loading *l)
             return HNBRDF_OK;
         }
     }
-    return fail_key(l, HNBRDF_ERROR_FORMAT, HNBRDF_KEY_ENCODING,
-                    "directions, half-difference, angles-directed, angles or "
-                    "angles-anisotropic");
+    return fail_key(l, HNBRDF_ERROR_FORMAT, HNBRDF_KEY_ENCODING, HNBRDF_ENCODING_LIST);
 }
 
 /* An optional number; *value stays when the key is not there. */

@@ -1,6 +1,7 @@
 /* fit.c: the fit from measured data to a model: draw data, fit GGX per material, train the
  * network. */
 #include "fit/trainer.h"
+#include "core/encoding.h"
 
 #include "base/clock.h"
 #include "base/error.h"
@@ -268,8 +269,8 @@ static hnbrdf_result check_flags(const hnbrdf_fit_options *o, hnbrdf_error *erro
                                pairs[k].number, HNBRDF_NUMBER(pairs[k].value), pairs[k].flag);
     if (o->encoding && !hnbrdf_encoding_from_name(o->encoding, &encoding))
         return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT,
-                           "fit options: no encoding is named \"%s\", expected angles or another",
-                           o->encoding);
+                           "fit options: encoding is %.40s, expected one of %s", o->encoding,
+                           HNBRDF_ENCODING_LIST);
     return HNBRDF_OK;
 }
 
