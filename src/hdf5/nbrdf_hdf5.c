@@ -215,7 +215,8 @@ hnbrdf_result hnbrdf_hdf5_read(const void *bytes, size_t size, const char *label
     for (int k = 0; k < NBRDF_ARRAYS; k++)
         snprintf(arrays->label[k], sizeof arrays->label[k], "%s", label);
     /* No cleaning up at exit: this library may be unloaded before, and after some damaged files
-     * libhdf5 would print then that it cannot. Without effect if the program has used libhdf5 already. */
+     * libhdf5 would print then that it cannot. Without effect if the program has used libhdf5
+     * already. */
     H5dont_atexit();
     /* libhdf5 ends the program when it is not the one that this was built with. */
     if (H5get_libversion(&major, &minor, &release) < 0 || major != H5_VERS_MAJOR ||

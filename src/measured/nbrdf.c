@@ -1,6 +1,7 @@
 /* nbrdf.c: networks of Neural-BRDF (Sztrajman et al. 2021, Neural BRDF Representation and
- * Importance Sampling): from the half and the difference vector to f through two layers of rectified units.
- * nbrdf_npy.c and room hdf5 read the numbers; here they become a network and are evaluated. */
+ * Importance Sampling): from the half and the difference vector to f through two layers of
+ * rectified units. nbrdf_npy.c and room hdf5 read the numbers; here they become a network and are
+ * evaluated. */
 #include "measured/nbrdf.h"
 #include "base/error.h"
 
