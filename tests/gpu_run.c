@@ -58,7 +58,8 @@ const gpu_device *gpu_run_device(void)
 
 check_rules gpu_run_rules(int exact)
 {
-    return exact ? check_rules_exact(&arithmetic) : check_rules_fast(&arithmetic, device.driver_id);
+    return exact ? check_rules_exact(&arithmetic)
+                 : check_rules_fast(&arithmetic, device.driver_id == VK_DRIVER_ID_MESA_LLVMPIPE);
 }
 
 #if CAN_FLUSH

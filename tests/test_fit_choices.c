@@ -167,10 +167,10 @@ static void the_projection_leads_back_into_every_range(void **state)
         hnbrdf_fit_ggx_project(p, 0);
         for (int c = 0; c < 3; c++) {
             assert_true(p[FIT_KD + c] == (float)k);
-            assert_float_equal(p[FIT_ETA + c], k ? 4.5951f : -6.9078f, 0.01f);
+            assert_float_equal(p[FIT_ETA + c], (k ? 4.5951f : -6.9078f), 0.01f);
         }
         for (int a = 0; a < 2; a++)
-            assert_float_equal(p[FIT_ALPHA + a], k ? 0.0f : logf(HNBRDF_MIN_ALPHA), 0.01f);
+            assert_float_equal(p[FIT_ALPHA + a], (k ? 0.0f : logf(HNBRDF_MIN_ALPHA)), 0.01f);
         assert_true(p[FIT_ROTATION] == far[k]); /* any angle is one */
         hnbrdf_material_init(&m);
         hnbrdf_fit_ggx_material(p, &m);
