@@ -105,9 +105,9 @@ typedef enum hnbrdf_result {
 /* A short English phrase for a result; never NULL. */
 HNBRDF_API const char *hnbrdf_strerror(hnbrdf_result result);
 
-/* What a person is told: one line naming the file, the place, what was found and what was expected,
- * NUL-terminated, control characters made '?'. Filled on failure only. Pass NULL wherever an
- * hnbrdf_error is taken to go without. */
+/* A message for a person: one line naming the file, the place, what was found and what was
+ * expected, NUL-terminated, control characters made '?'. Filled on failure only. Pass NULL
+ * wherever an hnbrdf_error is taken to go without. */
 typedef struct hnbrdf_error {
     char text[384];
 } hnbrdf_error;

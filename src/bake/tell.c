@@ -10,9 +10,9 @@ int hnbrdf_bake_is_stopped(const bake_task *b)
 
 static void call(bake_task *b, const hnbrdf_bake_progress *progress)
 {
-    hnbrdf_bake_progress told = *progress;
-    told.report = &b->report;
-    if (b->options.progress(b->options.progress_user, &told))
+    hnbrdf_bake_progress copy = *progress;
+    copy.report = &b->report;
+    if (b->options.progress(b->options.progress_user, &copy))
         atomic_store(&b->stopped, 1);
 }
 

@@ -143,7 +143,7 @@ static int is_valid(stability_row *row, const stability_block *block, int k, int
 }
 
 /* Of a value beyond its bar: six standard deviations of what rounding in the network's sums must be
- * expected to cost there. Such a place is told, not held against the code. */
+ * expected to cost there. Such a place is reported, but is no failure of the code. */
 static int is_ill_conditioned(const hnbrdf_model_desc *desc, const stability_row *row,
                               const stability_block *block, const oracle_point *point, int channel,
                               double relative_error)

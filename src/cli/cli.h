@@ -77,7 +77,7 @@ int cli_processors(void);
 
 /* ---- Reading measured files ------------------------------------------------------------------ */
 
-/* As the commands that open measured files were told; holds for every file the process opens. Each
+/* The reading options that the command line gave; they hold for every file the process opens. Each
  * such command has CLI_READING_OPTIONS in its table: those of the library's table of formats.
  * merl_identify is no option: for commands that tell about files. */
 extern hnbrdf_measured_options cli_read;

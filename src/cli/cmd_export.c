@@ -154,12 +154,12 @@ static int export_to(const hnbrdf_model *model, const hnbrdf_glsl_options *optio
         cli_output_discard(&output);
         return cli_fail("%s: %s", path, error.text);
     }
-    FILE *told = output.file == stdout ? stderr : stdout;
+    FILE *notes = output.file == stdout ? stderr : stdout;
     if (cli_output_close(&output) != CLI_OK)
         return CLI_FAILURE;
-    print_summary(told, model, options, path, to.bytes);
+    print_summary(notes, model, options, path, to.bytes);
     if (texels)
-        print_packing(texels, told);
+        print_packing(texels, notes);
     return CLI_OK;
 }
 
@@ -174,7 +174,7 @@ typedef struct settings {
 /* A factor for each material that keeps its albedo at most 1, a little less as that is known to
  * 0.5 %; says which. malloc'ed, NULL after a message. */
 static float *conserving_factors(const hnbrdf_model *model, const int *materials, int count,
-                                 FILE *told)
+                                 FILE *notes)
 {
     float *factors = malloc((size_t)count * sizeof *factors);
     if (!factors)
@@ -184,7 +184,7 @@ static float *conserving_factors(const hnbrdf_model *model, const int *materials
         hnbrdf_physics_of(model, hnbrdf_model_material(model, materials[k]), &p);
         factors[k] = p.albedo > 1.0 ? (float)(0.995 / p.albedo) : 1.0f;
         if (p.albedo > 1.0)
-            fprintf(told, "%s: albedo %.3f, values times %.4f\n",
+            fprintf(notes, "%s: albedo %.3f, values times %.4f\n",
                     hnbrdf_model_material_name(model, materials[k]), p.albedo, (double)factors[k]);
     }
     return factors;

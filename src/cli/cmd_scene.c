@@ -1,4 +1,4 @@
-/* cmd_scene.c: `hnbrdf scene`: path tracing of a scene told in a text file. */
+/* cmd_scene.c: `hnbrdf scene`: path tracing of a scene described by a text file. */
 #include "base/interrupt.h"
 #include "cli/picture.h"
 #include "report/scene_compare.h"

@@ -23,7 +23,7 @@ enum { LANES = HNBRDF_LANES };
 #endif
 
 #if KERNEL_WIDTH > 1
-/* In registers; in memory, where they lie anyhow. */
+/* A vector in a register; the same vector in memory, at any address of a float. */
 typedef float tile_vector __attribute__((vector_size(KERNEL_WIDTH * sizeof(float))));
 typedef float unit_vector __attribute__((vector_size(KERNEL_SINGLE * sizeof(float))));
 typedef float tile_memory

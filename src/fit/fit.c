@@ -385,7 +385,7 @@ static hnbrdf_result refuse_data(const trainer *t, hnbrdf_error *error)
         HNBRDF_NUMBER(100.0 * LEAST_VALID), more);
 }
 
-/* A model's names differ; better told now than after training. */
+/* A model's names differ; better refused now than after training. */
 static hnbrdf_result check_names(const trainer *t, hnbrdf_error *error)
 {
     const size_t count = (size_t)t->count;

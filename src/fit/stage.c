@@ -1,4 +1,4 @@
-/* stage.c: how far a stage of the fit is, told to the caller. */
+/* stage.c: how far a stage of the fit is, as the caller hears of it. */
 #include "fit/trainer.h"
 
 #include "base/clock.h"

@@ -175,8 +175,8 @@ static void normalise(mixture *m, int knot)
 }
 
 /* Of a mixture without a second lobe, pdf[1] is NULL, the share of that lobe stays with cosine.
- * `stride` takes every so-manieth observation. Each share is multiplied by the root of its own
- * derivative over the mean one, which never increases the variance. */
+ * `stride` takes every n-th observation, n = stride. Each share is multiplied by the root of its
+ * own derivative over the mean one, which never increases the variance. */
 static void fit_shares(const search *s, mixture *m, int steps, int stride)
 {
     for (int k = 0; k < PARTS; k++)
