@@ -171,6 +171,15 @@ expect_out "a header alone" 'f_r,f_g,f_b\n'
 run_in '0,0,2,0,0,1\n' "$HNBRDF" eval "builtin:$first"
 [ "$rc" -eq 0 ] && grep -q "warning: stdin: 1 lines, line 1 first" err || fail "not a unit vector: no warning"
 
+run_in "$pairs" "$HNBRDF" eval hybrid.safetensors --material "$first"
+expect_ok "eval of a model"
+cp out plain
+run_in "$pairs" "$HNBRDF" eval hybrid.safetensors --material "$first" --variant plain
+same "plain C"
+HNBRDF_VARIANT=nonsense run_in "$pairs" "$HNBRDF" eval hybrid.safetensors --material "$first"
+same "a variable of the environment that was once read"
+run_in "$pairs" "$HNBRDF" eval hybrid.safetensors --material "$first" --variant fastest
+expect_usage "unknown variant" "expected auto, plain"
 run_in "$pairs" "$HNBRDF" eval hybrid.safetensors
 expect_failure "several materials" "choose one with --material"
 run_in "$pairs" "$HNBRDF" eval hybrid.safetensors --material "$second"

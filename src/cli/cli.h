@@ -114,6 +114,9 @@ typedef struct cli_source {
     hnbrdf_measured *measured;
 } cli_source;
 
+/* Which instructions models are evaluated with; all give the same bits. */
+extern cli_word cli_variant;
+
 /* Recognised by content. Returns 0, or CLI_FAILURE after a message. */
 int cli_open_source(const char *path, cli_source *source);
 void cli_close_source(cli_source *source);

@@ -214,6 +214,9 @@ int cmd_eval(int argc, char **argv)
          "read the pairs from FILE (default: standard input)"},
         {"output", 'o', CLI_TEXT, &out, 0, 0, "FILE",
          "write the values to FILE (default: standard output)"},
+        {"variant", 0, CLI_WORD, &cli_variant, 0, 0, "NAME",
+         "auto, plain, sse2, avx2, avx512 or neon: instructions to use, the same values "
+         "(default auto)"},
         CLI_READING_OPTIONS,
         CLI_SIGNED_OPTION,
         {0},

@@ -1,5 +1,6 @@
 /* sources.c: what DATA and SOURCE arguments name: built-in materials, measured files, models. */
 #include "cli/cli.h"
+#include "cli/words.h"
 
 #include "base/guess.h"
 
@@ -344,9 +345,12 @@ void cli_close_data(cli_data *data)
 
 /* ---- SOURCE ---------------------------------------------------------------------------------- */
 
+cli_word cli_variant = {HNBRDF_VARIANT_AUTO, cli_variant_word};
+
 int cli_open_source(const char *path, cli_source *source)
 {
     hnbrdf_error error;
+    const hnbrdf_load_options load = {.variant = (hnbrdf_variant)cli_variant.value};
     cli_source opened = {0};
     const char *builtin = builtin_name_in(path);
     int result;
@@ -358,7 +362,7 @@ int cli_open_source(const char *path, cli_source *source)
     else if (is_directory(path))
         return cli_fail("%s: a directory, expected one model or measured file", path);
     else if (looks_like_model(path) || has_extension(path, ".safetensors"))
-        result = hnbrdf_model_load(path, NULL, &opened.model, &error) == HNBRDF_OK
+        result = hnbrdf_model_load(path, &load, &opened.model, &error) == HNBRDF_OK
                      ? CLI_OK
                      : cli_fail("%s", error.text);
     else

@@ -23,6 +23,11 @@ const char *cli_encoding_word(int value)
     return hnbrdf_encoding_name((hnbrdf_encoding)value);
 }
 
+const char *cli_variant_word(int value)
+{
+    return hnbrdf_variant_name((hnbrdf_variant)value);
+}
+
 const char *cli_weights_word(int value)
 {
     return hnbrdf_glsl_weights_name((hnbrdf_glsl_weights)value);

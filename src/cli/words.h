@@ -6,6 +6,7 @@
 const char *cli_kind_word(int value);
 const char *cli_sampler_word(int value);
 const char *cli_encoding_word(int value);
+const char *cli_variant_word(int value);
 const char *cli_weights_word(int value);
 const char *cli_precision_word(int value);
 const char *cli_analytic_word(int value);
