@@ -478,7 +478,7 @@ static void bad_options_are_refused_with_a_message(void **state)
         {{.learning_rate = NAN}, "learning rate"},
         {{.seconds = -1.0}, "seconds"},
         {{.kind = (hnbrdf_kind)9}, "out of its range"},
-        {{.encoding = "angle"}, "no encoding is named \"angle\""},
+        {{.encoding = "angle"}, "encoding is angle, expected one of directions, "},
         {{.encoding = ""}, "no encoding is named \"\""},
         {{.batch = -5}, "batch"},
         {{.floor = -0.1f}, "floor"},

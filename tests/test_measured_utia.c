@@ -310,7 +310,7 @@ static void every_other_size_is_refused_naming_both(void **state)
     expect_wrong("m.bin", longer, FILE_SIZE + 1, HNBRDF_ERROR_FORMAT, "1990657 bytes, expected");
     expect_wrong("m.bin", longer, 0, HNBRDF_ERROR_FORMAT, "empty");
     expect_wrong("m.dat", longer, FILE_SIZE + 1, HNBRDF_ERROR_FORMAT,
-                 "or a UTIA .bin (1990656 bytes)");
+                 "a UTIA .bin (1990656 bytes)");
     free(longer);
 }
 
