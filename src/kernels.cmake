@@ -15,7 +15,8 @@ if(NOT MSVC)
     $<$<C_COMPILER_ID:GNU>:-fno-tree-pre> $<$<C_COMPILER_ID:GNU>:-fno-ipa-cp-clone>)
   set_source_files_properties(src/core/kernel_plain.c PROPERTIES COMPILE_OPTIONS "${_kernel_flags}")
   # What runs once a material, not once an evaluation, need not be unrolled.
-  set_source_files_properties(src/core/material.c src/core/pack.c PROPERTIES COMPILE_OPTIONS
+  set_source_files_properties(src/core/material.c src/core/pack.c src/core/sample.c
+    src/core/prepare.c PROPERTIES COMPILE_OPTIONS
     "$<$<CONFIG:Release>:-O2>")
   set_source_files_properties(src/fit/kernel.c src/fit/kernel_double.c PROPERTIES COMPILE_OPTIONS
     "${_fit_kernel_flags}")

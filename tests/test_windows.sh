@@ -66,4 +66,6 @@ timeout 240 wine "$scratch/test_core_variants.exe" 2> /dev/null | tr -d '\r' > "
 expected=$(sed -n 's/^plain //p' "$scratch/here")
 found=$(sed -n 's/^plain //p' "$scratch/there")
 [ -n "$expected" ] && [ "$found" = "$expected" ] || fail "values: $found, expected $expected"
-rm -rf "$scratch"
+wineserver -k 2> /dev/null || true # it would go on writing there
+timeout 20 wineserver -w 2> /dev/null || true
+rm -rf "$scratch" || { sleep 5; rm -rf "$scratch"; }

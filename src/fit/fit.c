@@ -269,7 +269,7 @@ static hnbrdf_result check_flags(const hnbrdf_fit_options *o, hnbrdf_error *erro
                                pairs[k].number, HNBRDF_NUMBER(pairs[k].value), pairs[k].flag);
     if (o->encoding && !hnbrdf_encoding_from_name(o->encoding, &encoding))
         return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT,
-                           "fit options: encoding is %.40s, expected one of %s", o->encoding,
+                           "fit options: encoding is \"%.40s\", expected one of %s", o->encoding,
                            HNBRDF_ENCODING_LIST);
     return HNBRDF_OK;
 }
