@@ -123,7 +123,7 @@ awk -F'\t' -v accepted="$accepted" '
 touch "$results" || fail "$results: cannot be written"
 awk -F'\t' -v results="$results" '
     BEGIN { while ((getline line < results) > 0) { split(line, f, "\t"); done[f[2], f[4], f[5], f[6]] = 1 } }
-    !(($1, $3, $4, $5) in done)' "$scratch/open" > "$scratch/todo"
+    !(($1, $3, $4, $5) in done)' "$scratch/open" > "$scratch/left"
 
 # ---- Building and testing ------------------------------------------------------------------------
 
@@ -205,7 +205,7 @@ known_tests() { # copy file
 
 # Which tests cover the files, and what to build for them.
 find_tests() { # copy
-    for file in $(cut -f1 "$scratch/todo" | sort -u); do
+    for file in $(cut -f1 "$scratch/left" | sort -u); do
         tests=$(known_tests "$1" "$file")
         [ -n "$tests" ] || { echo "$file: no test covers it: see tests/mutants_tests.txt" >&2; return 1; }
         echo "$tests" > "$1.tests.$(echo "$file" | tr / .)"
@@ -341,11 +341,11 @@ work() { # copy list
     done < "$2.apart"
 }
 
-if [ -s "$scratch/todo" ]; then
+if [ -s "$scratch/left" ]; then
     job=0
     while [ "$job" -lt "$jobs" ]; do
-        awk -v n="$jobs" -v k="$job" 'NR % n == k' "$scratch/todo" > "$scratch/todo.$job"
-        work "$scratch/tree.$job" "$scratch/todo.$job" &
+        awk -v n="$jobs" -v k="$job" 'NR % n == k' "$scratch/left" > "$scratch/left.$job"
+        work "$scratch/tree.$job" "$scratch/left.$job" &
         workers="$workers $!"
         job=$((job + 1))
     done

@@ -124,7 +124,7 @@ static void expect_network(const variant *v, const test_network *network)
     free(file.data);
 }
 
-/* Keras counts its layers over a session; a saved model holds its weights in a group. */
+/* Keras counts its layers over a run of the program; a saved model holds its weights in a group. */
 static void layers_are_found_whatever_they_are_called(void **state)
 {
     test_network network;
