@@ -382,9 +382,9 @@ HNBRDF_API float hnbrdf_pdf(const hnbrdf_model *model, const hnbrdf_material *ma
 
 /* The lobes with which samples of this material have the least variance under even light:
  * roughnesses and shares that minimise the sum over views of the integral of (f wi.z)^2 / pdf,
- * each view against its albedo. No share is under 1/64, so that no weight exceeds 64 pi f. Always
- * the same lobes for the same material; some tens of milliseconds. Memory comes from the model's
- * allocator. */
+ * each view against its albedo. No share is under 1/64, so that no weight exceeds 64 pi f. A
+ * material that is black everywhere gets none: all zeros. Always the same lobes for the same
+ * material; some tens of milliseconds. Memory comes from the model's allocator. */
 HNBRDF_EXPERIMENTAL hnbrdf_result hnbrdf_lobes_fit(const hnbrdf_model *model,
                                                    const hnbrdf_material *material,
                                                    hnbrdf_lobes *lobes, hnbrdf_error *error);
