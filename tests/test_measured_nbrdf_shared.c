@@ -20,7 +20,6 @@ extern const measured_reader hnbrdf_nbrdf_reader;
 
 static const char *shared;
 static char directory[64];
-static const double PI = 3.14159265358979323846;
 
 static hnbrdf_measured *open_path(const char *path)
 {
@@ -204,6 +203,7 @@ static void damaged_files_leave_no_message_at_exit(void **state)
 #endif
 
 #ifdef HNBRDF_NBRDF_TO_MERL
+static const double PI = 3.14159265358979323846;
 
 /* Every 7th bin of the table that the decoder writes, at the lower edges where it evaluates. The
  * same sums of floats: 1e-12 relative, but for the few inputs that round to another float there,
