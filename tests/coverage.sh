@@ -1,7 +1,10 @@
 #!/bin/sh
-# coverage.sh [--csv FILE] [--lines] [--least PERCENT]: which lines of src/ the tests run. Builds with gcc into
-# build/coverage (or $HNBRDF_COVERAGE_BUILD), runs ctest (about ten minutes), and prints the share of lines that
+# coverage.sh [--fuzz] [--csv FILE] [--lines] [--least PERCENT]: which lines of src/ the tests run. Builds with gcc
+# into build/coverage (or $HNBRDF_COVERAGE_BUILD), runs ctest (about ten minutes), and prints the share of lines that
 # ran by directory and by file, with the number of those that did not. Fails below 90 %, or PERCENT, overall.
+#   --fuzz       instead: which lines of the readers in tests/fuzz/readers.txt the fuzz corpus runs, that is seeds,
+#                regressions and generated files, without any other test (two minutes). Fails if one file is below
+#                95 %, or PERCENT.
 #   --csv FILE   also write the table as CSV: file,lines,covered,missed,percent; directories end in /, the last
 #                row is src/
 #   --lines      also print each line that did not run
@@ -12,7 +15,7 @@ set -eu
 cd "$(dirname "$0")/.."
 root=$PWD
 build=${HNBRDF_COVERAGE_BUILD:-$root/build/coverage}
-csv="" lines=0 least=90
+csv="" lines=0 least="" fuzz=0
 usage() {
     sed -n '2,/^set /s/^# //p' "$root/tests/coverage.sh"
 }
@@ -27,6 +30,7 @@ while [ $# -gt 0 ]; do
         shift
         ;;
     --lines) lines=1 ;;
+    --fuzz) fuzz=1 ;;
     -h | --help)
         usage
         exit 0
@@ -40,6 +44,13 @@ while [ $# -gt 0 ]; do
     shift
 done
 jobs=$(getconf _NPROCESSORS_ONLN 2> /dev/null || echo 2)
+target=all
+tests="-E ^(test_(exports|install|minimal|full_disk|races|compilers|glsl_languages)|test_machine_.*)"
+if [ $fuzz = 1 ]; then
+    target=hnbrdf_replays
+    tests="-R ^fuzz_"
+fi
+: "${least:=$((fuzz ? 95 : 90))}"
 mkdir -p "$build"
 
 # A compiler cache that makes paths relative would hide the sources from gcov.
@@ -47,7 +58,7 @@ unset CCACHE_BASEDIR
 {
     CC=gcc cmake -S . -B "$build" -DCMAKE_BUILD_TYPE=None -DCMAKE_C_FLAGS="-O1 --coverage -fprofile-abs-path" \
         -DHNBRDF_BUILD_FIT=ON -DHNBRDF_BUILD_CLI=ON -DHNBRDF_BUILD_TESTS=ON -DHNBRDF_BUILD_EXAMPLES=ON &&
-        cmake --build "$build" -j "$jobs"
+        cmake --build "$build" --target "$target" -j "$jobs"
 } > "$build/build.log" 2>&1 || {
     tail -n 20 "$build/build.log" >&2
     echo "coverage.sh: the build failed, all of it in $build/build.log" >&2
@@ -55,8 +66,8 @@ unset CCACHE_BASEDIR
 }
 find "$build" -name '*.gcda' -exec rm -f {} +
 failed=0
-ctest --test-dir "$build" -E '^(test_(exports|install|minimal|full_disk|races|compilers|glsl_languages)|test_machine_.*)' \
-    -j "$jobs" --timeout 1500 --output-on-failure || failed=1
+# shellcheck disable=SC2086 # two words
+ctest --test-dir "$build" $tests -j "$jobs" --timeout 1500 --output-on-failure || failed=1
 
 # Each line of src/ that was compiled, from all objects: FILE TAB NUMBER TAB RAN TAB TEXT.
 mkdir -p "$build/gcov"
@@ -76,6 +87,13 @@ find "$build" -name '*.gcda' > "$build/gcov/objects"
     }
     END { for (key in line) print key "\t" (ran[key] > 0) "\t" line[key] }' | sort -t "$(printf '\t')" -k1,1 -k2,2n \
     > "$build/gcov/lines"
+if [ $fuzz = 1 ]; then # the readers' own files
+    grep -v '^#' tests/fuzz/readers.txt | tr ' ' '\n' | grep '^src/' | sort -u > "$build/gcov/readers"
+    awk -F '\t' 'NR == FNR { reader[$1] = 1; next } $1 in reader { print; seen[$1] = 1 }
+        END { for (file in reader) if (!(file in seen)) print file "\t0\t0\tnot compiled or no such file" }' \
+        "$build/gcov/readers" "$build/gcov/lines" | sort -t "$(printf '\t')" -k1,1 -k2,2n > "$build/gcov/own"
+    mv "$build/gcov/own" "$build/gcov/lines"
+fi
 [ -s "$build/gcov/lines" ] || {
     echo "coverage.sh: gcov found no line of src/, see $build/gcov/gcov.log" >&2
     exit 1
@@ -103,7 +121,8 @@ fi
     echo "coverage.sh: tests failed" >&2
     exit 1
 }
-awk -F , -v least="$least" '$1 == "src/" && 100 * $3 / $2 < least {
-    print "coverage.sh: " $5 " % of the lines of src/ ran, expected at least " least " %" > "/dev/stderr"
-    exit 1
-}' "$build/gcov/table"
+awk -F , -v least="$least" -v fuzz=$fuzz '(fuzz ? $1 ~ /\.[ch]$/ : $1 == "src/") && 100 * $3 / $2 < least {
+    print "coverage.sh: " $5 " % of the lines of " $1 " ran, expected at least " least " %" > "/dev/stderr"
+    bad = 1
+}
+END { exit bad }' "$build/gcov/table"

@@ -53,7 +53,7 @@ static inline void fuzz_pair(int k, float wi[3], float wo[3])
 /* A block of exactly `size` bytes, so that a sanitizer sees a read behind it; never NULL. */
 static inline void *fuzz_copy(const void *data, size_t size)
 {
-    unsigned char *copy = malloc(size ? size : 1);
+    unsigned char *copy = size ? malloc(size) : calloc(1, 1);
     FUZZ_CHECK(copy != NULL);
     if (size)
         memcpy(copy, data, size);

@@ -1,11 +1,27 @@
-/* replay.c: runs a fuzz target over files and directories given as arguments, in byte order of
- * their names, with any compiler: what the fuzzer once found must never come back. */
+/* replay.c: runs a fuzz target with any compiler. Arguments:
+ *   PATH             a file, or a directory whose files are taken in byte order of their names
+ *   --generate N     files 0 to N - 1 of the target's generator
+ *   --print SEED     writes that file to standard output
+ * What the fuzzer once found must never come back. */
 #include "fuzz.h"
+#include "generate.h"
 
 #include <dirent.h>
 #include <sys/stat.h>
 
 static long replayed;
+
+/* A target may lack one. */
+extern fuzz_generator *const fuzz_target_generator __attribute__((weak));
+
+static void replay_bytes(const void *data, size_t size)
+{
+    uint8_t *copy = fuzz_copy(data, size);
+    LLVMFuzzerTestOneInput(copy, size);
+    FUZZ_CHECK(size == 0 || memcmp(copy, data, size) == 0);
+    free(copy);
+    replayed++;
+}
 
 static void replay_file(const char *path)
 {
@@ -18,12 +34,32 @@ static void replay_file(const char *path)
     fclose(file);
     printf("%s\n", path); /* the last line of a run that ends badly names its cause */
     fflush(stdout);
-    uint8_t *copy = fuzz_copy(data, size);
-    LLVMFuzzerTestOneInput(copy, size);
-    FUZZ_CHECK(size == 0 || memcmp(copy, data, size) == 0);
-    free(copy);
+    replay_bytes(data, size);
     free(data);
-    replayed++;
+}
+
+/* A generated file that ends badly ends as the core or the sanitizer says; its number is printed
+ * first. */
+static void replay_generated(const char *count)
+{
+    const long most = strtol(count, NULL, 10);
+    FUZZ_CHECK(most > 0 && &fuzz_target_generator != NULL);
+    for (long seed = 0; seed < most; seed++) {
+        fuzz_bytes made = {0};
+        fuzz_generate(fuzz_target_generator, (uint64_t)seed, &made);
+        printf("--generate: %ld\n", seed);
+        fflush(stdout);
+        replay_bytes(made.data, made.size);
+        free(made.data);
+    }
+}
+
+static void print_generated(const char *seed)
+{
+    fuzz_bytes made = {0};
+    fuzz_generate(fuzz_target_generator, strtoull(seed, NULL, 10), &made);
+    FUZZ_CHECK(made.size == 0 || fwrite(made.data, 1, made.size, stdout) == made.size);
+    free(made.data);
 }
 
 static int by_name(const struct dirent **a, const struct dirent **b)
@@ -60,8 +96,16 @@ static void replay(const char *path)
 
 int main(int argc, char **argv)
 {
-    for (int i = 1; i < argc; i++)
-        replay(argv[i]);
+    for (int i = 1; i < argc; i++) {
+        if (i + 1 < argc && strcmp(argv[i], "--print") == 0) {
+            print_generated(argv[i + 1]);
+            return 0;
+        }
+        if (i + 1 < argc && strcmp(argv[i], "--generate") == 0)
+            replay_generated(argv[++i]);
+        else
+            replay(argv[i]);
+    }
     printf("%ld inputs\n", replayed);
     return replayed > 0 ? 0 : 1;
 }
