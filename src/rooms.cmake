@@ -6,13 +6,13 @@ function(hnbrdf_room name)
 endfunction()
 
 hnbrdf_room(base
-  clock.c csv.c files.c files_posix.c files_windows.c guess.c interrupt.c json.c probe.c
+  clock.c csv.c files.c files_posix.c files_windows.c foreign.c guess.c interrupt.c json.c probe.c
   text.c text_buffer.c threads.c write.c)
 # Each file of base that an installed library needs is in exactly one of the static ones: here what
 # libhnbrdf, libhnbrdf_fit and libhnbrdf_bake hold. Shared libraries take what they need from
 # hnbrdf_base and hide it.
 set(HNBRDF_BASE_HNBRDF src/base/files.c src/base/files_posix.c src/base/files_windows.c
-  src/base/guess.c src/base/json.c src/base/text.c)
+  src/base/foreign.c src/base/guess.c src/base/json.c src/base/text.c)
 set(HNBRDF_BASE_FIT src/base/clock.c src/base/threads.c)
 set(HNBRDF_BASE_BAKE src/base/probe.c)
 hnbrdf_room(core
@@ -20,7 +20,7 @@ hnbrdf_room(core
   names.c strerror.c variant.c)
 hnbrdf_room(model check_name.c choose_kernel.c create.c)
 hnbrdf_room(file
-  decode.c load.c safetensors.c save.c)
+  decode.c load.c numbers.c safetensors.c save.c)
 hnbrdf_room(import
   brdf_network.c brdf_text.c import_brdf.c)
 hnbrdf_room(glsl

@@ -224,8 +224,8 @@ static void spoiled_tensors_are_named(void **state)
     expect_replaced("material.latent", "material.z", HNBRDF_ERROR_FORMAT,
                     "material.latent is missing");
     expect_replaced("material.rotation", "material.theta", HNBRDF_OK, NULL);
-    expect_replaced("F32", "F16", HNBRDF_ERROR_UNSUPPORTED,
-                    "net.0.weight: dtype is F16, expected F32");
+    expect_replaced("F32", "F16", HNBRDF_ERROR_FORMAT,
+                    "span 128 bytes, expected 64 for 32 numbers of 2 bytes");
     expect_replaced("\"F32\"", "32", HNBRDF_ERROR_FORMAT, "found '3', expected '\"'");
     expect_replaced("\"dtype\":\"F32\",", "", HNBRDF_ERROR_FORMAT, "has no dtype");
     expect_replaced("\"dtype\"", "\"shape\":[4,8],\"dtype\"", HNBRDF_ERROR_FORMAT,

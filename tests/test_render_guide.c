@@ -18,7 +18,7 @@ static render_environment sky;
 static int open_all(void **state)
 {
     (void)state;
-    return render_guide_model(&ggx, NULL) || render_environment_open("sky", 0.0, &sky, NULL);
+    return render_guide_model(&ggx, NULL) || render_environment_open("sky", 0.0, NULL, &sky, NULL);
 }
 
 static int close_all(void **state)

@@ -276,7 +276,7 @@ static void white_diffuse_sphere_under_the_sky_is_near_one(void **state)
 {
     (void)state;
     render_environment sky;
-    assert_int_equal(render_environment_open("sky", 0.0, &sky, NULL), HNBRDF_OK);
+    assert_int_equal(render_environment_open("sky", 0.0, NULL, &sky, NULL), HNBRDF_OK);
     double facing = 0.0, peak = 0.0;
     for (int y = 0; y < sky.height; y++)
         for (int x = 0; x < sky.width; x++) {

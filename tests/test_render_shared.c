@@ -20,7 +20,7 @@ static hnbrdf_result open_map(const char *name, render_environment *environment,
 {
     char path[600];
     snprintf(path, sizeof path, "%s/data/env/%s", shared, name);
-    return render_environment_open(path, 0.0, environment, error);
+    return render_environment_open(path, 0.0, NULL, environment, error);
 }
 
 static void radiance_maps_of_the_wild_are_read(void **state)

@@ -25,7 +25,7 @@ static int open_lights(void **state)
     hnbrdf_model_desc desc = {
         .kind = HNBRDF_KIND_GGX, .material_count = 1, .materials = &material, .names = &name};
     if (hnbrdf_model_create(&desc, NULL, &ggx, NULL) ||
-        render_environment_open("sky", 0.0, &sky, NULL) ||
+        render_environment_open("sky", 0.0, NULL, &sky, NULL) ||
         render_image_create(8, 4, 0, &image, NULL))
         return -1;
     for (int i = 0; i < 3 * 8 * 4; i++)

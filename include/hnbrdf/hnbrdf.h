@@ -112,6 +112,14 @@ typedef struct hnbrdf_error {
     char text[384];
 } hnbrdf_error;
 
+/* Where a reader tells what it converted, clamped or left aside of an input that it takes all the
+ * same: `note` is called once for each kind, with one line for a person like that of an
+ * hnbrdf_error, which is gone after the call. All zeros: nobody is told. */
+typedef struct hnbrdf_notes {
+    void (*note)(void *user, const char *line);
+    void *user;
+} hnbrdf_notes;
+
 /* ---- Materials ------------------------------------------------------------------------------- */
 
 /* Where hnbrdf_sample() looks for light besides the cosine lobe: two GGX lobes about the mirror
@@ -264,6 +272,7 @@ typedef struct hnbrdf_load_options {
     hnbrdf_read_fn read; /* if set, bytes come from here and `path` is only a name for messages */
     void *read_user;
     hnbrdf_variant variant;
+    hnbrdf_notes notes; /* told of tensors that were converted */
 } hnbrdf_load_options;
 
 /* Build a model from a description; everything is checked and copied. allocator may be NULL. A
@@ -273,7 +282,9 @@ HNBRDF_API hnbrdf_result hnbrdf_model_create(const hnbrdf_model_desc *desc,
                                              hnbrdf_model **model, hnbrdf_error *error);
 
 /* Read a model file (safetensors with hnbrdf metadata, see src/README.md, "Model files"). options
- * may be NULL. A file is read whole, every size is checked against the bytes that are there. */
+ * may be NULL. A file is read whole, every size is checked against the bytes that are there.
+ * Tensors of type F16, BF16 or F64 become float, rounded to nearest; one that is beyond the range
+ * of float is refused, and so is every other type. */
 HNBRDF_API hnbrdf_result hnbrdf_model_load(const char *path, const hnbrdf_load_options *options,
                                            hnbrdf_model **model, hnbrdf_error *error);
 HNBRDF_API hnbrdf_result hnbrdf_model_load_memory(const void *data, size_t size,

@@ -212,7 +212,7 @@ static hnbrdf_result compare_spheres(quality *q, int m, render_surface *surfaces
 
 static hnbrdf_result measure_psnr(quality *q, hnbrdf_error *error)
 {
-    hnbrdf_result result = render_environment_open("sky", 0.0, &q->environment, error);
+    hnbrdf_result result = render_environment_open("sky", 0.0, NULL, &q->environment, error);
     if (!result)
         result = render_guide_model(&q->guide, error);
     if (result)

@@ -42,6 +42,12 @@ void cli_warn(const char *format, ...)
     va_end(arguments);
 }
 
+void cli_note(void *user, const char *line)
+{
+    (void)user;
+    cli_warn("%s", line);
+}
+
 int cli_usage(const cli_command *command, const char *format, ...)
 {
     char before[32];

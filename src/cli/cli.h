@@ -64,6 +64,12 @@ int cli_usage(const cli_command *command, const char *format, ...)
 int cli_fail(const char *format, ...) __attribute__((format(printf, 1, 2)));
 /* The same after "hnbrdf: warning: ". */
 void cli_warn(const char *format, ...) __attribute__((format(printf, 1, 2)));
+/* Warns of what a reader tells: the function of an hnbrdf_notes. */
+void cli_note(void *user, const char *line);
+#define CLI_NOTES      \
+    {                  \
+        cli_note, NULL \
+    }
 
 /* HxN, as in 32x2, at the start of text: H units in each of N hidden layers. Returns where it ends,
  * NULL if it is none or too large; net is then untouched. */
@@ -124,7 +130,9 @@ void cli_close_source(cli_source *source);
  * whose name must then be `name` or name NULL. -1 after a message. */
 int cli_choose_source_material(const cli_source *source, const char *name);
 
-/* A model file and nothing else. Returns 0, or CLI_FAILURE after a message. */
+/* Loads a file that must be a model. Returns 0, or CLI_FAILURE after a message. */
+int cli_load_model(const char *path, hnbrdf_model **model);
+/* The same, and says of measured data that they are none. Returns 0, or CLI_FAILURE after a message. */
 int cli_open_model(const char *path, hnbrdf_model **model);
 /* The message for a new name that a material of the model has; returns CLI_FAILURE. */
 int cli_fail_name_taken(const char *path, const char *name);

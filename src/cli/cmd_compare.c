@@ -115,7 +115,7 @@ int cmd_compare(int argc, char **argv)
     cli_word sampler = {HNBRDF_SAMPLER_GRID, cli_sampler_word};
     int skip_missing = 0, images = 0, count;
     long threads = 0;
-    compare_images_options pictures = {0};
+    compare_images_options pictures = {.notes = CLI_NOTES};
     const cli_option options[] = {
         {"sampler", 0, CLI_WORD, &sampler, 0, 0, "NAME", "uniform, cosine or grid (default grid)"},
         {"pairs", 'n', CLI_INT, &j.pairs, 1, 1e10, "N",

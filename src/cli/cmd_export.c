@@ -263,9 +263,9 @@ int cmd_export(int argc, char **argv)
     if (set.texels && set.pack < 0)
         return cli_usage(&command, "--texels without --pack half or --pack byte");
     hnbrdf_model *model = NULL;
-    hnbrdf_error error;
-    if (hnbrdf_model_load(argv[1], NULL, &model, &error))
-        return cli_fail("%s", error.text);
+    result = cli_load_model(argv[1], &model);
+    if (result != CLI_OK)
+        return result;
     int *materials = NULL, chosen = 0;
     result = cli_choose_materials(model, set.materials, &materials, &chosen);
     float *energy = NULL;

@@ -78,9 +78,9 @@ int cmd_lobes(int argc, char **argv)
     if (show && output)
         return cli_usage(&command, "--show writes no model: leave out -o");
     hnbrdf_model *model;
-    hnbrdf_error error;
-    if (hnbrdf_model_load(argv[1], NULL, &model, &error) != HNBRDF_OK)
-        return cli_fail("%s", error.text);
+    result = cli_load_model(argv[1], &model);
+    if (result != CLI_OK)
+        return result;
     result = run(&model, schemes[scheme], show, csv, output ? output : argv[1]);
     hnbrdf_model_free(model);
     return result;

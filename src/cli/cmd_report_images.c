@@ -132,11 +132,10 @@ static int run(report *r, char **arguments, int count)
 /* The grid is the one model in this file. Returns -1 to go on, as cli_parse() does. */
 static int describe_given(report *r)
 {
-    hnbrdf_error error;
     hnbrdf_model *model;
     hnbrdf_model_desc desc;
-    if (hnbrdf_model_load(r->given, NULL, &model, &error) != HNBRDF_OK)
-        return cli_fail("%s", error.text);
+    if (cli_load_model(r->given, &model) != CLI_OK)
+        return CLI_FAILURE;
     hnbrdf_model_describe(model, &desc);
     hnbrdf_model_free(model);
     if (desc.kind == HNBRDF_KIND_GGX)

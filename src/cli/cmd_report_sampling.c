@@ -119,11 +119,9 @@ static int run(sampling_report *r)
 static int open_models(sampling_report *r, char *const *paths, int count, long most, long strips)
 {
     hnbrdf_model **models = calloc((size_t)count, sizeof *models);
-    hnbrdf_error error;
     int code = models ? CLI_OK : cli_fail("out of memory");
     for (int k = 0; k < count && code == CLI_OK; k++)
-        if (hnbrdf_model_load(paths[k], NULL, &models[k], &error) != HNBRDF_OK)
-            code = cli_fail("%s", error.text);
+        code = cli_load_model(paths[k], &models[k]);
     if (code == CLI_OK)
         code = choose_subjects(r, models, paths, count, most, strips);
     if (code == CLI_OK)

@@ -59,8 +59,8 @@ static int run_model(const char *path, const settings *set, contest *c, stabilit
     cli_progress progress;
     const stability_options options = {
         .blocks = (int)set->blocks, .progress = on_progress, .progress_user = &progress};
-    if (hnbrdf_model_load(path, NULL, &model, &error) != HNBRDF_OK)
-        return cli_fail("%s", error.text);
+    if (cli_load_model(path, &model) != CLI_OK)
+        return CLI_FAILURE;
     result->path = path;
     result->backend_count = c->count;
     result->rows =

@@ -171,9 +171,8 @@ static int verify_model(gpu_instance *instance, const settings *set, const char 
                       .precision = (hnbrdf_glsl_precision)set->precision.value};
     int first, *materials = NULL;
     hnbrdf_model *model = NULL;
-    hnbrdf_error error;
-    if (hnbrdf_model_load(path, NULL, &model, &error))
-        return cli_fail("%s", error.text);
+    if (cli_load_model(path, &model) != CLI_OK)
+        return CLI_FAILURE;
     v.model = model;
     int result = choose_devices(instance, set->device, &first, &v.device_count);
     if (result < 0)

@@ -11,9 +11,9 @@
 
 typedef report_light picture_options;
 
-#define PICTURE_DEFAULTS(samples)                                  \
-    {                                                              \
-        .env = "sky", .exposure = NAN, .spp = (samples), .seed = 1 \
+#define PICTURE_DEFAULTS(samples)                                                      \
+    {                                                                                  \
+        .env = "sky", .exposure = NAN, .spp = (samples), .seed = 1, .notes = CLI_NOTES \
     }
 
 /* Rows of a cli_option table for a picture_options named p. */

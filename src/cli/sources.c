@@ -347,10 +347,17 @@ void cli_close_data(cli_data *data)
 
 cli_word cli_variant = {HNBRDF_VARIANT_AUTO, cli_variant_word};
 
-int cli_open_source(const char *path, cli_source *source)
+int cli_load_model(const char *path, hnbrdf_model **model)
 {
     hnbrdf_error error;
-    const hnbrdf_load_options load = {.variant = (hnbrdf_variant)cli_variant.value};
+    const hnbrdf_load_options load = {.variant = (hnbrdf_variant)cli_variant.value,
+                                      .notes = CLI_NOTES};
+    return hnbrdf_model_load(path, &load, model, &error) == HNBRDF_OK ? CLI_OK
+                                                                      : cli_fail("%s", error.text);
+}
+
+int cli_open_source(const char *path, cli_source *source)
+{
     cli_source opened = {0};
     const char *builtin = builtin_name_in(path);
     int result;
@@ -362,9 +369,7 @@ int cli_open_source(const char *path, cli_source *source)
     else if (is_directory(path))
         return cli_fail("%s: a directory, expected one model or measured file", path);
     else if (looks_like_model(path) || has_extension(path, ".safetensors"))
-        result = hnbrdf_model_load(path, &load, &opened.model, &error) == HNBRDF_OK
-                     ? CLI_OK
-                     : cli_fail("%s", error.text);
+        result = cli_load_model(path, &opened.model);
     else
         result = open_measured_file(path, &opened.measured);
     if (result == CLI_OK)

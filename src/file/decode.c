@@ -17,6 +17,7 @@ typedef struct loading {
     hnbrdf_allocator memory;
     hnbrdf_error *error;
     const hnbrdf_safetensors *file;
+    const hnbrdf_notes *notes;
     hnbrdf_model_desc desc;
     char *text; /* of the names */
     const char **names;
@@ -291,16 +292,20 @@ static hnbrdf_result check_tensors(const loading *l)
 /* Numbers [first, first + count) of a tensor. */
 static hnbrdf_result decode(const loading *l, int tensor, size_t first, size_t count, float *to)
 {
-    const unsigned char *bytes = l->file->data + l->file->tensors[tensor].begin + 4 * first;
-    for (size_t i = 0; i < count; ++i, bytes += 4) {
-        const uint32_t bits = (uint32_t)bytes[0] | (uint32_t)bytes[1] << 8 |
-                              (uint32_t)bytes[2] << 16 | (uint32_t)bytes[3] << 24;
-        memcpy(&to[i], &bits, sizeof bits);
+    const hnbrdf_tensor *t = &l->file->tensors[tensor];
+    const size_t size = hnbrdf_number_size(t->type);
+    const unsigned char *bytes = l->file->data + t->begin + size * first;
+    for (size_t i = 0; i < count; ++i, bytes += size) {
+        const double exact = hnbrdf_number_read(t->type, bytes);
+        to[i] = (float)exact;
         if (!isfinite(to[i])) {
             return hnbrdf_fail(l->error, HNBRDF_ERROR_FORMAT,
-                               "%s: tensor %s holds %s at index %zu, expected finite numbers",
+                               "%s: tensor %s holds %s at index %zu, expected finite numbers%s",
                                l->path, hnbrdf_tensor_names[tensor],
-                               isnan(to[i]) ? "nan" : "an infinity", first + i);
+                               isnan(exact)   ? "nan"
+                               : isinf(exact) ? "an infinity"
+                                              : HNBRDF_NUMBER(exact),
+                               first + i, isfinite(exact) ? " that fit in F32" : "");
         }
     }
     return HNBRDF_OK;
@@ -308,7 +313,25 @@ static hnbrdf_result decode(const loading *l, int tensor, size_t first, size_t c
 
 static size_t number_count(const hnbrdf_tensor *t)
 {
-    return (size_t)((t->end - t->begin) / 4);
+    return (size_t)((t->end - t->begin) / hnbrdf_number_size(t->type));
+}
+
+/* One line for all tensors that are not F32. */
+static void tell_converted(const loading *l)
+{
+    int present = 0, converted = 0, first = 0;
+    for (int i = HNBRDF_TENSOR_COUNT - 1; i >= 0; --i) {
+        const hnbrdf_tensor *t = &l->file->tensors[i];
+        const int is_other = t->present && t->type != HNBRDF_NUMBER_F32;
+        present += t->present;
+        converted += is_other;
+        first = is_other ? i : first;
+    }
+    if (converted > 0) {
+        hnbrdf_note(l->notes, "%s: %d of %d tensors were converted to F32, the first %s from %s",
+                    l->path, converted, present, hnbrdf_tensor_names[first],
+                    hnbrdf_number_name(l->file->tensors[first].type));
+    }
 }
 
 static hnbrdf_result read_weights(loading *l)
@@ -366,9 +389,10 @@ static hnbrdf_result read_model(loading *l)
 
 hnbrdf_result hnbrdf_safetensors_decode(const char *path, const hnbrdf_safetensors *file,
                                         const hnbrdf_allocator *allocator, hnbrdf_variant variant,
-                                        hnbrdf_model **model, hnbrdf_error *error)
+                                        const hnbrdf_notes *notes, hnbrdf_model **model,
+                                        hnbrdf_error *error)
 {
-    loading l = {.path = path, .memory = *allocator, .error = error, .file = file};
+    loading l = {.path = path, .memory = *allocator, .error = error, .file = file, .notes = notes};
     hnbrdf_result result = read_model(&l);
     if (!result) {
         hnbrdf_error inner;
@@ -378,6 +402,8 @@ hnbrdf_result hnbrdf_safetensors_decode(const char *path, const hnbrdf_safetenso
             /* What a caller must not pass is here what the file must not hold. */
             result = result == HNBRDF_ERROR_ARGUMENT ? HNBRDF_ERROR_FORMAT : result;
             hnbrdf_fail(error, result, "%s: %s", path, inner.text);
+        } else {
+            tell_converted(&l);
         }
     }
     hnbrdf_release(allocator, l.text);

@@ -17,6 +17,7 @@ typedef struct source {
     const char *path;
     hnbrdf_allocator memory;
     hnbrdf_variant variant;
+    hnbrdf_notes notes;
     size_t max_bytes;
     hnbrdf_read_fn read;
     void *read_user;
@@ -82,15 +83,15 @@ static hnbrdf_result load_bytes(const source *s, const unsigned char *bytes, siz
     hnbrdf_safetensors file;
     const hnbrdf_result result =
         hnbrdf_safetensors_read(s->path, bytes, size, &s->memory, &file, s->error);
-    return result
-               ? result
-               : hnbrdf_safetensors_decode(s->path, &file, &s->memory, s->variant, model, s->error);
+    return result ? result
+                  : hnbrdf_safetensors_decode(s->path, &file, &s->memory, s->variant, &s->notes,
+                                              model, s->error);
 }
 
 static hnbrdf_result begin(const char *path, const hnbrdf_load_options *options,
                            hnbrdf_model **model, hnbrdf_error *error, source *s)
 {
-    const hnbrdf_load_options defaults = {{NULL, NULL, NULL}, 0, NULL, NULL, HNBRDF_VARIANT_AUTO};
+    static const hnbrdf_load_options defaults;
     const hnbrdf_load_options *chosen = options ? options : &defaults;
     const hnbrdf_kernel *kernel;
     hnbrdf_result result;
@@ -98,6 +99,7 @@ static hnbrdf_result begin(const char *path, const hnbrdf_load_options *options,
     s->max_bytes = chosen->max_bytes ? chosen->max_bytes : DEFAULT_MAX_BYTES;
     s->read = chosen->read;
     s->read_user = chosen->read_user;
+    s->notes = chosen->notes;
     s->error = error;
     if (!model) {
         return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT,

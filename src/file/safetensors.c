@@ -3,6 +3,7 @@
  */
 #include "file/safetensors.h"
 
+#include "base/foreign.h"
 #include "base/memory.h"
 #include "base/sort.h"
 
@@ -151,7 +152,8 @@ static void read_numbers(hnbrdf_json *json, numbers *list)
 
 /* Where a tensor lies and, if it is one of ours, that its type and size are right. */
 static hnbrdf_result check_tensor(const header *h, hnbrdf_json_text name, int known,
-                                  hnbrdf_json_text dtype, const numbers *shape, const extent *place)
+                                  hnbrdf_json_text dtype, const numbers *shape, const extent *place,
+                                  hnbrdf_number_type *type)
 {
     if (place->begin > place->end || place->end > h->data_size) {
         return hnbrdf_fail(
@@ -161,7 +163,7 @@ static hnbrdf_result check_tensor(const header *h, hnbrdf_json_text name, int kn
             h->path, hnbrdf_json_shown(name), name.begin, (unsigned long long)place->begin,
             (unsigned long long)place->end, (unsigned long long)h->data_size);
     }
-    if (shape->overflow || (known >= 0 && shape->product > UINT64_MAX / sizeof(float))) {
+    if (shape->overflow || (known >= 0 && shape->product > UINT64_MAX / sizeof(double))) {
         return hnbrdf_fail(
             h->error, HNBRDF_ERROR_FORMAT,
             "%s: tensor %.*s: the product of its shape is above 2^64, expected the size "
@@ -171,19 +173,21 @@ static hnbrdf_result check_tensor(const header *h, hnbrdf_json_text name, int kn
     }
     if (known < 0)
         return HNBRDF_OK;
-    if (!hnbrdf_json_equals(dtype, "F32")) {
-        return hnbrdf_fail(
-            h->error, HNBRDF_ERROR_UNSUPPORTED, "%s: tensor %.*s: dtype is %.*s, expected F32",
-            h->path, hnbrdf_json_shown(name), name.begin, hnbrdf_json_shown(dtype), dtype.begin);
+    if (!hnbrdf_number_type_find(dtype, type)) {
+        return hnbrdf_fail(h->error, HNBRDF_ERROR_UNSUPPORTED,
+                           "%s: tensor %.*s: dtype is %.*s, expected " HNBRDF_NUMBER_TYPES, h->path,
+                           hnbrdf_json_shown(name), name.begin, hnbrdf_json_shown(dtype),
+                           dtype.begin);
     }
-    if (shape->product * sizeof(float) != place->end - place->begin) {
+    const uint64_t size = (uint64_t)hnbrdf_number_size(*type);
+    if (shape->product * size != place->end - place->begin) {
         return hnbrdf_fail(h->error, HNBRDF_ERROR_FORMAT,
                            "%s: tensor %.*s: data_offsets span %llu bytes, expected %llu for %llu "
-                           "numbers of 4 bytes",
+                           "numbers of %llu bytes",
                            h->path, hnbrdf_json_shown(name), name.begin,
                            (unsigned long long)(place->end - place->begin),
-                           (unsigned long long)(shape->product * sizeof(float)),
-                           (unsigned long long)shape->product);
+                           (unsigned long long)(shape->product * size),
+                           (unsigned long long)shape->product, (unsigned long long)size);
     }
     return HNBRDF_OK;
 }
@@ -255,7 +259,7 @@ static hnbrdf_result read_tensor(header *h, hnbrdf_json_text name)
     if ((result = read_fields(h, name, &dtype, &shape, &offsets)))
         return result;
     const extent place = {range[0], range[1]};
-    if ((result = check_tensor(h, name, known, dtype, &shape, &place)))
+    if ((result = check_tensor(h, name, known, dtype, &shape, &place, &tensor.type)))
         return result;
     h->extents[h->extent_count++] = place;
     if (known < 0)
@@ -334,10 +338,15 @@ static hnbrdf_result read_length(const char *path, const unsigned char *bytes, s
                                  size_t *length, hnbrdf_error *error)
 {
     uint64_t value = 0;
+    const char *foreign = hnbrdf_foreign_file(bytes, size);
     if (size < 8) {
         return hnbrdf_fail(error, HNBRDF_ERROR_FORMAT,
                            "%s: has %zu bytes, expected a safetensors file: 8 bytes and a header",
                            path, size);
+    }
+    if (foreign) {
+        return hnbrdf_fail(error, HNBRDF_ERROR_FORMAT, "%s: %s, expected a safetensors file", path,
+                           foreign);
     }
     for (int i = 7; i >= 0; --i)
         value = value << 8 | bytes[i];

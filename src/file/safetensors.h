@@ -5,6 +5,7 @@
 
 #include "core/model.h"
 #include "base/json.h"
+#include "file/numbers.h"
 
 #define HNBRDF_FILE_FORMAT "hnbrdf/1"
 
@@ -43,7 +44,8 @@ enum { HNBRDF_TENSOR_RANK = 4 }; /* dimensions that are kept of any tensor, for 
 typedef struct hnbrdf_tensor {
     int present, rank; /* rank may be larger than HNBRDF_TENSOR_RANK */
     uint64_t shape[HNBRDF_TENSOR_RANK];
-    uint64_t begin, end; /* bytes of data[]; 4 times the product of the shape between them */
+    hnbrdf_number_type type;
+    uint64_t begin, end; /* bytes of data[]; as many numbers as the product of the shape */
 } hnbrdf_tensor;
 
 /* A file's header. Everything points into the bytes it was read from. */
@@ -59,9 +61,10 @@ hnbrdf_result hnbrdf_safetensors_read(const char *path, const unsigned char *byt
                                       const hnbrdf_allocator *allocator, hnbrdf_safetensors *file,
                                       hnbrdf_error *error);
 
-/* Makes a model of it; all numbers are decoded and checked. */
+/* Makes a model of it; all numbers are decoded and checked. Tells `notes` if some were converted. */
 hnbrdf_result hnbrdf_safetensors_decode(const char *path, const hnbrdf_safetensors *file,
                                         const hnbrdf_allocator *allocator, hnbrdf_variant variant,
-                                        hnbrdf_model **model, hnbrdf_error *error);
+                                        const hnbrdf_notes *notes, hnbrdf_model **model,
+                                        hnbrdf_error *error);
 
 #endif

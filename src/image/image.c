@@ -14,9 +14,10 @@ static size_t settle(size_t given, size_t most)
 
 render_limits render_limits_settle(const render_limits *limits)
 {
-    const render_limits none = {0, 0}, *given = limits ? limits : &none;
+    static const render_limits none;
+    const render_limits *given = limits ? limits : &none;
     return (render_limits){settle(given->max_bytes, RENDER_MAX_FILE),
-                           settle(given->max_pixels, RENDER_MAX_PIXELS)};
+                           settle(given->max_pixels, RENDER_MAX_PIXELS), given->notes};
 }
 
 hnbrdf_result render_image_create(int width, int height, int alpha, render_image *image,

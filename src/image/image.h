@@ -15,8 +15,9 @@
  * taken as the default. Memory while reading is at most the file, 32 bytes a pixel, and 16 bytes
  * times max_pixels for one block of compressed lines. */
 typedef struct render_limits {
-    size_t max_bytes;  /* of the file; 0 stands for RENDER_MAX_FILE */
-    size_t max_pixels; /* of the picture; 0 stands for RENDER_MAX_PIXELS */
+    size_t max_bytes;   /* of the file; 0 stands for RENDER_MAX_FILE */
+    size_t max_pixels;  /* of the picture; 0 stands for RENDER_MAX_PIXELS */
+    hnbrdf_notes notes; /* told of what was converted or passed over */
 } render_limits;
 
 /* A further RGB picture of the same size inside an image; EXR channels NAME.R, NAME.G, NAME.B. */

@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "base/files.h"
+#include "base/foreign.h"
 
 #include <errno.h>
 #include <stdlib.h>
@@ -36,6 +37,14 @@ hnbrdf_result render_file_read(const char *path, size_t limit, render_bytes *byt
     return result;
 }
 
+static hnbrdf_result fail_foreign(const char *path, const render_bytes *bytes, hnbrdf_error *error)
+{
+    const char *foreign = hnbrdf_foreign_file(bytes->data, bytes->size);
+    return hnbrdf_fail(error, HNBRDF_ERROR_FORMAT,
+                       "%s: %s%sneither OpenEXR nor Radiance .hdr (%zu bytes)", path,
+                       foreign ? foreign : "", foreign ? "; " : "", bytes->size);
+}
+
 hnbrdf_result render_image_read(const char *path, const render_limits *limits, render_image *image,
                                 hnbrdf_error *error)
 {
@@ -49,9 +58,7 @@ hnbrdf_result render_image_read(const char *path, const render_limits *limits, r
         else if (bytes.size >= 2 && memcmp(bytes.data, "#?", 2) == 0)
             result = render_radiance_decode(bytes.data, bytes.size, path, limits, image, error);
         else
-            result =
-                hnbrdf_fail(error, HNBRDF_ERROR_FORMAT,
-                            "%s: neither OpenEXR nor Radiance .hdr (%zu bytes)", path, bytes.size);
+            result = fail_foreign(path, &bytes, error);
     }
     free(bytes.data);
     return result;

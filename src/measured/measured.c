@@ -4,6 +4,7 @@
 #include "measured/format.h"
 #include "measured/read_file.h"
 #include "base/error.h"
+#include "base/foreign.h"
 #include "base/text.h"
 
 #include <math.h>
@@ -104,8 +105,10 @@ static hnbrdf_result unrecognised(const measured_file *file, hnbrdf_error *error
 {
     char expected[sizeof error->text], start[3 * 12 + 1] = "";
     hnbrdf_measured_expected(expected, sizeof expected);
-    if (file->size == 0)
-        return hnbrdf_fail(error, HNBRDF_ERROR_FORMAT, "%s: empty, %s", file->label, expected);
+    const char *foreign = hnbrdf_foreign_file(file->bytes, file->size);
+    if (file->size == 0 || foreign)
+        return hnbrdf_fail(error, HNBRDF_ERROR_FORMAT, "%s: %s, %s", file->label,
+                           foreign ? foreign : "empty", expected);
     for (size_t i = 0; i < 12 && i < file->size; i++)
         snprintf(start + 3 * i, sizeof start - 3 * i, " %02x", file->bytes[i]);
     return hnbrdf_fail(error, HNBRDF_ERROR_FORMAT, "%s: %zu bytes starting with%s, %s", file->label,

@@ -129,13 +129,14 @@ static hnbrdf_result make_furnace(render_image *image, hnbrdf_error *error)
 }
 
 hnbrdf_result render_environment_open(const char *source, double rotation,
-                                      render_environment *environment, hnbrdf_error *error)
+                                      const render_limits *limits, render_environment *environment,
+                                      hnbrdf_error *error)
 {
     render_image image = {0};
     hnbrdf_result result = strcmp(source, "sky") == 0 ? render_sky(&image, error)
                            : strcmp(source, "furnace") == 0
                                ? make_furnace(&image, error)
-                               : render_image_read(source, NULL, &image, error);
+                               : render_image_read(source, limits, &image, error);
     if (result == HNBRDF_OK)
         result = render_environment_create(&image, rotation, source, environment, error);
     render_image_free(&image);

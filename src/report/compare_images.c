@@ -48,10 +48,11 @@ static hnbrdf_result check_values(const picture *p, hnbrdf_error *error)
                        (double)rgb[0], (double)rgb[1], (double)rgb[2]);
 }
 
-static hnbrdf_result read_picture(picture *p, const char *path, hnbrdf_error *error)
+static hnbrdf_result read_picture(const job *j, picture *p, const char *path, hnbrdf_error *error)
 {
+    const render_limits limits = {.notes = j->options->notes};
     p->path = path;
-    hnbrdf_result result = render_image_read(path, NULL, &p->image, error);
+    hnbrdf_result result = render_image_read(path, &limits, &p->image, error);
     return result == HNBRDF_OK ? check_values(p, error) : result;
 }
 
@@ -164,9 +165,9 @@ static hnbrdf_result draw_difference(const job *j, hnbrdf_error *error)
 static hnbrdf_result read_and_measure(job *j, hnbrdf_error *error)
 {
     char *const *paths = j->options->paths;
-    hnbrdf_result result = read_picture(&j->reference, paths[j->count], error);
+    hnbrdf_result result = read_picture(j, &j->reference, paths[j->count], error);
     for (int k = 0; k < j->count && result == HNBRDF_OK; k++) {
-        result = read_picture(&j->pictures[k], paths[k], error);
+        result = read_picture(j, &j->pictures[k], paths[k], error);
         if (result == HNBRDF_OK)
             result = measure(&j->pictures[k], &j->reference, error);
         if (result == HNBRDF_OK && !j->options->difference)

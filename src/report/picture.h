@@ -12,6 +12,7 @@ typedef struct report_light {
     double rotate;   /* degrees */
     double exposure; /* stops; NAN: chosen */
     long spp, seed, threads;
+    hnbrdf_notes notes; /* told of what the environment's file needed */
 } report_light;
 
 /* Opens the environment and, where none was given, sets the exposure: mean light as bright as that

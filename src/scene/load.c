@@ -37,6 +37,12 @@ static void beside(const loader *l, const char *file, char path[2 * RENDER_MAX_P
     snprintf(path, (size_t)2 * RENDER_MAX_PATH, "%.*s%s", folder, l->d->name, file);
 }
 
+/* Whoever is told of measured data is told of the rest. */
+static hnbrdf_notes scene_notes(const loader *l)
+{
+    return l->options ? l->options->notes : (hnbrdf_notes){NULL, NULL};
+}
+
 /* ---- Materials ------------------------------------------------------------------------------- */
 
 static hnbrdf_result find_model(loader *l, const char *file, hnbrdf_model **model)
@@ -48,7 +54,8 @@ static hnbrdf_result find_model(loader *l, const char *file, hnbrdf_model **mode
         }
     char path[2 * RENDER_MAX_PATH];
     beside(l, file, path);
-    hnbrdf_result result = hnbrdf_model_load(path, NULL, model, l->error);
+    const hnbrdf_load_options load = {.notes = scene_notes(l)};
+    hnbrdf_result result = hnbrdf_model_load(path, &load, model, l->error);
     if (result == HNBRDF_OK) {
         l->model_files[l->out->model_count] = file;
         l->out->models[l->out->model_count++] = *model;
@@ -305,8 +312,10 @@ static hnbrdf_result load_environment(const loader *l)
         beside(l, d->environment, path);
         source = path;
     }
-    hnbrdf_result result = render_environment_open(
-        source, d->rotate * 3.14159265358979323846 / 180.0, &l->out->environment, l->error);
+    const render_limits limits = {.notes = scene_notes(l)};
+    hnbrdf_result result =
+        render_environment_open(source, d->rotate * 3.14159265358979323846 / 180.0, &limits,
+                                &l->out->environment, l->error);
     if (result != HNBRDF_OK)
         return at_line(l, d->environment_line, result);
     render_environment_scale(&l->out->environment, d->gain);
