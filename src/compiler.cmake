@@ -43,11 +43,12 @@ else()
   # and -fno-math-errno change no value; GCC needs them to vectorise clamps and sqrt.
   include(src/arithmetic.cmake)
   target_compile_options(hnbrdf_flags INTERFACE ${ARITHMETIC_FLAGS}
-    -fno-fast-math $<$<C_COMPILER_ID:GNU>:-fno-single-precision-constant>
+    -fno-fast-math $<$<COMPILE_LANG_AND_ID:C,GNU>:-fno-single-precision-constant>
     -ffp-contract=off -fno-trapping-math -fno-math-errno)
   if(PROJECT_IS_TOP_LEVEL)
     target_compile_options(hnbrdf_flags INTERFACE
-      -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wstrict-prototypes -Wmissing-prototypes)
+      -Wall -Wextra -Wpedantic -Wshadow -Wconversion
+      $<$<COMPILE_LANGUAGE:C>:-Wstrict-prototypes> $<$<COMPILE_LANGUAGE:C>:-Wmissing-prototypes>)
     if(MINGW) # isfinite() and others of its math.h convert doubles to floats
       target_compile_options(hnbrdf_flags INTERFACE -Wno-float-conversion)
     endif()

@@ -1,6 +1,6 @@
 #!/bin/sh
 # lint.sh [FILE...]: formatting and static analysis of all files of the repository, or of those named.
-# clang-format 14 must change nothing in *.c and *.h; no line of C or CMake is over 100 columns;
+# clang-format 14 must change nothing in *.c, *.cc and *.h; no line of C or CMake is over 100 columns;
 # clang-tidy 14 finds nothing in src/ (.clang-tidy says what it looks for and why). Configures
 # build/lint (or $HNBRDF_LINT_BUILD) with clang; nothing is compiled. Exit status 1: something was found.
 set -eu
@@ -38,7 +38,7 @@ these() { # suffixes, as one regular expression
     echo "$all" | grep -E "$1" || true
 }
 
-sources=$(these '\.[ch]$')
+sources=$(these '\.(c|h|cc)$')
 # shellcheck disable=SC2086 # file names of ours have no blanks
 if [ -n "$sources" ] && ! $format --dry-run --Werror $sources 2> /dev/null; then
     for file in $sources; do
@@ -47,7 +47,7 @@ if [ -n "$sources" ] && ! $format --dry-run --Werror $sources 2> /dev/null; then
     failed=1
 fi
 
-for file in $(these '(\.(c|h|cmake|in)|CMakeLists\.txt)$'); do
+for file in $(these '(\.(c|h|cc|cmake|in)|CMakeLists\.txt)$'); do
     # Columns, not bytes: what continues a UTF-8 character takes none.
     LC_ALL=C awk -v file="$file" '{
         gsub(/[\200-\277]/, "")

@@ -4,11 +4,11 @@
 set -eu
 
 optional=""
-wanted="gcc libc6-dev make cmake pkg-config libopenexr-dev libhdf5-dev libvulkan-dev mesa-vulkan-drivers glslang-tools libstb-dev libembree-dev"
+wanted="gcc g++ libc6-dev make cmake pkg-config libopenexr-dev libhdf5-dev libvulkan-dev mesa-vulkan-drivers glslang-tools libstb-dev libembree-dev"
 case ${1:-} in
 demo) ;;
 tests)
-    wanted="$wanted g++ clang clang-format-14 clang-tidy-14 libcmocka-dev vulkan-validationlayers
+    wanted="$wanted clang clang-format-14 clang-tidy-14 libcmocka-dev vulkan-validationlayers
         spirv-cross"
     # Other machines and locales; what needs them is skipped without.
     optional="locales qemu-user-static gcc-aarch64-linux-gnu libc6-dev-arm64-cross gcc-i686-linux-gnu

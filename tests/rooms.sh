@@ -42,7 +42,7 @@ awk '$1 == "arrow" { print $2, $3 }' "$scratch/table" | tsort 2>&1 > /dev/null |
     awk '/loop/ { if (line) print line; line = "circle of rooms:"; next } { line = line " " $0 } END { if (line) print line }' >> "$found"
 
 # Includes: FILE HEADER, of src and of the public headers.
-find src include -name '*.[ch]' | sort | while read -r file; do
+find src include -name '*.[ch]' -o -name '*.cc' | sort | while read -r file; do
     awk -v file="$file" 'match($0, /^[ \t]*#[ \t]*include[ \t]*"[^"]*"/) {
         split($0, part, "\""); print file, part[2] }' "$file"
 done > "$scratch/includes"
@@ -84,12 +84,12 @@ sed 's/#.*//' src/rooms.cmake | tr '\n()' '   ' | awk '{
     for (i = 1; i <= NF; i++) {
         if ($i == "hnbrdf_room") { room = $(++i); continue }
         if ($i == "set" || $i == "function") room = ""
-        if (room != "" && $i ~ /\.c$/) print "src/" room "/" $i
+        if (room != "" && $i ~ /\.cc?$/) print "src/" room "/" $i
     } }' | sort > "$scratch/listed"
 for kernel in src/core/kernel_*.c; do
     [ ! -e "$kernel" ] || ! grep -q 'core/kernel_' src/kernels.cmake 2> /dev/null || echo "$kernel"
 done | sort -u - "$scratch/listed" > "$scratch/compiled"
-find src -mindepth 2 -name '*.c' | sort > "$scratch/there"
+find src -mindepth 2 -name '*.c' -o -name '*.cc' | sort > "$scratch/there"
 comm -13 "$scratch/compiled" "$scratch/there" | sed 's/$/ is not in src\/rooms.cmake/' >> "$found"
 comm -23 "$scratch/listed" "$scratch/there" | sed 's/$/ of src\/rooms.cmake is not there/' >> "$found"
 

@@ -366,9 +366,13 @@ static void absurd_windows_are_refused_before_allocation(void **state)
     render_image_free(&image);
 }
 
+/* (Where the C++ library is built in they are read: test_image_exr_matrix.) */
 static void dwa_is_refused_with_advice(void **state)
 {
     (void)state;
+#ifdef HNBRDF_WITH_OPENEXR_CXX
+    skip();
+#endif
     render_image image = random_image(6, 20, 0, 1);
     render_bytes bytes = encode(&image, 1);
     unsigned char *compression = find(&bytes, "compression\0compression", 24) + 4;
@@ -387,7 +391,7 @@ static void dwa_is_refused_with_advice(void **state)
 static void files_without_colour_are_refused(void **state)
 {
     (void)state;
-    static const char *const channels[] = {"Z", "RG", "UV"};
+    static const char *const channels[] = {"Z", "RY", "UV"};
     for (size_t i = 0; i < sizeof channels / sizeof *channels; i++) {
         hnbrdf_error error;
         foreign file = {EXR_COMPRESSION_ZIP, 0, channels[i], EXR_PIXEL_HALF, box(0, 0, 4, 4)};

@@ -26,7 +26,7 @@ static void statements_mean_what_they_say(void **state)
     render_description d =
         parse("# a comment\n\ncamera from 1 2 3 to 4 5 6 fov 40 up 0 0 1 lens 0.1 focus 7\r\n"
               "size 320 200\nexposure -1.5\nbounces 7\n"
-              "environment \"a map.exr\" rotate 90 gain 2 hidden\n"
+              "environment \"a map.exr\" rotate 90 gain 2 hidden layer \"a b\" repair\n"
               "portal corner 1 2 3 edge 1 0 0 edge 0 1 0\n"
               "material a model m.safetensors \"b c\" # named\n"
               "material d ggx kd 0.1 0.2 0.3 eta 1.5 1.6 1.7 alpha 0.1 0.2\n"
@@ -40,6 +40,8 @@ static void statements_mean_what_they_say(void **state)
     assert_true(d.exposure == -1.5 && d.bounces == 7 && d.rotate == 90.0 && d.gain == 2.0 &&
                 d.hidden);
     assert_string_equal(d.environment, "a map.exr");
+    assert_string_equal(d.environment_layer, "a b");
+    assert_int_equal(d.environment_repair, 1);
     assert_int_equal(d.portal_count, 1);
     assert_int_equal(d.material_count, 5);
     assert_string_equal(d.materials[0].which, "b c");
@@ -88,7 +90,8 @@ static void refuses_with_file_and_line(void **state)
         {"size 10.5 10\n", "a whole number"},
         {"size 10 10 10\n", "found '10', expected the end of the line"},
         {"environment\n", "environment: found 'the end of the line'"},
-        {"environment sky turn 3\n", "found 'turn', expected rotate, gain or hidden"},
+        {"environment sky turn 3\n",
+         "found 'turn', expected rotate, gain, hidden, layer or repair"},
         {"environment sky\nenvironment sky\n",
          "a.scene:2: a second environment; the first is on line 1"},
         {"portal corner 0 0 0 edge 1 0 0\n", "expected edge X Y Z"},

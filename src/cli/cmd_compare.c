@@ -36,7 +36,10 @@ static const cli_command command = {
     "no "
     "FLIP: "
     "no\n"
-    "library of it is packaged; NVIDIA's own `flip` reads the same files.\n"
+    "library of it is packaged; NVIDIA's own `flip` reads the same files. Of an OpenEXR file the "
+    "plain\n"
+    "channels are read, or its only layer, converted to linear Rec. 709 and placed in the display "
+    "window.\n"
     "CSV columns: image,reference,mae,mse,psnr,pixels.",
     "hnbrdf compare model.safetensors builtin\n"
     "hnbrdf compare rgl.safetensors measured/rgl --sampler uniform --pairs 1e6 --csv rgl.csv\n"
@@ -97,6 +100,8 @@ static int check_images(int images, const compare_images_options *pictures, int 
 {
     if (!images && (pictures->difference || pictures->top > 0.0))
         return cli_usage(&command, "--difference and --scale belong to --images");
+    if (!images && (pictures->layer || pictures->repair))
+        return cli_usage(&command, "--layer and --repair belong to --images");
     if (images && of_models)
         return cli_usage(&command, "--against and --skip-missing are for models, not for --images");
     if (images && count < 2)
@@ -131,6 +136,10 @@ int cmd_compare(int argc, char **argv)
         {"difference", 0, CLI_TEXT, &pictures.difference, 0, 0, "FILE",
          "with --images: false colours and their scale as FILE.png, or FILE.exr and a PNG beside "
          "it"},
+        {"layer", 0, CLI_TEXT, &pictures.layer, 0, 0, "NAME",
+         "with --images: of EXR files with several layers, the same of all"},
+        {"repair", 0, CLI_FLAG, &pictures.repair, 0, 0, NULL,
+         "with --images: pixels that are not finite become the mean of those around them"},
         {"scale", 0, CLI_REAL, &pictures.top, 1e-30, 1e30, "X",
          "where its colours end (default: at most one pixel in a hundred is beyond)"},
         {"csv", 0, CLI_TEXT, &csv, 0, 0, "FILE", "write the table as CSV; - is standard output"},

@@ -18,7 +18,7 @@ static const cli_command command = {
     "A scene is lines of these statements; [] may be left out, # begins a comment:\n"
     "  camera from X Y Z to X Y Z fov DEG [up X Y Z] [lens RADIUS] [focus DISTANCE]\n"
     "  size WIDTH HEIGHT | exposure EV | bounces N\n"
-    "  environment sky|furnace|FILE [rotate DEG] [gain G] [hidden]\n"
+    "  environment sky|furnace|FILE [rotate DEG] [gain G] [hidden] [layer NAME] [repair]\n"
     "  portal corner X Y Z edge X Y Z edge X Y Z       a window: light is looked for through it\n"
     "  material NAME model FILE [MATERIAL] | measured FILE | builtin NAME | diffuse R G B\n"
     "  material NAME ggx kd R G B eta R G B alpha A [ALPHA_Y]\n"

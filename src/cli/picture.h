@@ -25,7 +25,10 @@ typedef report_light picture_options;
      0,                                                                                           \
      0,                                                                                           \
      "sky|furnace|FILE",                                                                          \
-     "light: sky, furnace (1 from everywhere), or a lat-long map .exr or .hdr"},                  \
+     "light: sky, furnace (1 from everywhere), or a map .exr or .hdr: lat-long, or an EXR cube"}, \
+        {"layer", 0, CLI_TEXT, &(p).layer, 0, 0, "NAME", "of an EXR map with several layers"},    \
+        {"repair", 0, CLI_FLAG, &(p).repair,                                                      \
+         0,        0, NULL,     "pixels of the map that are not finite: mean of those around"},   \
         {"rotate", 0,                                                                             \
          CLI_REAL, &(p).rotate,                                                                   \
          -360,     360,                                                                           \

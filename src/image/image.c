@@ -14,10 +14,12 @@ static size_t settle(size_t given, size_t most)
 
 render_limits render_limits_settle(const render_limits *limits)
 {
-    static const render_limits none;
-    const render_limits *given = limits ? limits : &none;
-    return (render_limits){settle(given->max_bytes, RENDER_MAX_FILE),
-                           settle(given->max_pixels, RENDER_MAX_PIXELS), given->notes};
+    render_limits settled = {0};
+    if (limits)
+        settled = *limits;
+    settled.max_bytes = settle(settled.max_bytes, RENDER_MAX_FILE);
+    settled.max_pixels = settle(settled.max_pixels, RENDER_MAX_PIXELS);
+    return settled;
 }
 
 hnbrdf_result render_image_create(int width, int height, int alpha, render_image *image,

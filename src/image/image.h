@@ -10,15 +10,25 @@
 #define RENDER_MAX_FILE ((size_t)1 << 30)
 #define RENDER_MAX_LAYERS 16
 
-/* What a picture file may ask for: files that claim more are refused before anything is allocated
- * for them. Zero-initialise for the defaults, and pass NULL for those; more than a default is
- * taken as the default. Memory while reading is at most the file, 32 bytes a pixel, and 16 bytes
- * times max_pixels for one block of compressed lines. */
+/* How a picture file is read, and what it may ask for: files that claim more are refused before
+ * anything is allocated for them. Zero-initialise for the defaults, and pass NULL for those; more
+ * than a default is taken as the default. Memory while reading is at most the file, 32 bytes a
+ * pixel (with repair 17 more for those that need it), and 16 bytes times max_pixels for one block
+ * of compressed lines. */
 typedef struct render_limits {
     size_t max_bytes;   /* of the file; 0 stands for RENDER_MAX_FILE */
     size_t max_pixels;  /* of the picture; 0 stands for RENDER_MAX_PIXELS */
     hnbrdf_notes notes; /* told of what was converted or passed over */
+    const char *layer;  /* of an OpenEXR file, by its name; NULL: the only one, or the main one */
+    int repair;         /* pixels that are not finite become the mean of their neighbours */
 } render_limits;
+
+/* What a picture says that it is a map of. */
+typedef enum render_map {
+    RENDER_MAP_UNSAID, /* anything, or all directions by latitude and longitude */
+    RENDER_MAP_LATLONG,
+    RENDER_MAP_CUBE /* six square faces one below the other, see cube.c */
+} render_map;
 
 /* A further RGB picture of the same size inside an image; EXR channels NAME.R, NAME.G, NAME.B. */
 typedef struct render_layer {
@@ -33,6 +43,7 @@ typedef struct render_image {
     float *alpha; /* coverage in [0, 1], [height][width]; NULL: opaque */
     render_layer layers[RENDER_MAX_LAYERS];
     int layer_count;
+    render_map map;
 } render_image;
 
 /* Black, opaque or (alpha = 1) with an alpha plane of 0. Each side 1 to RENDER_MAX_SIDE. */
@@ -55,11 +66,22 @@ typedef struct render_write_options {
  * NULL. */
 hnbrdf_result render_image_write(const render_image *image, const char *path,
                                  const render_write_options *options, hnbrdf_error *error);
-/* EXR or Radiance .hdr, recognised by content. Layers are not read; alpha is if there is one. */
+/* EXR or Radiance .hdr, recognised by content. One layer is read, with its alpha if there is
+ * any. */
 hnbrdf_result render_image_read(const char *path, const render_limits *limits, render_image *image,
                                 hnbrdf_error *error);
 /* limits with its zeros settled; limits may be NULL. */
 render_limits render_limits_settle(const render_limits *limits);
+/* Refuses a picture with values that are not finite: how many, and where the first one is. */
+hnbrdf_result render_image_check(const render_image *image, const char *name, hnbrdf_error *error);
+/* Replaces pixels that have a value that is not finite by the mean of those next to them that are
+ * finite, from the rim of each hole inward, and tells a note of `name`. Where none is finite
+ * nothing changes. */
+hnbrdf_result render_image_repair(render_image *image, const char *name, const hnbrdf_notes *notes,
+                                  hnbrdf_error *error);
+/* Turns the faces of a cube map into a map by latitude and longitude of twice as many columns as
+ * rows; other pictures stay as they are. */
+hnbrdf_result render_image_unfold(render_image *image, const char *name, hnbrdf_error *error);
 
 /* 1 if path ends in extension (with its dot), whatever the case. */
 int render_has_extension(const char *path, const char *extension);
@@ -84,9 +106,12 @@ hnbrdf_result render_file_read(const char *path, size_t limit, render_bytes *byt
 /* ZIP-compressed scanlines, channels B, G, R (A) and those of the layers. */
 hnbrdf_result render_exr_encode(const render_image *image, const render_write_options *options,
                                 render_bytes *bytes, hnbrdf_error *error);
-/* The first part of the file: scanlines or the largest level of tiles, half or float, channels R,
- * G, B or Y alone. DWAA and DWAB are beyond the OpenEXR 3.1 C library and are refused with
- * advice. */
+/* One layer of any flat part, scanlines or the largest level of tiles, half or float: R, G, B; Y
+ * with RY and BY; X, Y, Z; Y alone; of any primaries, converted to Rec. 709. The picture is what
+ * display window shows, black where there are no data; of a map, all of the data. Layers of
+ * several names or parts are refused unless one has the plain names, and so are deep data and
+ * channels of integers. DWAA and DWAB need OpenEXR's C++ library, or its C library of version
+ * 3.2. */
 hnbrdf_result render_exr_decode(const void *data, size_t size, const char *name,
                                 const render_limits *limits, render_image *image,
                                 hnbrdf_error *error);

@@ -45,22 +45,36 @@ static hnbrdf_result fail_foreign(const char *path, const render_bytes *bytes, h
                        foreign ? foreign : "", foreign ? "; " : "", bytes->size);
 }
 
+static hnbrdf_result decode(const render_bytes *bytes, const char *path,
+                            const render_limits *limits, render_image *image, hnbrdf_error *error)
+{
+    static const unsigned char exr_magic[4] = {0x76, 0x2f, 0x31, 0x01};
+    if (bytes->size >= 4 && memcmp(bytes->data, exr_magic, 4) == 0)
+        return render_exr_decode(bytes->data, bytes->size, path, limits, image, error);
+    if (bytes->size < 2 || memcmp(bytes->data, "#?", 2) != 0)
+        return fail_foreign(path, bytes, error);
+    if (limits && limits->layer)
+        return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT,
+                           "%s: no layer '%s': a Radiance picture has none", path, limits->layer);
+    return render_radiance_decode(bytes->data, bytes->size, path, limits, image, error);
+}
+
 hnbrdf_result render_image_read(const char *path, const render_limits *limits, render_image *image,
                                 hnbrdf_error *error)
 {
+    const render_limits settled = render_limits_settle(limits);
     render_bytes bytes = {0};
-    hnbrdf_result result =
-        render_file_read(path, render_limits_settle(limits).max_bytes, &bytes, error);
-    if (result == HNBRDF_OK) {
-        static const unsigned char exr_magic[4] = {0x76, 0x2f, 0x31, 0x01};
-        if (bytes.size >= 4 && memcmp(bytes.data, exr_magic, 4) == 0)
-            result = render_exr_decode(bytes.data, bytes.size, path, limits, image, error);
-        else if (bytes.size >= 2 && memcmp(bytes.data, "#?", 2) == 0)
-            result = render_radiance_decode(bytes.data, bytes.size, path, limits, image, error);
-        else
-            result = fail_foreign(path, &bytes, error);
-    }
+    render_image read = {0};
+    hnbrdf_result result = render_file_read(path, settled.max_bytes, &bytes, error);
+    if (result == HNBRDF_OK)
+        result = decode(&bytes, path, &settled, &read, error);
     free(bytes.data);
+    if (result == HNBRDF_OK && settled.repair)
+        result = render_image_repair(&read, path, &settled.notes, error);
+    if (result == HNBRDF_OK)
+        *image = read;
+    else
+        render_image_free(&read);
     return result;
 }
 

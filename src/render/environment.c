@@ -128,6 +128,30 @@ static hnbrdf_result make_furnace(render_image *image, hnbrdf_error *error)
     return result;
 }
 
+/* Shapes that other kinds of maps have: a person should know how they were taken. */
+static void tell_shape(const render_image *image, const char *name, const hnbrdf_notes *notes)
+{
+    const int64_t w = image->width, h = image->height;
+    const char *looks = w == h                             ? "an angular map or a light probe"
+                        : 3 * w == 4 * h || 4 * w == 3 * h ? "a cross of cube faces"
+                        : w == 6 * h || 6 * w == h         ? "a strip of cube faces"
+                                                           : NULL;
+    if (image->map == RENDER_MAP_UNSAID && looks)
+        hnbrdf_note(notes, "%s: %d x %d, the shape of %s: taken as a map by latitude and longitude",
+                    name, image->width, image->height, looks);
+}
+
+static hnbrdf_result read_map(const char *path, const render_limits *limits, render_image *image,
+                              hnbrdf_error *error)
+{
+    hnbrdf_result result = render_image_read(path, limits, image, error);
+    if (result == HNBRDF_OK)
+        result = render_image_check(image, path, error);
+    if (result == HNBRDF_OK && limits)
+        tell_shape(image, path, &limits->notes);
+    return result == HNBRDF_OK ? render_image_unfold(image, path, error) : result;
+}
+
 hnbrdf_result render_environment_open(const char *source, double rotation,
                                       const render_limits *limits, render_environment *environment,
                                       hnbrdf_error *error)
@@ -136,7 +160,7 @@ hnbrdf_result render_environment_open(const char *source, double rotation,
     hnbrdf_result result = strcmp(source, "sky") == 0 ? render_sky(&image, error)
                            : strcmp(source, "furnace") == 0
                                ? make_furnace(&image, error)
-                               : render_image_read(source, limits, &image, error);
+                               : read_map(source, limits, &image, error);
     if (result == HNBRDF_OK)
         result = render_environment_create(&image, rotation, source, environment, error);
     render_image_free(&image);

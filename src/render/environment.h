@@ -42,7 +42,8 @@ typedef struct render_environment {
 hnbrdf_result render_environment_create(render_image *image, double rotation, const char *name,
                                         render_environment *environment, hnbrdf_error *error);
 /* "sky", the built-in one, "furnace", radiance 1 from everywhere, or a latitude-longitude map in
- * an OpenEXR or Radiance file, read with these limits (NULL: the defaults). */
+ * an OpenEXR or Radiance file, read with these limits (NULL: the defaults). An OpenEXR file that
+ * says so is a cube map, which is turned into one. */
 hnbrdf_result render_environment_open(const char *source, double rotation,
                                       const render_limits *limits, render_environment *environment,
                                       hnbrdf_error *error);

@@ -29,31 +29,13 @@ typedef struct job {
 
 /* ---- Reading --------------------------------------------------------------------------------- */
 
-static hnbrdf_result check_values(const picture *p, hnbrdf_error *error)
-{
-    size_t width = (size_t)p->image.width, bad = 0, first = 0;
-    for (size_t i = 0; i < width * (size_t)p->image.height; i++) {
-        const float *rgb = p->image.rgb + 3 * i;
-        int finite = isfinite(rgb[0]) && isfinite(rgb[1]) && isfinite(rgb[2]) &&
-                     (!p->image.alpha || isfinite(p->image.alpha[i]));
-        if (!finite && bad++ == 0)
-            first = i;
-    }
-    if (!bad)
-        return HNBRDF_OK;
-    const float *rgb = p->image.rgb + 3 * first;
-    return hnbrdf_fail(error, HNBRDF_ERROR_FORMAT,
-                       "%s: %zu pixel%s not finite, the first at column %zu, row %zu: (%g, %g, %g)",
-                       p->path, bad, bad == 1 ? " is" : "s are", first % width, first / width,
-                       (double)rgb[0], (double)rgb[1], (double)rgb[2]);
-}
-
 static hnbrdf_result read_picture(const job *j, picture *p, const char *path, hnbrdf_error *error)
 {
-    const render_limits limits = {.notes = j->options->notes};
+    const compare_images_options *o = j->options;
+    const render_limits limits = {.notes = o->notes, .layer = o->layer, .repair = o->repair};
     p->path = path;
     hnbrdf_result result = render_image_read(path, &limits, &p->image, error);
-    return result == HNBRDF_OK ? check_values(p, error) : result;
+    return result == HNBRDF_OK ? render_image_check(&p->image, path, error) : result;
 }
 
 static hnbrdf_result measure(picture *p, const picture *reference, hnbrdf_error *error)

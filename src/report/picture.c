@@ -13,7 +13,8 @@ hnbrdf_result report_open_light(report_light *options, render_environment *envir
 {
     static const double sky_level = 0.56; /* what render_environment_level() gives for the sky */
     double radians = options->rotate * 3.14159265358979323846 / 180.0;
-    const render_limits limits = {.notes = options->notes};
+    const render_limits limits = {
+        .notes = options->notes, .layer = options->layer, .repair = options->repair};
     hnbrdf_result result =
         render_environment_open(options->env, radians, &limits, environment, error);
     if (result != HNBRDF_OK)

@@ -12,6 +12,8 @@ typedef struct report_light {
     double rotate;   /* degrees */
     double exposure; /* stops; NAN: chosen */
     long spp, seed, threads;
+    const char *layer;  /* of the environment's file, see render_limits */
+    int repair;         /* likewise */
     hnbrdf_notes notes; /* told of what the environment's file needed */
 } report_light;
 

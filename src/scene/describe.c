@@ -56,8 +56,12 @@ static hnbrdf_result read_environment(words *in)
             result = words_number(in, "gain", 1e-6, 1e6, &out->gain);
         else if (words_take(in, "hidden"))
             out->hidden = 1;
+        else if (words_take(in, "layer"))
+            result = words_text(in, "layer", sizeof out->environment_layer, out->environment_layer);
+        else if (words_take(in, "repair"))
+            out->environment_repair = 1;
         else
-            result = words_unknown(in, "rotate, gain or hidden");
+            result = words_unknown(in, "rotate, gain, hidden, layer or repair");
     return result;
 }
 

@@ -9,8 +9,9 @@
  *   exposure EV                    of the PNG
  *   bounces N                      most reflections of a path
  *   environment SOURCE [rotate DEG] [gain G] [hidden]     sky, furnace, or a map; hidden: not
- *                                                         behind
- *                                                         the shapes
+ *               [layer NAME] [repair]                     behind the shapes; a layer of an
+ *                                                         OpenEXR map, and pixels that are not
+ *                                                         finite filled
  *   portal corner X Y Z edge X Y Z edge X Y Z             a window through which the environment
  *                                                         is seen
  *   material NAME model FILE [MATERIAL]                   of a model file
@@ -75,6 +76,8 @@ typedef struct render_description {
     int portal_count;
     char environment[RENDER_MAX_PATH]; /* "": none */
     long environment_line;
+    char environment_layer[RENDER_MAX_PATH]; /* "": not given */
+    int environment_repair;
     double rotate, gain;
     int hidden;
     render_camera camera; /* width 0: no size given */

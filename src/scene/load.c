@@ -312,7 +312,9 @@ static hnbrdf_result load_environment(const loader *l)
         beside(l, d->environment, path);
         source = path;
     }
-    const render_limits limits = {.notes = scene_notes(l)};
+    const render_limits limits = {.notes = scene_notes(l),
+                                  .layer = d->environment_layer[0] ? d->environment_layer : NULL,
+                                  .repair = d->environment_repair};
     hnbrdf_result result =
         render_environment_open(source, d->rotate * 3.14159265358979323846 / 180.0, &limits,
                                 &l->out->environment, l->error);
