@@ -132,7 +132,8 @@ int cli_choose_source_material(const cli_source *source, const char *name);
 
 /* Loads a file that must be a model. Returns 0, or CLI_FAILURE after a message. */
 int cli_load_model(const char *path, hnbrdf_model **model);
-/* The same, and says of measured data that they are none. Returns 0, or CLI_FAILURE after a message. */
+/* The same, and says of measured data that they are none. Returns 0, or CLI_FAILURE after a
+ * message. */
 int cli_open_model(const char *path, hnbrdf_model **model);
 /* The message for a new name that a material of the model has; returns CLI_FAILURE. */
 int cli_fail_name_taken(const char *path, const char *name);

@@ -98,6 +98,7 @@ static int run(int argc, char **argv)
 
 int main(int argc, char **argv)
 {
+    cli_read.notes = (hnbrdf_notes)CLI_NOTES;
     int result = run(argc, argv);
     if ((fflush(stdout) != 0 || ferror(stdout)) && result == CLI_OK)
         return cli_fail("standard output: cannot write: %s", strerror(errno));

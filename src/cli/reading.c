@@ -13,7 +13,7 @@ hnbrdf_measured_options cli_read = {
 #ifdef HNBRDF_WITH_HDF5
     .read_hdf5 = hnbrdf_hdf5_read,
 #endif
-    .notes = CLI_NOTES,
+    .notes = {NULL, NULL}, /* main() fills them */
 };
 
 /* The argument of an option for the help: "djb|raw|srgb", "X", or NULL of a flag. */

@@ -61,7 +61,8 @@ hnbrdf_result hnbrdf_safetensors_read(const char *path, const unsigned char *byt
                                       const hnbrdf_allocator *allocator, hnbrdf_safetensors *file,
                                       hnbrdf_error *error);
 
-/* Makes a model of it; all numbers are decoded and checked. Tells `notes` if some were converted. */
+/* Makes a model of it; all numbers are decoded and checked. Tells `notes` if some were
+ * converted. */
 hnbrdf_result hnbrdf_safetensors_decode(const char *path, const hnbrdf_safetensors *file,
                                         const hnbrdf_allocator *allocator, hnbrdf_variant variant,
                                         const hnbrdf_notes *notes, hnbrdf_model **model,
