@@ -1,7 +1,8 @@
 /* fuzz_merl.c: the bytes are a MERL .binary file as they stand, and, where a whole header of the
  * right sizes is there, one of full size: a byte of options, then records of 12 bytes, each a
- * place and a double that replaces the sample there. A full table takes tens of milliseconds, so
- * most of the search is cheap. */
+ * place and a double that replaces the sample there. Options: 1 trilinear, 2 from lower edges, 4 no
+ * sample is valid, 8 a byte after the table, 16 a byte less. A full table takes tens of
+ * milliseconds, so most of the search is cheap. */
 #include "fuzz_measured.h"
 
 enum { BINS = 90 * 90 * 180, HEADER = 12, RECORD = 12, MOST_RECORDS = 64 };
@@ -18,7 +19,7 @@ static void put_double(unsigned char *p, double value)
 /* 0.1 per sample; three quarters are valid, as in the published files. */
 static unsigned char *make_table(void)
 {
-    unsigned char *table = malloc(FILE_SIZE);
+    unsigned char *table = calloc(1, FILE_SIZE + 1);
     FUZZ_CHECK(table != NULL);
     memcpy(table, "\132\0\0\0\132\0\0\0\264\0\0\0", HEADER);
     for (size_t i = 0; i < 3 * (size_t)BINS; i++)
@@ -34,10 +35,21 @@ static unsigned char *place(unsigned char *table, const uint8_t *record)
     return table + HEADER + 8 * (at % (3 * (size_t)BINS));
 }
 
+/* A header, and -1 for every sample. */
+static void open_invalid(const hnbrdf_measured_options *options)
+{
+    unsigned char *invalid = malloc(FILE_SIZE);
+    FUZZ_CHECK(invalid != NULL);
+    memset(invalid, 0xff, FILE_SIZE);
+    memcpy(invalid, "\132\0\0\0\132\0\0\0\264\0\0\0", HEADER);
+    fuzz_measured(invalid, FILE_SIZE, "material.binary", options);
+    free(invalid);
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     static unsigned char *table;
-    hnbrdf_measured_options options = {0};
+    hnbrdf_measured_options options = {.merl_identify = 1};
     fuzz_measured(data, size, "material.binary", &options);
     if (size < HEADER + 1 + RECORD || memcmp(data, "\132\0\0\0\132\0\0\0\264\0\0\0", HEADER) != 0)
         return 0;
@@ -53,7 +65,11 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     }
     options.merl_lookup = data[HEADER] & 1 ? HNBRDF_MERL_TRILINEAR : HNBRDF_MERL_NEAREST;
     options.merl_node = data[HEADER] & 2 ? HNBRDF_MERL_EDGE : HNBRDF_MERL_CENTRE;
-    fuzz_measured(table, FILE_SIZE, "material.binary", &options);
+    if (data[HEADER] & 4)
+        open_invalid(&options);
+    else
+        fuzz_measured(table, FILE_SIZE + (data[HEADER] >> 3 & 1) - (data[HEADER] >> 4 & 1),
+                      "material.binary", &options);
     for (size_t r = count; r-- > 0;)
         memcpy(place(table, records + RECORD * r), saved[r], 8);
     return 0;

@@ -68,11 +68,14 @@ uint64_t fuzz_whole(fuzz_choices *c, uint64_t usual)
 
 double fuzz_real(fuzz_choices *c, double usual)
 {
+    return fuzz_odd(c) ? fuzz_hostile(c, usual) : usual;
+}
+
+double fuzz_hostile(fuzz_choices *c, double usual)
+{
     static const double ends[] = {0.0,    -0.0,    -1.0,   1.0,    1e-46, -1e-46, 1e-320,
                                   3.4e38, -3.4e38, 3.5e38, 1e39,   -1e39, 1e308,  -1e308,
                                   1e10,   -1e10,   0x1p31, 0x1p63, 0.5,   2.0,    1e-7};
-    if (!fuzz_odd(c))
-        return usual;
     switch (fuzz_below(c, 6)) {
     case 0:
         return (double)NAN;
@@ -111,6 +114,12 @@ static void reserve(fuzz_bytes *out, size_t size)
     out->capacity = 2 * (out->size + size);
     out->data = realloc(out->data, out->capacity);
     FUZZ_CHECK(out->data != NULL);
+}
+
+void fuzz_free(fuzz_bytes *bytes)
+{
+    free(bytes->data);
+    *bytes = (fuzz_bytes){0};
 }
 
 void fuzz_put(fuzz_bytes *out, const void *data, size_t size)
@@ -184,7 +193,7 @@ void fuzz_put_number(fuzz_bytes *out, fuzz_choices *c, double usual)
                                      "1e-999", "1e99999999999", "00000000000000000000001", "1f",
                                      "0.1000000000000000055511151231257827", "1 2", "1_0"));
     } else {
-        snprintf(text, sizeof text, "%.9g", fuzz_real(&(fuzz_choices){next(c), 0, 0}, usual));
+        snprintf(text, sizeof text, "%.9g", fuzz_hostile(c, usual));
         fuzz_put_text(out, text);
     }
 }
@@ -272,7 +281,7 @@ size_t fuzz_mutate(fuzz_generator *generate, uint8_t *data, size_t size, size_t 
         const int fits = made.size > 0 && made.size <= max_size;
         if (fits)
             memcpy(data, made.data, size = made.size);
-        free(made.data);
+        fuzz_free(&made);
         if (fits)
             return size;
     }

@@ -33,15 +33,18 @@ int fuzz_odd(fuzz_choices *c);
 uint64_t fuzz_whole(fuzz_choices *c, uint64_t usual);
 double fuzz_real(fuzz_choices *c, double usual);
 const char *fuzz_word(fuzz_choices *c, const char *usual);
+/* Such a number, for who has asked fuzz_odd() already. */
+double fuzz_hostile(fuzz_choices *c, double usual);
 
 /* ---- Bytes ----------------------------------------------------------------------------------- */
 
-/* Grows as needed; begins as {0} and ends with free(data). */
+/* Grows as needed; begins as {0} and ends with fuzz_free(). */
 typedef struct fuzz_bytes {
     unsigned char *data;
     size_t size, capacity;
 } fuzz_bytes;
 
+void fuzz_free(fuzz_bytes *bytes);
 void fuzz_put(fuzz_bytes *out, const void *data, size_t size);
 void fuzz_put_text(fuzz_bytes *out, const char *text);
 void fuzz_printf(fuzz_bytes *out, const char *format, ...) __attribute__((format(printf, 2, 3)));

@@ -5,7 +5,6 @@
 #include "hnbrdf/hnbrdf.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 typedef struct shape {
@@ -120,7 +119,7 @@ static void put_key_number(writer *w, const char *key, double usual)
     fuzz_put_number(&text, w->c, usual);
     fuzz_put(&text, "", 1);
     put_key(w, key, (const char *)text.data);
-    free(text.data);
+    fuzz_free(&text);
 }
 
 /* JSON in a string of JSON. */
@@ -141,7 +140,7 @@ static void put_names(writer *w)
     }
     fuzz_put(&list, "]", 2); /* and NUL */
     put_key(w, "materials", (const char *)list.data);
-    free(list.data);
+    fuzz_free(&list);
 }
 
 static void put_metadata(writer *w)
@@ -191,10 +190,9 @@ static void put_numbers(writer *w, const char *type, size_t count, double low, d
 {
     const size_t odd = fuzz_odd(w->c) ? fuzz_below(w->c, (unsigned)count) : count;
     for (size_t i = 0; i < count; i++) {
-        fuzz_choices hostile = {w->c->state + i, 0, 0};
         double value = fuzz_real_between(w->c, low, high);
         if (i == odd)
-            value = fuzz_real(&hostile, value);
+            value = fuzz_hostile(w->c, value);
         if (strcmp(type, "F64") == 0)
             fuzz_put_double(w->data, value);
         else if (strcmp(type, "F32") == 0)
@@ -363,8 +361,8 @@ static void generate(fuzz_choices *c, fuzz_bytes *out)
     fuzz_put_le(out, fuzz_whole(c, header.size), fuzz_odd(c) ? 7 : 8);
     fuzz_put(out, header.data, header.size);
     fuzz_put(out, data.data, data.size);
-    free(header.data);
-    free(data.data);
+    fuzz_free(&header);
+    fuzz_free(&data);
 }
 
 FUZZ_GENERATOR(generate)

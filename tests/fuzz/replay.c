@@ -50,7 +50,7 @@ static void replay_generated(const char *count)
         printf("--generate: %ld\n", seed);
         fflush(stdout);
         replay_bytes(made.data, made.size);
-        free(made.data);
+        fuzz_free(&made);
     }
 }
 
@@ -59,7 +59,7 @@ static void print_generated(const char *seed)
     fuzz_bytes made = {0};
     fuzz_generate(fuzz_target_generator, strtoull(seed, NULL, 10), &made);
     FUZZ_CHECK(made.size == 0 || fwrite(made.data, 1, made.size, stdout) == made.size);
-    free(made.data);
+    fuzz_free(&made);
 }
 
 static int by_name(const struct dirent **a, const struct dirent **b)
