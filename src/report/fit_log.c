@@ -60,18 +60,20 @@ hnbrdf_result fit_log_open(const char *path, int resume, loss_curve *curve, fit_
 }
 
 /* Copies the earlier rows up to step `end`: a fit that was killed may have logged more of them
- * than its checkpoint knows. */
+ * than its checkpoint knows. The first row that does not go on from the one before ends them. */
 static void copy_rows(fit_log *log, long end)
 {
     char *next = log->before + sizeof header - 1;
+    long last = -1;
     for (char *row = next; *row; row = next) {
         long step;
         double share, loss;
         next = row + strcspn(row, "\n");
         if (*next)
             *next++ = '\0';
-        if (sscanf(row, "%ld,%lf,%lf", &step, &share, &loss) != 3 || step >= end)
+        if (sscanf(row, "%ld,%lf,%lf", &step, &share, &loss) != 3 || step <= last || step >= end)
             break;
+        last = step;
         fprintf(log->output.file, "%s\n", row);
         loss_curve_add(log->curve, step, loss);
     }

@@ -235,6 +235,19 @@ static void write_pairs(void)
                       "0,0,1,-.5,+0.5,7.0710678E-1\n");
 }
 
+static void write_logs(void)
+{
+    target = "fitlog";
+    put_text("log", "step,share,loss,pairs_per_s\n100,0.25,0.5,1000\n200,0.5,0.25,1000\n");
+}
+
+/* Whole files of it are generated, where libhdf5 is. */
+static void write_hdf5(void)
+{
+    target = "hdf5";
+    put_text("start", "\x89HDF\r\n\x1a\n");
+}
+
 static void write_texels(void)
 {
     unsigned char bytes[96];
@@ -309,6 +322,8 @@ int main(int argc, char **argv)
     write_networks();
     write_pictures();
     write_pairs();
+    write_logs();
+    write_hdf5();
     write_texels();
     write_checkpoint();
     write_scenes();
