@@ -7,7 +7,7 @@
 #   sh tests/run.sh quick   for daily work: builds the release in build/ and runs the tests that are
 #                           labelled quick (tests/CMakeLists.txt lists the others). Less than three
 #                           minutes where build/ is up to date.
-# HNBRDF_FUZZ_SECONDS: how long each reader is fuzzed (10). tests/coverage.sh, tests/mutants.sh and
+# HNBRDF_FUZZ_SECONDS: how long each reader is fuzzed (7). tests/coverage.sh, tests/mutants.sh and
 # tests/lint.sh are commands of their own.
 set -eu
 cd "$(dirname "$0")/.."
@@ -88,7 +88,7 @@ elsewhere='^test_(glsl_languages|minimal|fit_divergence|fit_stiff|.*_second_driv
 UBSAN_OPTIONS=print_stacktrace=1 ctest --test-dir build/sanitize -E "$elsewhere" -j "$jobs" \
     --output-on-failure || fail "tests under sanitizers"
 
-seconds=${HNBRDF_FUZZ_SECONDS:-10}
+seconds=${HNBRDF_FUZZ_SECONDS:-7}
 announce "fuzzing every reader for $seconds s (HNBRDF_FUZZ_SECONDS)"
 HNBRDF_FUZZ_JOBS=$jobs sh tests/fuzz/run.sh "$seconds" || fail "fuzzing"
 

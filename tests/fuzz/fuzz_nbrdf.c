@@ -1,6 +1,6 @@
 /* fuzz_nbrdf.c: six NumPy files of a Neural-BRDF network, one after the other, each after two bytes
- * that say how long it is; a file that is not there is empty. They are read from memory, and as
- * files by the name of one of them. */
+ * that say how long it is; a file that is not there is empty. They are read from memory and, one
+ * time in four since that is slow, as files by the name of one of them. */
 #include "fuzz_measured.h"
 
 #include "measured/nbrdf.h"
@@ -82,6 +82,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     hnbrdf_error error = {""};
     measured_body body = {0};
     FUZZ_CHECK(arrays != NULL);
+    const int as_files = size % 4 == 0;
     const uint8_t *const first = data + (size >= 2 ? 2 : size);
     size_t first_size = 0;
     for (int k = 0; k < NBRDF_ARRAYS; k++) {
@@ -91,7 +92,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         length = length < size ? length : size;
         unsigned char *part = fuzz_copy(data, length);
         first_size = k == 0 ? length : first_size;
-        write_part(k, part, length);
+        if (as_files)
+            write_part(k, part, length);
         if (!result) {
             result = hnbrdf_npy_parse(part, length, "a.npy", &arrays->array[k], &error);
             FUZZ_CHECK((result == HNBRDF_OK) == (arrays->array[k].values != NULL));
@@ -112,6 +114,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     for (int k = 0; k < NBRDF_ARRAYS; k++)
         free(arrays->array[k].values);
     free(arrays);
-    open_files(first, first_size);
+    if (as_files)
+        open_files(first, first_size);
     return 0;
 }

@@ -245,7 +245,7 @@ static void damage(fuzz_choices *c, fuzz_bytes *b)
         memcpy(b->data + at, ends + 4 * fuzz_below(c, 2), length < 4 ? length : 4);
         break;
     default:
-        fuzz_put(b, b->data + at, length < 16 ? length : 16);
+        insert(b, b->size, b->data + at, length);
         break;
     }
 }

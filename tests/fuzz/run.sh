@@ -106,7 +106,7 @@ collect() {
 for target in $targets; do
     started=$((started + 1))
     left=$(((count - started + jobs) / jobs * seconds))
-    [ "$seconds" -lt 10 ] || echo "[$started/$count] $target, at most $left s left ($(($(date +%s) - start)) s gone)" >&2
+    [ "$seconds" -lt 5 ] || echo "[$started/$count] $target, at most $left s left ($(($(date +%s) - start)) s gone)" >&2
     rm -f "$build/$target.status"
     fuzz "$target" &
     running="$running $target"
