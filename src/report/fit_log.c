@@ -21,7 +21,10 @@ static char *read_all(const char *path, hnbrdf_result *result, hnbrdf_error *err
     size_t size = (size_t)status.st_size;
     FILE *file = fopen(path, "rb");
     char *text = malloc(size + 1);
-    if (!file || !text || fread(text, 1, size, file) != size) {
+    if (!text) {
+        *result = hnbrdf_fail(error, HNBRDF_ERROR_MEMORY, "%s: out of memory (%zu bytes)", path,
+                              size + 1);
+    } else if (!file || fread(text, 1, size, file) != size) {
         *result =
             hnbrdf_fail(error, HNBRDF_ERROR_IO, "%s: the log to go on with cannot be read: %s",
                         path, strerror(errno));

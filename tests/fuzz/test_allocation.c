@@ -9,6 +9,7 @@
 #include "hnbrdf/fit.h"
 #include "hnbrdf/metrics.h"
 #include "render/environment.h"
+#include "report/fit_log.h"
 #include "hnbrdf/glsl.h"
 
 #include <unistd.h>
@@ -314,6 +315,46 @@ static void fits_survive(void **state)
     remove(path);
 }
 
+/* The log of a fit that is gone on with, and a row more. */
+static hnbrdf_result use_log(const void *with, hnbrdf_error *error)
+{
+    const hnbrdf_fit_progress progress = {.step = 200, .done = 0.5, .loss = 0.25};
+    loss_curve curve = {0};
+    fit_log log;
+    const hnbrdf_result result = fit_log_open(with, 1, &curve, &log, error);
+    if (!result) {
+        fit_log_row(&log, &progress); /* a point that cannot be held is left out of the curve */
+        assert_int_equal(fit_log_close(&log, 0, error), HNBRDF_OK);
+    }
+    loss_curve_free(&curve);
+    return result;
+}
+
+static void logs_survive(void **state)
+{
+    static const char text[] = "step,share,loss,pairs_per_s\n100,0.25,0.5,1000\n";
+    char path[] = "/tmp/hnbrdf_allocation_XXXXXX";
+    int descriptor = mkstemp(path);
+    hnbrdf_error error = {""};
+    (void)state;
+    assert_true(descriptor >= 0);
+    assert_true(write(descriptor, text, sizeof text - 1) == (ssize_t)sizeof text - 1);
+    close(descriptor);
+    failing_malloc_begin(0); /* the text */
+    assert_int_equal(use_log(path, &error), HNBRDF_ERROR_MEMORY);
+    long alive = 0;
+    failing_malloc_end(&alive);
+    assert_int_equal(alive, 0);
+    assert_true(strlen(error.text) > 10);
+    for (long site = 1; site < 4; site++) { /* points of the curve, which can do without */
+        failing_malloc_begin(site);
+        assert_int_equal(use_log(path, &error), HNBRDF_OK);
+        failing_malloc_end(&alive);
+        assert_int_equal(alive, 0);
+    }
+    remove(path);
+}
+
 /* ---- Pictures -------------------------------------------------------------------------------- */
 
 /* A picture to a file and back, and light of it. `with` is the file's path. */
@@ -379,6 +420,7 @@ int main(void)
         cmocka_unit_test(tables_survive),
         cmocka_unit_test(built_in_and_custom_materials_survive),
         cmocka_unit_test(fits_survive),
+        cmocka_unit_test(logs_survive),
         cmocka_unit_test(pictures_survive),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
