@@ -88,7 +88,7 @@ find "$build" -name '*.gcda' > "$build/gcov/objects"
     END { for (key in line) print key "\t" (ran[key] > 0) "\t" line[key] }' | sort -t "$(printf '\t')" -k1,1 -k2,2n \
     > "$build/gcov/lines"
 if [ $fuzz = 1 ]; then # the readers' own files
-    grep -v '^#' tests/fuzz/readers.txt | tr ' ' '\n' | grep '^src/' | sort -u > "$build/gcov/readers"
+    grep -v '^[#-]' tests/fuzz/readers.txt | tr ' ' '\n' | grep '^src/' | sort -u > "$build/gcov/readers"
     awk -F '\t' 'NR == FNR { reader[$1] = 1; next } $1 in reader { print; seen[$1] = 1 }
         END { for (file in reader) if (!(file in seen)) print file "\t0\t0\tnot compiled or no such file" }' \
         "$build/gcov/readers" "$build/gcov/lines" | sort -t "$(printf '\t')" -k1,1 -k2,2n > "$build/gcov/own"
@@ -109,7 +109,7 @@ awk -F '\t' '
     }' "$build/gcov/lines" | sort -t , -k1,1 > "$build/gcov/table"
 {
     echo "file,lines,covered,missed,percent"
-    grep -v '^src/,' "$build/gcov/table"
+    grep -v '^src/,' "$build/gcov/table" | { [ $fuzz = 1 ] && grep '\.[ch],' || cat; }
     grep '^src/,' "$build/gcov/table"
 } > "$build/gcov/csv"
 awk -F , '{ printf "%-34s %8s %8s %8s %8s\n", $1, $2, $3, $4, $5 }' "$build/gcov/csv"
