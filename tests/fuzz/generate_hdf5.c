@@ -23,7 +23,7 @@ static void set_layout(fuzz_choices *c, hid_t plist, int axes, const hsize_t *sh
     if (fuzz_odd(c))
         H5Pset_chunk(plist, axes, shape);
     else if (fuzz_odd(c))
-        H5Pset_external(plist, "elsewhere.raw", 0, H5F_UNLIMITED);
+        H5Pset_external(plist, "/nowhere/elsewhere.raw", 0, H5F_UNLIMITED);
     else if (fuzz_below(c, 3) == 0)
         H5Pset_layout(plist, H5D_COMPACT);
 }
