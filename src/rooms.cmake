@@ -33,7 +33,7 @@ hnbrdf_room(measured
   merl_known.c nbrdf.c nbrdf_npy.c pairs.c
   read_file.c rgl.c rgl_eval.c sha256.c tensor_file.c utia.c)
 hnbrdf_room(hdf5
-  nbrdf_hdf5.c)
+  image_driver.c nbrdf_hdf5.c)
 hnbrdf_room(metrics
   compare.c image.c physics.c)
 hnbrdf_room(fit

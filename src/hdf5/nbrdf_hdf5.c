@@ -1,13 +1,13 @@
 /* nbrdf_hdf5.c: a network of Neural-BRDF from the HDF5 file of weights that Keras wrote, through
- * libhdf5: dense_K/dense_K/kernel:0 and bias:0, three layers in the order of K. The only file that
- * knows libhdf5, and a part of its own, hnbrdf_hdf5. */
+ * libhdf5: dense_K/dense_K/kernel:0 and bias:0, three layers in the order of K. This room
+ * alone knows libhdf5; it is a part of its own, hnbrdf_hdf5. */
 #include "hnbrdf/hdf5.h"
+#include "hdf5/image_driver.h"
 #include "measured/nbrdf.h"
 #include "base/error.h"
 
 #include <hdf5.h>
 
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -174,35 +174,33 @@ static hnbrdf_result read_layers(const reader *r, hid_t group, nbrdf_arrays *arr
 
 /* ---- The file -------------------------------------------------------------------------------- */
 
-/* Opens a copy of the bytes: nothing is read from the disk, and no lock is taken. */
-static hid_t open_image(const void *bytes, size_t size)
+static hnbrdf_result read_opened(const reader *r, nbrdf_arrays *arrays)
 {
-    hid_t access = H5Pcreate(H5P_FILE_ACCESS), opened = H5I_INVALID_HID;
-    if (access >= 0 && H5Pset_fapl_core(access, 65536, 0) >= 0 &&
-        H5Pset_fclose_degree(access, H5F_CLOSE_STRONG) >= 0 &&
-        H5Pset_file_image(access, (void *)(uintptr_t)bytes, size) >= 0)
-        opened = H5Fopen("nbrdf.h5", H5F_ACC_RDONLY, access);
-    if (access >= 0)
-        H5Pclose(access);
-    return opened;
+    /* A file of weights has the layers at its root, a file of a whole model in a group. */
+    const char *where = is_hard_link(r->file, "model_weights") ? "model_weights" : "/";
+    hid_t group = H5Gopen2(r->file, where, H5P_DEFAULT);
+    hnbrdf_result result = group >= 0 ? read_layers(r, group, arrays)
+                                      : refuse(r, where, "is no group: damaged or truncated");
+    if (group >= 0)
+        H5Gclose(group);
+    H5Fclose(r->file);
+    return result;
 }
 
 static hnbrdf_result read_file(const void *bytes, size_t size, const char *label,
                                nbrdf_arrays *arrays, hnbrdf_error *error)
 {
-    reader r = {open_image(bytes, size), size, label, error};
+    hid_t driver = H5I_INVALID_HID;
+    reader r = {hnbrdf_hdf5_open_image(bytes, size, &driver), size, label, error};
+    hnbrdf_result result = HNBRDF_OK;
     if (r.file < 0)
-        return hnbrdf_fail(error, HNBRDF_ERROR_FORMAT,
-                           "%s: HDF5 file of %zu bytes cannot be opened: damaged or truncated",
-                           label, size);
-    /* A file of weights has the layers at its root, a file of a whole model in a group. */
-    const char *where = is_hard_link(r.file, "model_weights") ? "model_weights" : "/";
-    hid_t group = H5Gopen2(r.file, where, H5P_DEFAULT);
-    hnbrdf_result result = group >= 0 ? read_layers(&r, group, arrays)
-                                      : refuse(&r, where, "is no group: damaged or truncated");
-    if (group >= 0)
-        H5Gclose(group);
-    H5Fclose(r.file);
+        result = hnbrdf_fail(error, HNBRDF_ERROR_FORMAT,
+                             "%s: HDF5 file of %zu bytes cannot be opened: damaged or truncated",
+                             label, size);
+    else
+        result = read_opened(&r, arrays);
+    if (driver >= 0)
+        H5FDunregister(driver);
     return result;
 }
 
