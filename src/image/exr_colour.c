@@ -75,7 +75,11 @@ static int rgb_to_xyz(const exr_attr_chromaticities_t *c, matrix out)
         for (int i = 0; i < 3; i++)
             out[i][k] = scale * primaries[i][k];
     }
-    return isfinite(out[0][0] + out[1][1] + out[2][2]) ? 0 : -1;
+    /* The luminance of white is 1; primaries that nearly lie on a line lose it to rounding. */
+    for (int i = 0; i < 9; i++)
+        if (!(fabs(out[i / 3][i % 3]) < 1e6))
+            return -1;
+    return fabs(out[1][0] + out[1][1] + out[1][2] - 1.0) < 1e-3 ? 0 : -1;
 }
 
 /* XYZ seen under one white to XYZ that looks the same under another (Bradford). */

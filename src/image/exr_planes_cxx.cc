@@ -8,6 +8,7 @@
 #include <ImfInputPart.h>
 #include <ImfMultiPartInputFile.h>
 
+#include <cstdint>
 #include <cstdio>
 #include <cstring>
 #include <new>
@@ -45,9 +46,43 @@ class memory_stream : public OPENEXR_IMF_NAMESPACE::IStream
     std::size_t count, place = 0;
 };
 
+// The library allocates what an attribute of a type that it does not know claims to need, before it
+// reads any of it: no attribute may be longer than what is left of the file.
+void check_attributes(const char *at, const char *end, bool many_parts)
+{
+    int empty = 0; // names in a row: one ends a header, two end those of many parts
+    for (at += 8; empty < (many_parts ? 2 : 1);) {
+        const char *parts[2];
+        for (const char *&part : parts) {
+            part = at;
+            at = at < end ? static_cast<const char *>(
+                                std::memchr(at, 0, static_cast<std::size_t>(end - at)))
+                          : nullptr;
+            if (!at)
+                throw std::runtime_error("the file ends within its header");
+            ++at;
+            if (&part == parts && !*part)
+                break;
+        }
+        empty = *parts[0] ? 0 : empty + 1;
+        if (empty)
+            continue;
+        std::uint32_t size = 0;
+        for (int i = 0; i < 4 && at + i < end; i++)
+            size |= static_cast<std::uint32_t>(static_cast<unsigned char>(at[i])) << 8 * i;
+        if (end - at < 4 || size > static_cast<std::uint64_t>(end - at - 4))
+            throw std::runtime_error("an attribute of the header is longer than the file");
+        at += 4 + size;
+    }
+}
+
 void read_planes(const void *data, std::size_t size, const exr_picture &picture)
 {
     namespace imf = OPENEXR_IMF_NAMESPACE;
+    const char *bytes = static_cast<const char *>(data);
+    if (size < 9)
+        throw std::runtime_error("the file ends within its header");
+    check_attributes(bytes, bytes + size, (bytes[5] & 0x10) != 0);
     memory_stream stream(data, size);
     imf::MultiPartInputFile file(stream, 0, false);
     imf::InputPart part(file, picture.part);
