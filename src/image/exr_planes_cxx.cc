@@ -46,6 +46,29 @@ class memory_stream : public OPENEXR_IMF_NAMESPACE::IStream
     std::size_t count, place = 0;
 };
 
+// The library reads an attribute of a known type by that, whatever size it claims.
+bool has_its_size(const char *type, const char *value, std::size_t size)
+{
+    static const struct {
+        const char *type;
+        std::size_t size;
+    } fixed[] = {{"box2i", 16},   {"box2f", 16},   {"compression", 1},    {"lineOrder", 1},
+                 {"envmap", 1},   {"int", 4},      {"float", 4},          {"double", 8},
+                 {"v2i", 8},      {"v2f", 8},      {"v3i", 12},           {"v3f", 12},
+                 {"v2d", 16},     {"v3d", 24},     {"m33f", 36},          {"m44f", 64},
+                 {"m33d", 72},    {"m44d", 128},   {"rational", 8},       {"timecode", 8},
+                 {"keycode", 28}, {"tiledesc", 9}, {"chromaticities", 32}};
+    for (const auto &known : fixed)
+        if (std::strcmp(type, known.type) == 0)
+            return size == known.size;
+    if (std::strcmp(type, "chlist") != 0)
+        return true;
+    std::size_t at = 0; // names and 16 bytes each, then an empty name
+    while (at < size && value[at])
+        at += strnlen(value + at, size - at) + 1 + 16;
+    return at + 1 == size;
+}
+
 // The library allocates what an attribute of a type that it does not know claims to need, before it
 // reads any of it: no attribute may be longer than what is left of the file.
 void check_attributes(const char *at, const char *end, bool many_parts)
@@ -72,7 +95,10 @@ void check_attributes(const char *at, const char *end, bool many_parts)
             size |= static_cast<std::uint32_t>(static_cast<unsigned char>(at[i])) << 8 * i;
         if (end - at < 4 || size > static_cast<std::uint64_t>(end - at - 4))
             throw std::runtime_error("an attribute of the header is longer than the file");
-        at += 4 + size;
+        at += 4;
+        if (!has_its_size(parts[1], at, size))
+            throw std::runtime_error("an attribute of the header has another size than its type");
+        at += size;
     }
 }
 
