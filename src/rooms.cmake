@@ -77,5 +77,5 @@ hnbrdf_room(cli
   cli.c cmd_bake.c cmd_bench.c cmd_compare.c cmd_edit.c cmd_eval.c cmd_export.c
   cmd_fit.c cmd_gallery.c cmd_import.c cmd_info.c cmd_lobes.c cmd_mix.c cmd_render.c
   cmd_report.c cmd_report_images.c cmd_report_sampling.c cmd_scene.c cmd_sheet.c
-  cmd_stability.c cmd_verify.c main.c output.c picture.c progress.c reading.c
-  report_options.c sources.c watch.c words.c)
+  cmd_stability.c cmd_verify.c files.c main.c message.c option.c output.c
+  picture.c progress.c reading.c report_options.c sources.c standard.c watch.c words.c)

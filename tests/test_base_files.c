@@ -72,7 +72,7 @@ static void a_new_file_gets_what_the_umask_leaves(void **state)
 
 static void a_replaced_file_keeps_its_mode(void **state)
 {
-    static const unsigned modes[] = {0600, 0644, 0755, 0660, 0400};
+    static const unsigned modes[] = {0600, 0644, 0755, 0660, 0200};
     (void)state;
     for (size_t i = 0; i < sizeof modes / sizeof modes[0]; i++) {
         write_text("old", "before");
@@ -83,6 +83,35 @@ static void a_replaced_file_keeps_its_mode(void **state)
         assert_text("old", "after");
         remove("old");
     }
+}
+
+/* Its folder would allow to replace it; whoever made it read-only wants to keep it. */
+static void a_read_only_file_is_refused(void **state)
+{
+    hnbrdf_error error = {""};
+    int status;
+    (void)state;
+    write_text("kept", "before");
+    assert_int_equal(chmod("kept", 0444), 0);
+    assert_int_equal(chmod(".", 0777), 0);
+    const pid_t child = fork();
+    if (child == 0) { /* root may write to any file: as nobody */
+        if (geteuid() == 0 && setuid(65534) != 0)
+            _exit(2);
+        _exit(hnbrdf_output_check("kept", &error) == HNBRDF_ERROR_IO &&
+                      hnbrdf_write_file("kept", "after", 5, &error) == HNBRDF_ERROR_IO &&
+                      strcmp(error.text, "kept: cannot write: Permission denied") == 0
+                  ? 0
+                  : 1);
+    }
+    assert_int_equal(waitpid(child, &status, 0), child);
+    assert_int_equal(chmod(".", 0700), 0);
+    assert_true(WIFEXITED(status));
+    assert_text("kept", "before");
+    remove("kept");
+    if (WEXITSTATUS(status) == 2)
+        skip(); /* a place without that user */
+    assert_int_equal(WEXITSTATUS(status), 0);
 }
 
 static void a_replaced_file_keeps_its_owner(void **state)
@@ -274,6 +303,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_new_file_gets_what_the_umask_leaves),
         cmocka_unit_test(a_replaced_file_keeps_its_mode),
+        cmocka_unit_test(a_read_only_file_is_refused),
         cmocka_unit_test(a_replaced_file_keeps_its_owner),
         cmocka_unit_test(a_symbolic_link_stays_and_its_target_is_replaced),
         cmocka_unit_test(a_pipe_is_written_as_it_is),

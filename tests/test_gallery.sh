@@ -15,7 +15,7 @@ run "$HNBRDF" gallery "$model" -o g --pairs vch_silk_blue
 expect_failure "half a pair" "'vch_silk_blue' is not A:B"
 : >file
 run "$HNBRDF" gallery "$model" -o file
-expect_failure "a file in the way" "file: cannot make this folder"
+expect_failure "a file in the way" "file: is a file, expected a folder"
 rm -rf g
 
 small="--size 32 --spp 1"

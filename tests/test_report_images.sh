@@ -23,9 +23,10 @@ expect_failure "--from nowhere" "nowhere/models/ggx.safetensors"
 rm -rf r
 
 materials="builtin:gold-two-lobe builtin:velvet-crimson"
-small="--quick --nets 8x1 --steps 100 --pool 2048 --size 24 --spp 8"
+small="--quick --nets 8x1 --steps 100 --pool 2048 --size 24"
+samples=8
 report() {
-    run "$HNBRDF" report images $materials $small "$@"
+    run "$HNBRDF" report images $materials $small --spp $samples "$@"
     [ "$rc" -eq 0 ] || fail "report images $*: exit $rc"
 }
 report -o r
@@ -64,7 +65,9 @@ sed -e '/^velvet.*neural/d' -e '2s/^\(.*,0,\)[^,]*/\1123/' kept.csv >r/images.cs
 report -o r --resume
 grep -q '^gold-two-lobe,ggx,none,none,0,123,' r/images.csv || fail "--resume measured again what was there"
 [ "$(sed 1,2d r/images.csv)" = "$(sed 1,2d kept.csv)" ] || fail "--resume did not measure what was missing"
-report -o r --resume --spp 4
+samples=4
+report -o r --resume
+samples=8
 grep -q ',123,' r/images.csv && fail "--resume reused figures of other settings"
 [ "$(wc -l <r/images.csv)" -eq 9 ] || fail "not all figures are measured anew"
 

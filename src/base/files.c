@@ -42,7 +42,7 @@ static const char *reason(int number)
     for (size_t i = 0; i < sizeof known / sizeof known[0]; ++i)
         if (known[i].number == number)
             return known[i].words;
-    return "a write failed";
+    return "the system does not say why";
 }
 
 static hnbrdf_result fail(const char *path, int number, hnbrdf_error *error)
@@ -188,4 +188,10 @@ hnbrdf_result hnbrdf_write_file(const char *path, const void *data, size_t size,
 FILE *hnbrdf_open_to_read(const char *path)
 {
     return hnbrdf_system_open(path, 0);
+}
+
+hnbrdf_result hnbrdf_fail_to_open(const char *label, hnbrdf_error *error)
+{
+    return hnbrdf_fail(error, HNBRDF_ERROR_IO, "%s: cannot be opened for reading: %s", label,
+                       reason(errno));
 }

@@ -25,7 +25,9 @@ typedef struct hnbrdf_output {
 
 /* Opens the file aside, in the folder of the file it will replace. Until hnbrdf_output_close() has
  * succeeded the old file stays as it is.
- * A symbolic link stays, the file it names is replaced. A replaced file keeps its mode and, as far
+ * A file that may not be written is refused, though its folder would allow to replace it.
+ * A symbolic link stays, the file it names is replaced; of a file with several names (hard links)
+ * the others keep what was there. A replaced file keeps its mode and, as far
  * as the process may, its owner; a new one gets 0666 without the process's umask. Processes or
  * threads that write one file at the same time write different files aside; the last to close
  * wins. What a killed process left aside is removed. A pipe or device is opened and written
@@ -49,5 +51,7 @@ int hnbrdf_write_stream(void *file, const void *data, size_t size);
 
 /* Opens a file to read its bytes; NULL if that fails, errno says why. */
 FILE *hnbrdf_open_to_read(const char *path);
+/* Fails with "LABEL: cannot be opened for reading: " and what errno says, in no locale's words. */
+hnbrdf_result hnbrdf_fail_to_open(const char *label, hnbrdf_error *error);
 
 #endif

@@ -80,6 +80,9 @@ int hnbrdf_system_find_target(hnbrdf_output *output)
         errno = EISDIR;
         return 0;
     }
+    /* Renaming asks the folder alone, but whoever made a file read-only wants to keep it. */
+    if (access(output->target, W_OK) != 0)
+        return 0;
     output->replaces = 1;
     output->mode = status.st_mode & 07777;
     output->user = status.st_uid;

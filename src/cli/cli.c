@@ -7,84 +7,16 @@
 
 #include <limits.h>
 #include <math.h>
-#include <stdarg.h>
 #include <string.h>
 
-enum { HELP_COLUMNS = 100, MESSAGE_SIZE = 1024 };
-
-/* ---- Messages -------------------------------------------------------------------------------- */
-
-/* One line whatever file names and contents hold: control characters become '?'. */
-static void print_line(const char *before, const char *format, va_list arguments)
-{
-    char text[MESSAGE_SIZE];
-    vsnprintf(text, sizeof text, format, arguments);
-    for (char *c = text; *c; c++)
-        if ((unsigned char)*c < 0x20 || *c == 0x7f)
-            *c = '?';
-    fprintf(stderr, "hnbrdf%s: %s\n", before, text);
-}
-
-int cli_fail(const char *format, ...)
-{
-    va_list arguments;
-    va_start(arguments, format);
-    print_line("", format, arguments);
-    va_end(arguments);
-    return CLI_FAILURE;
-}
-
-void cli_warn(const char *format, ...)
-{
-    va_list arguments;
-    va_start(arguments, format);
-    print_line(": warning", format, arguments);
-    va_end(arguments);
-}
-
-void cli_note(void *user, const char *line)
-{
-    (void)user;
-    cli_warn("%s", line);
-}
-
-int cli_usage(const cli_command *command, const char *format, ...)
-{
-    char before[32];
-    va_list arguments;
-    snprintf(before, sizeof before, " %s", command->name);
-    va_start(arguments, format);
-    print_line(before, format, arguments);
-    va_end(arguments);
-    fprintf(stderr, "try: hnbrdf %s --help\n", command->name);
-    return CLI_USAGE;
-}
+enum { HELP_COLUMNS = 100, MOST_GIVEN = 64 };
 
 int cli_processors(void)
 {
     return hnbrdf_processors();
 }
 
-/* ---- Tables ---------------------------------------------------------------------------------- */
-
-cli_option cli_table_option(const cli_option *table)
-{
-    return (cli_option){.name = "", .type = CLI_TABLE, .value = (void *)table};
-}
-
-/* Option k of a table and of the tables in it, or NULL past the last. */
-static const cli_option *option_at(const cli_option *options, int k)
-{
-    for (const cli_option *option = options; option->name; option++) {
-        const cli_option *inside = option->type == CLI_TABLE ? option->value : NULL;
-        if (!inside && k-- == 0)
-            return option;
-        for (; inside && inside->name; inside++)
-            if (k-- == 0)
-                return inside;
-    }
-    return NULL;
-}
+/* ---- Help ------------------------------------------------------------------------------------ */
 
 /* Does the table hold that of the options for reading measured files? */
 static int reads_measured(const cli_option *options)
@@ -94,8 +26,6 @@ static int reads_measured(const cli_option *options)
             return 1;
     return 0;
 }
-
-/* ---- Help ------------------------------------------------------------------------------------ */
 
 /* Words of text from `column` on, wrapped at HELP_COLUMNS and indented to `column`. */
 static void print_wrapped(const char *text, int column)
@@ -159,7 +89,7 @@ static void print_help(const cli_command *command, const cli_option *options)
     static const cli_option help = {"help", 'h', CLI_FLAG, NULL, 0, 0, NULL, "show this help"};
     const cli_option *option;
     int width = (int)strlen("--help");
-    for (int k = 0; (option = option_at(options, k)); k++) {
+    for (int k = 0; (option = cli_option_at(options, k)); k++) {
         char text[96];
         spell_option(option, text, sizeof text);
         width = (int)strlen(text) > width ? (int)strlen(text) : width;
@@ -170,7 +100,7 @@ static void print_help(const cli_command *command, const cli_option *options)
     if (reads_measured(options))
         print_measured_files();
     printf("\noptions:\n");
-    for (int k = 0; (option = option_at(options, k)); k++)
+    for (int k = 0; (option = cli_option_at(options, k)); k++)
         print_option(option, width);
     print_option(&help, width);
     printf("\nexamples:\n");
@@ -310,6 +240,12 @@ static int set_option(const cli_command *command, const cli_option *option, cons
         *(int *)option->value = 1;
         return -1;
     case CLI_TEXT:
+    case CLI_READ:
+    case CLI_WRITE_TEXT:
+    case CLI_WRITE_BYTES:
+    case CLI_WRITE_MODEL:
+    case CLI_WRITE_PICTURE:
+    case CLI_WRITE_FOLDER:
         *(const char **)option->value = text;
         return -1;
     case CLI_NET:
@@ -329,7 +265,7 @@ static int set_option(const cli_command *command, const cli_option *option, cons
 static const cli_option *find_option(const cli_option *options, const char *argument)
 {
     const cli_option *option;
-    for (int k = 0; (option = option_at(options, k)); k++) {
+    for (int k = 0; (option = cli_option_at(options, k)); k++) {
         size_t length = strlen(option->name);
         if (argument[1] == '-') {
             if (strncmp(argument + 2, option->name, length) == 0 &&
@@ -349,7 +285,7 @@ static int fail_unknown(const cli_command *command, const cli_option *options, c
     snprintf(name, sizeof name, "%.*s", (int)strcspn(argument, "="), argument);
     hnbrdf_guess_begin(&guess, name + strspn(name, "-"));
     const cli_option *option;
-    for (int k = 0; (option = option_at(options, k)); k++)
+    for (int k = 0; (option = cli_option_at(options, k)); k++)
         hnbrdf_guess_offer(&guess, option->name);
     hnbrdf_guess_offer(&guess, "help");
     const char *nearest = hnbrdf_guess_nearest(&guess);
@@ -361,44 +297,64 @@ static int fail_unknown(const cli_command *command, const cli_option *options, c
 /* An option's value must not look like another option: `-o --seed 3` is a forgotten file name. */
 static int is_value(const char *text)
 {
-    return text && (text[0] != '-' || text[1] == '\0' || strchr("0123456789.", text[1]));
+    return text && text[0] && (text[0] != '-' || text[1] == '\0' || strchr("0123456789.", text[1]));
+}
+
+/* The options that have had a value: the second of two would be the one that counts, silently. */
+typedef struct given_options {
+    const cli_option *options[MOST_GIVEN];
+    int count;
+} given_options;
+
+static int note_given(const cli_command *command, const cli_option *option, given_options *given)
+{
+    for (int k = 0; k < given->count; k++)
+        if (given->options[k] == option)
+            return cli_usage(command, "--%s is given twice", option->name);
+    if (option->type != CLI_FLAG && given->count < MOST_GIVEN)
+        given->options[given->count++] = option;
+    return -1;
+}
+
+/* The option argv[*k], whose value may be the argument after it. */
+static int parse_option(const cli_command *command, const cli_option *options, int argc,
+                        char **argv, int *k, given_options *given)
+{
+    const char *argument = argv[*k];
+    const cli_option *option = find_option(options, argument);
+    if (!option)
+        return fail_unknown(command, options, argument);
+    const char *equals = argument[1] == '-' ? strchr(argument, '=') : NULL;
+    const char *value = equals ? equals + 1 : NULL;
+    if (option->type == CLI_FLAG && value)
+        return cli_usage(command, "--%s takes no value", option->name);
+    if (option->type != CLI_FLAG && !value && *k + 1 < argc)
+        value = argv[++*k];
+    if (option->type != CLI_FLAG && (equals ? !*value : !is_value(value)))
+        return cli_usage(command, "--%s needs a value: --%s %s", option->name, option->name,
+                         option->argument);
+    const int code = note_given(command, option, given);
+    return code < 0 ? set_option(command, option, value) : code;
 }
 
 int cli_parse(const cli_command *command, const cli_option *options, int argc, char **argv,
               int *positionals)
 {
-    int count = 0, only_positionals = 0;
-    for (int k = 1; k < argc; k++) {
+    given_options given = {.count = 0};
+    int count = 0, only_positionals = 0, code = -1;
+    for (int k = 1; k < argc && code < 0; k++) {
         char *argument = argv[k];
-        if (only_positionals || argument[0] != '-' || argument[1] == '\0') {
+        if (!argument[0])
+            return cli_usage(command, "argument %d is empty", k);
+        if (only_positionals || argument[0] != '-' || argument[1] == '\0')
             argv[++count] = argument;
-            continue;
-        }
-        if (strcmp(argument, "--") == 0) {
+        else if (strcmp(argument, "--") == 0)
             only_positionals = 1;
-            continue;
-        }
-        if (strcmp(argument, "--help") == 0 || strcmp(argument, "-h") == 0) {
-            print_help(command, options);
-            return CLI_OK;
-        }
-        const cli_option *option = find_option(options, argument);
-        if (!option)
-            return fail_unknown(command, options, argument);
-        const char *equals = argument[1] == '-' ? strchr(argument, '=') : NULL;
-        const char *value = equals ? equals + 1 : NULL;
-        if (option->type == CLI_FLAG && value)
-            return cli_usage(command, "--%s takes no value", option->name);
-        if (option->type != CLI_FLAG && !value) {
-            value = k + 1 < argc ? argv[++k] : NULL;
-            if (!is_value(value))
-                return cli_usage(command, "--%s needs a value: --%s %s", option->name, option->name,
-                                 option->argument);
-        }
-        int result = set_option(command, option, value);
-        if (result >= 0)
-            return result;
+        else if (strcmp(argument, "--help") == 0 || strcmp(argument, "-h") == 0)
+            return print_help(command, options), CLI_OK;
+        else
+            code = parse_option(command, options, argc, argv, &k, &given);
     }
     *positionals = count;
-    return -1;
+    return code < 0 ? cli_check_files(command, options, argv + 1, count) : code;
 }

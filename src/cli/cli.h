@@ -24,7 +24,14 @@ typedef enum cli_type {
     CLI_NET,    /* int[2]: HxN, as in 32x2 */
     CLI_CHOICE, /* int *: which word of `argument`, "a|b|c", from 0 */
     CLI_WORD,   /* cli_word *: the value with this name */
-    CLI_TABLE   /* const cli_option *: the options of another table, here among these */
+    CLI_TABLE,  /* const cli_option *: the options of another table, here among these */
+    CLI_READ,   /* const char **: a file that is read */
+    /* Each const char **: what is written; cli_parse() checks it before any work, see files.c. */
+    CLI_WRITE_TEXT,    /* "-" is standard output */
+    CLI_WRITE_BYTES,   /* likewise */
+    CLI_WRITE_MODEL,   /* may be a model that is read */
+    CLI_WRITE_PICTURE, /* FILE.exr and the FILE.png beside it, or FILE.png */
+    CLI_WRITE_FOLDER
 } cli_type;
 
 /* A value of an enum that counts from 0, and the names of all: NULL past the last. */
@@ -53,9 +60,19 @@ typedef struct cli_command {
 /* Parses argv[1..]. `--name value`, `--name=value`, `-o value`; "--" ends options; "-" is
  * positional. Positionals are moved to argv[1..*positionals] in order. Returns -1 to go on;
  * otherwise the exit code the command must return (0 after --help, 2 after an error, whose
- * message has been printed). */
+ * message has been printed). An option that takes a value is given once. What is to be written can
+ * be written, is not written twice, and is nothing that is read. */
 int cli_parse(const cli_command *command, const cli_option *options, int argc, char **argv,
               int *positionals);
+
+/* Option k of a table and of the tables in it, or NULL past the last. */
+const cli_option *cli_option_at(const cli_option *options, int k);
+/* What cli_parse() asks about files when it knows all: -1 to go on, or the exit code. */
+int cli_check_files(const cli_command *command, const cli_option *options, char *const *arguments,
+                    int count);
+/* For a file that no argument names, as one in a folder: does an option of this command write it?
+ * Then a message and CLI_FAILURE. */
+int cli_check_read(const char *path);
 
 /* Prints "hnbrdf COMMAND: message" and a hint to --help on stderr; returns CLI_USAGE. */
 int cli_usage(const cli_command *command, const char *format, ...)
@@ -123,6 +140,8 @@ typedef struct cli_source {
 /* Which instructions models are evaluated with; all give the same bits. */
 extern cli_word cli_variant;
 
+/* By its first bytes. */
+int cli_looks_like_model(const char *path);
 /* Recognised by content. Returns 0, or CLI_FAILURE after a message. */
 int cli_open_source(const char *path, cli_source *source);
 void cli_close_source(cli_source *source);
@@ -158,6 +177,12 @@ void cli_output_discard(cli_output *output); /* drop what was written */
 int cli_make_folder(const char *path);       /* unless it is there */
 /* Opens, writes and closes; nothing if path is NULL. */
 int cli_write_file(const char *path, void (*write)(const void *what, FILE *file), const void *what);
+/* Standard input, output and error for a process that was given some of them closed; what becomes
+ * of a reader of stdout that is gone and of a file that may not grow. The end flushes stdout and
+ * returns the exit code. */
+void cli_standard_begin(void);
+int cli_standard_end(int code);
+int cli_standard_gone(void); /* 1 after a write to a pipe that nobody reads */
 /* 1 if path is "-". */
 int cli_is_stdout(const char *path);
 

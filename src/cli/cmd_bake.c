@@ -109,14 +109,9 @@ static int bake(const hnbrdf_model *model, hnbrdf_bake_options *options, const c
 static int run(const char *path, const char *list, char *const *data_arguments, int data_count,
                hnbrdf_bake_options *options, const outputs *o)
 {
-    const char *const paths[] = {o->model, o->csv, o->json, o->plot};
     hnbrdf_model *model = NULL;
     cli_data data = {NULL, 0};
-    int *chosen = NULL, code = CLI_OK;
-    for (size_t k = 0; k < 4 && code == CLI_OK; k++)
-        code = cli_output_check(paths[k]);
-    if (code == CLI_OK)
-        code = cli_open_model(path, &model);
+    int *chosen = NULL, code = cli_open_model(path, &model);
     if (code == CLI_OK)
         code = cli_choose_materials(model, list, &chosen, &options->material_count);
     if (code == CLI_OK && data_count > 0)
@@ -168,7 +163,8 @@ int cmd_bake(int argc, char **argv)
     long latent = -1, mults = 0, restarts = 0, pairs = 0, pool = 0, seed = 1, threads = 0;
     /* clang-format off */
     const cli_option options[] = {
-        {"output", 'o', CLI_TEXT, &o.model, 0, 0, "FILE", "the model file to write (required)"},
+        {"output", 'o', CLI_WRITE_MODEL, &o.model, 0, 0, "FILE",
+         "the model file to write (required)"},
         {"materials", 'm', CLI_TEXT, &materials, 0, 0, "LIST",
          "materials of MODEL to keep (default all)"},
         {"max-error", 0, CLI_REAL, &b.max_error, 1e-6, 2, "E", "the SMAPE that is accepted"},
@@ -181,7 +177,7 @@ int cmd_bake(int argc, char **argv)
         {"net", 0, CLI_TEXT, &net, 0, 0, "HxN", "N hidden layers of H units, or auto"},
         {"latent", 0, CLI_INT, &latent, 0, HNBRDF_MAX_LATENT, "L",
          "floats of latent code (default: by the number of materials, at most 8)"},
-        {"data", 0, CLI_TEXT, &data, 0, 0, "DATA...",
+        {"data", 0, CLI_READ, &data, 0, 0, "DATA...",
          "measurements to learn from and be judged by; further ones behind it, MODEL before"},
         {"analytic", 0, CLI_CHOICE, &analytic, 0, 0, "keep|fit",
          "kd, eta, alpha: MODEL's, or fitted to what is learned from (default keep, with "
@@ -202,9 +198,10 @@ int cmd_bake(int argc, char **argv)
          "pairs drawn a material for training (default 131072, short fits 32768)"},
         {"seed", 0, CLI_INT, &seed, 0, 9e15, "N",
          "the first seed of everything random (default 1)"},
-        {"csv", 0, CLI_TEXT, &o.csv, 0, 0, "FILE", "write what was tried, a row a model"},
-        {"json", 0, CLI_TEXT, &o.json, 0, 0, "FILE", "the same with the errors of each material"},
-        {"plot", 0, CLI_TEXT, &o.plot, 0, 0, "FILE", "write error against time as an SVG"},
+        {"csv", 0, CLI_WRITE_TEXT, &o.csv, 0, 0, "FILE", "write what was tried, a row a model"},
+        {"json", 0, CLI_WRITE_TEXT, &o.json, 0, 0, "FILE",
+         "the same with the errors of each material"},
+        {"plot", 0, CLI_WRITE_TEXT, &o.plot, 0, 0, "FILE", "write error against time as an SVG"},
         {"threads", 't', CLI_INT, &threads, 1, 256, "N", "threads (default one a core)"},
         CLI_READING_OPTIONS,
         {0},

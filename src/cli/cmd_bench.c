@@ -176,19 +176,6 @@ static void fill_defaults(bench *b, settings *set)
     b->spp = b->spp ? b->spp : quick ? 4 : 32;
 }
 
-static int check_outputs(const settings *set)
-{
-    const char *const paths[] = {set->csv, set->json, set->plot};
-    int on_stdout = 0;
-    for (int k = 0; k < 3; k++) {
-        on_stdout += cli_is_stdout(paths[k]);
-        if (cli_output_check(paths[k]) != CLI_OK)
-            return CLI_FAILURE;
-    }
-    return on_stdout > 1 ? cli_usage(&command, "only one of --csv, --json and --plot can be -")
-                         : CLI_OK;
-}
-
 int cmd_bench(int argc, char **argv)
 {
     bench *b = calloc(1, sizeof *b);
@@ -208,10 +195,11 @@ int cmd_bench(int argc, char **argv)
     const cli_option options[] = {
         {"data", 0, CLI_TEXT, &set.data, 0, 0, "DATA",
          "measurements to compare with, by name; several with commas between"},
-        {"csv", 0, CLI_TEXT, &set.csv, 0, 0, "FILE", "the table as CSV; - is standard output"},
-        {"json", 0, CLI_TEXT, &set.json, 0, 0, "FILE",
+        {"csv", 0, CLI_WRITE_TEXT, &set.csv, 0, 0, "FILE",
+         "the table as CSV; - is standard output"},
+        {"json", 0, CLI_WRITE_TEXT, &set.json, 0, 0, "FILE",
          "the table and the machine as JSON; - likewise"},
-        {"plot", 0, CLI_TEXT, &set.plot, 0, 0, "FILE",
+        {"plot", 0, CLI_WRITE_TEXT, &set.plot, 0, 0, "FILE",
          "SVG: error against run time; c-batch, c-single-prepared and Vulkan (with MODEL needs "
          "--data)"},
         {"nets", 0, CLI_TEXT, &set.nets, 0, 0, "LIST",
@@ -240,10 +228,8 @@ int cmd_bench(int argc, char **argv)
     fill_defaults(b, &set);
     b->sampler = (hnbrdf_sampler)sampler.value;
     if (code < 0) {
-        code = check_outputs(&set);
         setenv("MESA_SHADER_CACHE_DISABLE", "true", 0); /* the first dispatch is timed */
-        if (code == CLI_OK)
-            code = run(b, &set, argv + 1, count);
+        code = run(b, &set, argv + 1, count);
     }
     free(line);
     free(b);

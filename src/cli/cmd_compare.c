@@ -128,12 +128,12 @@ int cmd_compare(int argc, char **argv)
         {"seed", 0, CLI_INT, &j.seed, 0, 9007199254740992.0, "N",
          "of the random pairs (default 1)"},
         {"threads", 't', CLI_INT, &threads, 0, 1024, "N", "default 0: all processors"},
-        {"against", 0, CLI_TEXT, &j.path_against, 0, 0, "MODEL",
+        {"against", 0, CLI_READ, &j.path_against, 0, 0, "MODEL",
          "a second model: its SMAPE beside, and which of the two is better for how many materials"},
         {"skip-missing", 0, CLI_FLAG, &skip_missing, 0, 0, NULL,
          "leave out data that the model has no material for (default: an error)"},
         {"images", 0, CLI_FLAG, &images, 0, 0, NULL, "compare pictures, the reference last"},
-        {"difference", 0, CLI_TEXT, &pictures.difference, 0, 0, "FILE",
+        {"difference", 0, CLI_WRITE_PICTURE, &pictures.difference, 0, 0, "FILE",
          "with --images: false colours and their scale as FILE.png, or FILE.exr and a PNG beside "
          "it"},
         {"layer", 0, CLI_TEXT, &pictures.layer, 0, 0, "NAME",
@@ -142,8 +142,9 @@ int cmd_compare(int argc, char **argv)
          "with --images: pixels that are not finite become the mean of those around them"},
         {"scale", 0, CLI_REAL, &pictures.top, 1e-30, 1e30, "X",
          "where its colours end (default: at most one pixel in a hundred is beyond)"},
-        {"csv", 0, CLI_TEXT, &csv, 0, 0, "FILE", "write the table as CSV; - is standard output"},
-        {"json", 0, CLI_TEXT, &json, 0, 0, "FILE",
+        {"csv", 0, CLI_WRITE_TEXT, &csv, 0, 0, "FILE",
+         "write the table as CSV; - is standard output"},
+        {"json", 0, CLI_WRITE_TEXT, &json, 0, 0, "FILE",
          "write it as JSON, with MAE and MSE; - likewise"},
         CLI_READING_OPTIONS,
         CLI_SIGNED_OPTION,
@@ -158,10 +159,6 @@ int cmd_compare(int argc, char **argv)
     if (count < 2)
         return cli_usage(&command, "%s",
                          count ? "no DATA to compare with" : "no MODEL and no DATA");
-    if (cli_is_stdout(csv) && cli_is_stdout(json))
-        return cli_usage(&command, "--csv and --json both to standard output");
-    if ((result = cli_output_check(csv)) || (result = cli_output_check(json)))
-        return result;
     if (images) {
         pictures.paths = argv + 1;
         pictures.count = count;

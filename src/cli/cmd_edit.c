@@ -90,6 +90,10 @@ static int run(const edit_job *job)
     hnbrdf_model *model;
     if (cli_open_model(job->path, &model) != CLI_OK)
         return CLI_FAILURE;
+    if (cli_output_check(job->output) != CLI_OK) { /* MODEL itself is no option */
+        hnbrdf_model_free(model);
+        return CLI_FAILURE;
+    }
     int index = cli_choose_material(model, job->material);
     int result = index < 0 ? CLI_FAILURE : edit_material(job, model, index);
     hnbrdf_model_free(model);
@@ -110,7 +114,7 @@ int cmd_edit(int argc, char **argv)
          "keep the material, add the edited one under this name"},
         {"replace", 0, CLI_FLAG, &job.replace, 0, 0, NULL,
          "--as may overwrite a material of that name"},
-        {"output", 'o', CLI_TEXT, &job.output, 0, 0, "OUT",
+        {"output", 'o', CLI_WRITE_MODEL, &job.output, 0, 0, "OUT",
          "the model file to write (default: MODEL, rewritten)"},
         {0},
     };

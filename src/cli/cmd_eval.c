@@ -112,8 +112,6 @@ static const hnbrdf_material *line_material(eval_job *job)
                      job->in.fields[column]);
         return hnbrdf_model_material(job->source.model, index);
     }
-    if (job->material < 0)
-        job->material = cli_choose_material(job->source.model, NULL);
     return hnbrdf_model_material(job->source.model, job->material);
 }
 
@@ -139,6 +137,8 @@ static int write_value(const eval_job *job, const float f[3])
         fputs(text, file);
         putc(channel < 2 ? ',' : '\n', file);
     }
+    if (ferror(file) && file == stdout && cli_standard_gone())
+        return CLI_FAILURE; /* without a word, see cli_standard_end() */
     return ferror(file) ? cli_fail("%s: cannot write: %s", job->out_name, strerror(errno)) : CLI_OK;
 }
 
@@ -168,6 +168,9 @@ static int evaluate_lines(eval_job *job)
             return CLI_FAILURE;
         more = hnbrdf_csv_next(&job->in, &error);
     }
+    if (job->source.model && job->material < 0 && job->columns[MATERIAL] < 0 &&
+        (job->material = cli_choose_material(job->source.model, NULL)) < 0)
+        return CLI_FAILURE;
     fputs("f_r,f_g,f_b\n", job->out);
     for (; more > 0; more = hnbrdf_csv_next(&job->in, &error))
         if (evaluate_line(job) != CLI_OK)
@@ -210,9 +213,9 @@ int cmd_eval(int argc, char **argv)
     const cli_option options[] = {
         {"material", 'm', CLI_TEXT, &material, 0, 0, "NAME",
          "material of the model (default: the only one, or the column `material`)"},
-        {"input", 'i', CLI_TEXT, &in, 0, 0, "FILE",
+        {"input", 'i', CLI_READ, &in, 0, 0, "FILE",
          "read the pairs from FILE (default: standard input)"},
-        {"output", 'o', CLI_TEXT, &out, 0, 0, "FILE",
+        {"output", 'o', CLI_WRITE_TEXT, &out, 0, 0, "FILE",
          "write the values to FILE (default: standard output)"},
         {"variant", 0, CLI_WORD, &cli_variant, 0, 0, "NAME",
          "auto, plain, sse2, avx2, avx512 or neon: instructions to use, the same values "

@@ -121,7 +121,8 @@ static int write_weights(const hnbrdf_model *model, const hnbrdf_glsl_options *o
         return CLI_FAILURE;
     counted_file to = {.file = output.file};
     hnbrdf_error error;
-    if (hnbrdf_export_weights(model, options, write_counted, &to, &error) == HNBRDF_OK)
+    if (hnbrdf_export_weights(model, options, write_counted, &to, &error) == HNBRDF_OK ||
+        ferror(output.file)) /* closing says why */
         return cli_output_close(&output);
     cli_output_discard(&output);
     return cli_fail("%s: %s", path, error.text);
@@ -150,7 +151,8 @@ static int export_to(const hnbrdf_model *model, const hnbrdf_glsl_options *optio
         return CLI_FAILURE;
     counted_file to = {.file = output.file};
     hnbrdf_error error;
-    if (hnbrdf_export_glsl(model, options, write_counted, &to, &error)) {
+    if (hnbrdf_export_glsl(model, options, write_counted, &to, &error) &&
+        !ferror(output.file)) { /* else closing says why */
         cli_output_discard(&output);
         return cli_fail("%s: %s", path, error.text);
     }
@@ -234,7 +236,7 @@ int cmd_export(int argc, char **argv)
          "put the text of hybrid_brdf.glsl first"},
         {"weights", 'w', CLI_WORD, &set.weights, 0, 0, "constants|columns|uniform",
          "how the shader holds the network (default constants)"},
-        {"weights-out", 0, CLI_TEXT, &set.weights_path, 0, 0, "FILE",
+        {"weights-out", 0, CLI_WRITE_BYTES, &set.weights_path, 0, 0, "FILE",
          "with --weights uniform: where to write the bytes of the buffer"},
         {"precision", 0, CLI_WORD, &set.precision, 0, 0, "float|half",
          "of the hidden layers (default float)"},
@@ -242,9 +244,10 @@ int cmd_export(int argc, char **argv)
          "scale materials whose albedo (hnbrdf info) is above 1"},
         {"pack", 0, CLI_CHOICE, &set.pack, 0, 0, "half|byte",
          "with a function that unpacks texels"},
-        {"texels", 0, CLI_TEXT, &set.texels, 0, 0, "FILE",
+        {"texels", 0, CLI_WRITE_BYTES, &set.texels, 0, 0, "FILE",
          "with --pack: where to write the materials as texels"},
-        {"output", 'o', CLI_TEXT, &set.path, 0, 0, "FILE", "where to write; - is standard output"},
+        {"output", 'o', CLI_WRITE_TEXT, &set.path, 0, 0, "FILE",
+         "where to write; - is standard output"},
         {0},
     };
     int result = cli_parse(&command, options, argc, argv, &count);
@@ -263,7 +266,7 @@ int cmd_export(int argc, char **argv)
     if (set.texels && set.pack < 0)
         return cli_usage(&command, "--texels without --pack half or --pack byte");
     hnbrdf_model *model = NULL;
-    result = cli_load_model(argv[1], &model);
+    result = cli_open_model(argv[1], &model);
     if (result != CLI_OK)
         return result;
     int *materials = NULL, chosen = 0;

@@ -203,12 +203,7 @@ static int run(job *j)
 static int open_and_run(job *j, const char *freeze, char *const *data, int count)
 {
     cli_source source = {NULL, NULL};
-    const char *const outputs[] = {j->output, j->plot, j->log, j->json};
     int code = CLI_OK;
-    for (size_t k = 0; k < sizeof outputs / sizeof outputs[0] && !code; k++)
-        code = cli_output_check(outputs[k]);
-    if (code)
-        return code;
     size_t length = strlen(j->output);
     char *checkpoint = malloc(length + sizeof ".checkpoint");
     if (!checkpoint)
@@ -244,7 +239,8 @@ int cmd_fit(int argc, char **argv)
     long latent = 0, steps = 0, seed = 1, threads = 0, batch = 0, pool = 0;
     double seconds = 0.0, floor = 0.003, rate = 0.0;
     const cli_option options[] = {
-        {"output", 'o', CLI_TEXT, &output, 0, 0, "FILE", "the model file to write (required)"},
+        {"output", 'o', CLI_WRITE_MODEL, &output, 0, 0, "FILE",
+         "the model file to write (required)"},
         {"kind", 0, CLI_WORD, &kind, 0, 0, "KIND", "hybrid, neural or ggx (default hybrid)"},
         {"net", 0, CLI_NET, net, 0, 0, "HxN", "N hidden layers of H units (default 32x2)"},
         {"latent", 0, CLI_INT, &latent, 1, HNBRDF_MAX_LATENT, "L",
@@ -274,14 +270,14 @@ int cmd_fit(int argc, char **argv)
         {"uniform-share", 0, CLI_REAL, &uniform_share, 0, 1, "S",
          "of the pairs, drawn uniformly, the others on MERL's grid (default 0.5)"},
         {"seed", 0, CLI_INT, &seed, 0, 9e15, "N", "seed of everything random (default 1)"},
-        {"freeze", 0, CLI_TEXT, &freeze, 0, 0, "MODEL",
+        {"freeze", 0, CLI_READ, &freeze, 0, 0, "MODEL",
          "keep this model's network, fit only the new materials (default steps 3000)"},
         {"resume", 0, CLI_FLAG, &resume, 0, 0, NULL,
          "go on from OUTPUT.checkpoint of an interrupted fit, and with its --log"},
-        {"log", 0, CLI_TEXT, &log, 0, 0, "FILE",
+        {"log", 0, CLI_WRITE_TEXT, &log, 0, 0, "FILE",
          "write step,share,loss,pairs_per_s as CSV, a row every 100 steps"},
-        {"plot", 0, CLI_TEXT, &plot, 0, 0, "FILE", "write the course of the loss as an SVG"},
-        {"json", 0, CLI_TEXT, &json, 0, 0, "FILE",
+        {"plot", 0, CLI_WRITE_TEXT, &plot, 0, 0, "FILE", "write the course of the loss as an SVG"},
+        {"json", 0, CLI_WRITE_TEXT, &json, 0, 0, "FILE",
          "write speed, the machine's limit and where the time went as JSON; - is standard output"},
         {"threads", 0, CLI_INT, &threads, 1, 256, "N", "threads (default one a core)"},
         CLI_READING_OPTIONS,

@@ -162,7 +162,7 @@ int cmd_gallery(int argc, char **argv)
     report_gallery *g = &c.gallery;
     int count;
     const cli_option options[] = {
-        {"output", 'o', CLI_TEXT, &g->directory, 0, 0, "DIR",
+        {"output", 'o', CLI_WRITE_FOLDER, &g->directory, 0, 0, "DIR",
          "the folder to write (required); made if missing"},
         {"materials", 0, CLI_TEXT, &c.materials, 0, 0, "A,B", "whose edits to show (default: two)"},
         {"pairs", 0, CLI_TEXT, &c.pairs, 0, 0, "A:B,C:D", "what to mix (default: up to six pairs)"},

@@ -104,7 +104,7 @@ int cmd_import(int argc, char **argv)
 {
     const char *out = NULL;
     const cli_option options[] = {
-        {"output", 'o', CLI_TEXT, &out, 0, 0, "FILE", "the model file to write (required)"},
+        {"output", 'o', CLI_WRITE_MODEL, &out, 0, 0, "FILE", "the model file to write (required)"},
         {0},
     };
     brdf_texts texts = {0};

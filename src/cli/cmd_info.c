@@ -1,7 +1,9 @@
 /* cmd_info.c: `hnbrdf info`: what a model, a measured file or a collection of them holds. */
 #include "cli/cli.h"
 #include "report/info.h"
+#include "report/info_physics.h"
 
+#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
@@ -50,16 +52,32 @@ static int tell_collection(char **argument, int json)
     return CLI_OK;
 }
 
+static int tell_model(const char *path, const hnbrdf_model *model, int json)
+{
+    cli_progress progress;
+    const report_watch watch = cli_watch(&progress);
+    cli_progress_begin(&progress, "albedo and reciprocity");
+    hnbrdf_physics *physics = info_measure_physics(model, &watch);
+    cli_progress_end(&progress);
+    if (!physics)
+        return cli_fail("out of memory");
+    if (json)
+        info_json_model(model, physics, stdout);
+    else
+        info_print_model(path, model, physics, stdout);
+    free(physics);
+    return CLI_OK;
+}
+
 static int tell_source(const char *path, int json)
 {
     cli_source source = {0};
     cli_read.merl_identify = 1;
     if (cli_open_source(path, &source) != CLI_OK)
         return CLI_FAILURE;
-    if (source.model && json) {
-        info_json_model(source.model, stdout);
-    } else if (source.model) {
-        info_print_model(path, source.model, stdout);
+    int code = CLI_OK;
+    if (source.model) {
+        code = tell_model(path, source.model, json);
     } else if (json) {
         info_json_measured(source.measured, cli_read.merl_identify, stdout);
         putchar('\n');
@@ -67,7 +85,7 @@ static int tell_source(const char *path, int json)
         info_print_measured(path, source.measured, stdout);
     }
     cli_close_source(&source);
-    return CLI_OK;
+    return code;
 }
 
 int cmd_info(int argc, char **argv)

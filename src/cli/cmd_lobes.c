@@ -44,7 +44,7 @@ static int run(hnbrdf_model **model, hnbrdf_lobes_scheme scheme, int show, const
     hnbrdf_model_desc desc;
     hnbrdf_error error;
     int to_stdout = csv && csv[0] == '-' && !csv[1];
-    if (!show && (cli_output_check(output) != CLI_OK || cli_set_lobes(model, scheme) != CLI_OK))
+    if (!show && cli_set_lobes(model, scheme) != CLI_OK)
         return CLI_FAILURE;
     hnbrdf_model_describe(*model, &desc);
     if (!show && hnbrdf_model_save(*model, output, &error) != HNBRDF_OK)
@@ -63,10 +63,10 @@ int cmd_lobes(int argc, char **argv)
     const cli_option options[] = {
         {"scheme", 0, CLI_CHOICE, &scheme, 0, 0, "fitted|paper|guess",
          "least variance (default); half cosine, half all normals; none"},
-        {"output", 'o', CLI_TEXT, &output, 0, 0, "OUT",
+        {"output", 'o', CLI_WRITE_MODEL, &output, 0, 0, "OUT",
          "the model file to write (default: MODEL, rewritten)"},
         {"show", 0, CLI_FLAG, &show, 0, 0, NULL, "show those it has, change nothing"},
-        {"csv", 0, CLI_TEXT, &csv, 0, 0, "FILE",
+        {"csv", 0, CLI_WRITE_TEXT, &csv, 0, 0, "FILE",
          "write the table as CSV; - is stdout, then without the table"},
         {0},
     };
@@ -78,10 +78,12 @@ int cmd_lobes(int argc, char **argv)
     if (show && output)
         return cli_usage(&command, "--show writes no model: leave out -o");
     hnbrdf_model *model;
-    result = cli_load_model(argv[1], &model);
-    if (result != CLI_OK)
-        return result;
-    result = run(&model, schemes[scheme], show, csv, output ? output : argv[1]);
+    output = output ? output : argv[1];
+    if (cli_open_model(argv[1], &model) != CLI_OK)
+        return CLI_FAILURE;
+    result = show ? CLI_OK : cli_output_check(output); /* MODEL itself is no option */
+    if (result == CLI_OK)
+        result = run(&model, schemes[scheme], show, csv, output);
     hnbrdf_model_free(model);
     return result;
 }

@@ -134,6 +134,10 @@ static int run(const mix_job *job)
     hnbrdf_model *model;
     if (cli_open_model(job->path, &model) != CLI_OK)
         return CLI_FAILURE;
+    if (cli_output_check(job->output) != CLI_OK) { /* MODEL itself is no option */
+        hnbrdf_model_free(model);
+        return CLI_FAILURE;
+    }
     mixtures *m = calloc(1, sizeof *m);
     int result = m ? mix_all(job, model, m) : cli_fail("out of memory");
     if (result == CLI_OK)
@@ -153,7 +157,7 @@ int cmd_mix(int argc, char **argv)
          "0 is A, 1 is B; FIRST:LAST:STEP for several (required)"},
         {"as", 0, CLI_TEXT, &job.prefix, 0, 0, "PREFIX", "what the names begin with (default A-B)"},
         {"replace", 0, CLI_FLAG, &job.replace, 0, 0, NULL, "overwrite materials of these names"},
-        {"output", 'o', CLI_TEXT, &job.output, 0, 0, "OUT",
+        {"output", 'o', CLI_WRITE_MODEL, &job.output, 0, 0, "OUT",
          "the model file to write (default: MODEL, rewritten)"},
         {0},
     };

@@ -176,7 +176,7 @@ int cmd_render(int argc, char **argv)
     report_still *still = &c.still;
     const cli_option options[] = {
         {"material", 0, CLI_TEXT, &c.material, 0, 0, "NAME", "of a model with several"},
-        {"output", 'o', CLI_TEXT, &c.output, 0, 0, "FILE",
+        {"output", 'o', CLI_WRITE_PICTURE, &c.output, 0, 0, "FILE",
          "FILE.exr (and FILE.png beside it) or FILE.png"},
         {"size", 0, CLI_INT, &still->spheres.size, 1, 8192, "N", "pixels a side, default 512"},
         PICTURE_OPTIONS(still->spheres.light, "64"),
@@ -191,7 +191,7 @@ int cmd_render(int argc, char **argv)
          "on Vulkan device N (hnbrdf verify --list), by the exported shader and its sampling"},
         {"check", 0, CLI_FLAG, &c.check, 0, 0, NULL,
          "with --device: also on the CPU, with the same random numbers; fails if they differ"},
-        {"mesh", 0, CLI_TEXT, &still->mesh.path, 0, 0, "FILE.obj",
+        {"mesh", 0, CLI_READ, &still->mesh.path, 0, 0, "FILE.obj",
          "a mesh instead of the sphere (y is up)"},
         {"smooth", 0, CLI_FLAG, &still->mesh.smooth, 0, 0, NULL,
          "of a mesh: normals averaged at its vertices"},

@@ -113,7 +113,7 @@ int cmd_report(int argc, char **argv)
     cli_word analytic = {HNBRDF_FIT_FAITHFUL, cli_analytic_word};
     int quick = 0, count;
     const cli_option options[] = {
-        {"output", 'o', CLI_TEXT, &r.directory, 0, 0, "DIR",
+        {"output", 'o', CLI_WRITE_FOLDER, &r.directory, 0, 0, "DIR",
          "the folder to write (required); made if missing"},
         {"nets", 0, CLI_TEXT, &nets, 0, 0, "LIST", "default 16x2,16x3,32x2,32x3,64x2,64x3"},
         {"latents", 0, CLI_TEXT, &latents, 0, 0, "LIST",

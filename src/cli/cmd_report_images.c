@@ -134,7 +134,7 @@ static int describe_given(report *r)
 {
     hnbrdf_model *model;
     hnbrdf_model_desc desc;
-    if (cli_load_model(r->given, &model) != CLI_OK)
+    if (cli_open_model(r->given, &model) != CLI_OK)
         return CLI_FAILURE;
     hnbrdf_model_describe(model, &desc);
     hnbrdf_model_free(model);
@@ -176,14 +176,14 @@ int cmd_report_images(int argc, char **argv)
     int quick = 0, count;
     long fit_seed = 1;
     const cli_option options[] = {
-        {"output", 'o', CLI_TEXT, &r.directory, 0, 0, "DIR",
+        {"output", 'o', CLI_WRITE_FOLDER, &r.directory, 0, 0, "DIR",
          "the folder to write (required); made if missing"},
         {"nets", 0, CLI_TEXT, &nets, 0, 0, "LIST", "default 16x3,32x3,64x3"},
         {"latents", 0, CLI_TEXT, &latents, 0, 0, "LIST",
          "latent sizes of the hybrids (default 4,8)"},
         {"models", 0, CLI_TEXT, &models, 0, 0, "LIST",
          "of hybrid, paper and neural (default all); GGX always"},
-        {"model", 0, CLI_TEXT, &r.given, 0, 0, "FILE",
+        {"model", 0, CLI_READ, &r.given, 0, 0, "FILE",
          "instead of a grid: this model and GGX alone"},
         {"from", 0, CLI_TEXT, &r.from, 0, 0, "DIR2", "take the models from this report's folder"},
         {"steps", 0, CLI_INT, &r.steps, 1, 1e9, "N",
@@ -195,7 +195,7 @@ int cmd_report_images(int argc, char **argv)
          "pixels of a sphere's side (default 512)"},
         {"spp", 0, CLI_INT, &r.light.spp, 2, 1 << 20, "N",
          "samples a pixel (default 1024); twice a power of 2 is best"},
-        {"env", 0, CLI_TEXT, &r.light.env, 0, 0, "sky|furnace|FILE",
+        {"env", 0, CLI_READ, &r.light.env, 0, 0, "sky|furnace|FILE",
          "light: sky, furnace, or a map .exr or .hdr: lat-long, or an EXR cube"},
         {"layer", 0, CLI_TEXT, &r.light.layer, 0, 0, "NAME", "of an EXR map with several layers"},
         {"repair", 0, CLI_FLAG, &r.light.repair, 0, 0, NULL,

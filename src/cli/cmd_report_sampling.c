@@ -121,7 +121,7 @@ static int open_models(sampling_report *r, char *const *paths, int count, long m
     hnbrdf_model **models = calloc((size_t)count, sizeof *models);
     int code = models ? CLI_OK : cli_fail("out of memory");
     for (int k = 0; k < count && code == CLI_OK; k++)
-        code = cli_load_model(paths[k], &models[k]);
+        code = cli_open_model(paths[k], &models[k]);
     if (code == CLI_OK)
         code = choose_subjects(r, models, paths, count, most, strips);
     if (code == CLI_OK)
@@ -163,7 +163,7 @@ int cmd_report_sampling(int argc, char **argv)
     int quick = 0, count;
     long most = 1 << 20, spp = 1024, strips = 3;
     const cli_option options[] = {
-        {"output", 'o', CLI_TEXT, &r.directory, 0, 0, "DIR",
+        {"output", 'o', CLI_WRITE_FOLDER, &r.directory, 0, 0, "DIR",
          "the folder to write (required); made if missing"},
         {"most", 0, CLI_INT, &most, 1, 1 << 20, "N",
          "at most so many materials of each model (default all)"},

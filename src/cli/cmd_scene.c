@@ -107,8 +107,6 @@ static int compare(const scene_command *c)
                                 .exposure = c->exposure,
                                 .half = c->half,
                                 .watch = cli_watch(&line)};
-    if (cli_output_check(c->csv) != CLI_OK || cli_output_check(c->json) != CLI_OK)
-        return CLI_FAILURE;
     cli_progress_begin(&line, "rendering");
     hnbrdf_catch_interrupts(1);
     hnbrdf_result result = report_scene_compare(&scene, rows, &error);
@@ -125,7 +123,7 @@ int cmd_scene(int argc, char **argv)
 {
     scene_command c = {.exposure = NAN, .job = {.spp = 64, .seed = 1}};
     const cli_option options[] = {
-        {"output", 'o', CLI_TEXT, &c.job.output, 0, 0, "FILE",
+        {"output", 'o', CLI_WRITE_PICTURE, &c.job.output, 0, 0, "FILE",
          "FILE.exr (and FILE.png beside it) or FILE.png"},
         {"spp", 0, CLI_INT, &c.job.spp, 1, 1 << 20, "N", "samples a pixel, default 64"},
         {"bounces", 0, CLI_INT, &c.job.bounces, 1, RENDER_MAX_BOUNCES, "N",
@@ -143,8 +141,8 @@ int cmd_scene(int argc, char **argv)
          "models: the measurements of the same names in DIR instead"},
         {"compare", 0, CLI_TEXT, &c.compare, 0, 0, "DIR",
          "model, GGX and measurements in DIR: three pictures, errors and times"},
-        {"csv", 0, CLI_TEXT, &c.csv, 0, 0, "FILE", "of --compare, the table"},
-        {"json", 0, CLI_TEXT, &c.json, 0, 0, "FILE", "likewise"},
+        {"csv", 0, CLI_WRITE_TEXT, &c.csv, 0, 0, "FILE", "of --compare, the table"},
+        {"json", 0, CLI_WRITE_TEXT, &c.json, 0, 0, "FILE", "likewise"},
         CLI_READING_OPTIONS,
         {NULL, 0, CLI_FLAG, NULL, 0, 0, NULL, NULL},
     };

@@ -78,11 +78,11 @@ int cmd_sheet(int argc, char **argv)
     sheet_command c = {.sheet = {.spheres = {.size = 160, .light = PICTURE_DEFAULTS(32)}}};
     report_sheet *sheet = &c.sheet;
     const cli_option options[] = {
-        {"output", 'o', CLI_TEXT, &c.output, 0, 0, "FILE",
+        {"output", 'o', CLI_WRITE_PICTURE, &c.output, 0, 0, "FILE",
          "FILE.png, or FILE.exr with a PNG beside it"},
         {"materials", 0, CLI_TEXT, &c.list, 0, 0, "A,B",
          "default: all of the model's that are in DATA"},
-        {"ggx", 0, CLI_TEXT, &sheet->ggx_path, 0, 0, "MODEL2",
+        {"ggx", 0, CLI_READ, &sheet->ggx_path, 0, 0, "MODEL2",
          "show its analytic parts as GGX alone"},
         {"difference", 0, CLI_FLAG, &sheet->difference, 0, 0, NULL,
          "also 4 times the absolute errors"},

@@ -59,7 +59,7 @@ static int run_model(const char *path, const settings *set, contest *c, stabilit
     cli_progress progress;
     const stability_options options = {
         .blocks = (int)set->blocks, .progress = on_progress, .progress_user = &progress};
-    if (cli_load_model(path, &model) != CLI_OK)
+    if (cli_open_model(path, &model) != CLI_OK)
         return CLI_FAILURE;
     result->path = path;
     result->backend_count = c->count;
@@ -124,10 +124,6 @@ static int compare_all(char **paths, int count, const settings *set, stability_r
 
 static int run(char **paths, int count, const settings *set, stability_result *results)
 {
-    const char *const files[] = {set->csv, set->json, set->plot};
-    for (int k = 0; k < 3; k++)
-        if (cli_output_check(files[k]) != CLI_OK)
-            return CLI_FAILURE;
     int code = compare_all(paths, count, set, results);
     if (code != CLI_OK)
         return code;
@@ -152,10 +148,10 @@ int cmd_stability(int argc, char **argv)
          "every style of weights in shaders (default: constants alone)"},
         {"all", 0, CLI_FLAG, &set.all, 0, 0, NULL,
          "print every backend and the places (default: the worst backend)"},
-        {"csv", 0, CLI_TEXT, &set.csv, 0, 0, "FILE",
+        {"csv", 0, CLI_WRITE_TEXT, &set.csv, 0, 0, "FILE",
          "every row as CSV; - is stdout, then without the table"},
-        {"json", 0, CLI_TEXT, &set.json, 0, 0, "FILE", "the same as JSON"},
-        {"plot", 0, CLI_TEXT, &set.plot, 0, 0, "FILE.png",
+        {"json", 0, CLI_WRITE_TEXT, &set.json, 0, 0, "FILE", "the same as JSON"},
+        {"plot", 0, CLI_WRITE_PICTURE, &set.plot, 0, 0, "FILE.png",
          "heat maps of the error over half vector and alpha, over both cosines"},
         {0},
     };

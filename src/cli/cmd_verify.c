@@ -171,7 +171,7 @@ static int verify_model(gpu_instance *instance, const settings *set, const char 
                       .precision = (hnbrdf_glsl_precision)set->precision.value};
     int first, *materials = NULL;
     hnbrdf_model *model = NULL;
-    if (cli_load_model(path, &model) != CLI_OK)
+    if (cli_open_model(path, &model) != CLI_OK)
         return CLI_FAILURE;
     v.model = model;
     int result = choose_devices(instance, set->device, &first, &v.device_count);
@@ -213,9 +213,10 @@ int cmd_verify(int argc, char **argv)
          "direction pairs a material (default 16384)"},
         {"seed", 0, CLI_INT, &set.seed, 0, 9007199254740992.0, "N",
          "of the random pairs (default 1)"},
-        {"csv", 0, CLI_TEXT, &set.csv, 0, 0, "FILE",
+        {"csv", 0, CLI_WRITE_TEXT, &set.csv, 0, 0, "FILE",
          "a row a device, material, build and stage; - is standard output"},
-        {"json", 0, CLI_TEXT, &set.json, 0, 0, "FILE", "everything found as JSON; - likewise"},
+        {"json", 0, CLI_WRITE_TEXT, &set.json, 0, 0, "FILE",
+         "everything found as JSON; - likewise"},
         {"validate", 0, CLI_FLAG, &set.validate, 0, 0, NULL,
          "with the Vulkan validation layer; any message fails"},
         {"without-timing", 0, CLI_FLAG, &set.without_timing, 0, 0, NULL,

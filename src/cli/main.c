@@ -3,7 +3,6 @@
 
 #include "base/guess.h"
 
-#include <errno.h>
 #include <string.h>
 
 typedef struct subcommand {
@@ -99,8 +98,6 @@ static int run(int argc, char **argv)
 int main(int argc, char **argv)
 {
     cli_read.notes = (hnbrdf_notes)CLI_NOTES;
-    int result = run(argc, argv);
-    if ((fflush(stdout) != 0 || ferror(stdout)) && result == CLI_OK)
-        return cli_fail("standard output: cannot write: %s", strerror(errno));
-    return result;
+    cli_standard_begin();
+    return cli_standard_end(run(argc, argv));
 }

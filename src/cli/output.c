@@ -18,6 +18,8 @@ int cli_output_check(const char *path)
 int cli_output_close(cli_output *output)
 {
     hnbrdf_error error;
+    if (output->file == stdout && (fflush(stdout) != 0 || ferror(stdout)) && cli_standard_gone())
+        return CLI_FAILURE; /* without a word, see cli_standard_end() */
     return cli_code(report_output_close(output, &error), &error);
 }
 
@@ -34,8 +36,13 @@ int cli_make_folder(const char *path)
 
 int cli_write_file(const char *path, void (*write)(const void *what, FILE *file), const void *what)
 {
-    hnbrdf_error error;
-    return path ? cli_code(report_write_file(path, write, what, &error), &error) : CLI_OK;
+    cli_output output;
+    if (!path)
+        return CLI_OK;
+    if (cli_output_open(path, &output) != CLI_OK)
+        return CLI_FAILURE;
+    write(what, output.file);
+    return cli_output_close(&output);
 }
 
 int cli_is_stdout(const char *path)

@@ -5,22 +5,6 @@
 
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
-
-/* Before minutes of work rather than after them. */
-static int folder_is_writable(const char *path)
-{
-    const char *slash = strrchr(path, '/');
-    size_t length = slash ? (size_t)(slash - path) + 1 : 0; /* with the slash: "/x" lies in "/" */
-    char *folder = malloc(length + 2);
-    if (!folder)
-        return 0;
-    memcpy(folder, length ? path : ".", length ? length : 1);
-    folder[length ? length : 1] = 0;
-    int writable = access(folder, W_OK) == 0;
-    free(folder);
-    return writable;
-}
 
 int picture_check_output(const cli_command *command, const char *path)
 {
@@ -31,9 +15,6 @@ int picture_check_output(const cli_command *command, const char *path)
             command, "%s: this program was built without OpenEXR: expected a name in .png", path);
     if (!render_has_extension(path, ".exr") && !render_has_extension(path, ".png"))
         return cli_usage(command, "%s: expected a name ending in .exr or .png", path);
-    if (!folder_is_writable(path))
-        return cli_fail("%s: cannot be written: its folder does not exist or is not writable",
-                        path);
     return -1;
 }
 

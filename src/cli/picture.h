@@ -20,7 +20,7 @@ typedef report_light picture_options;
 #define PICTURE_OPTIONS(p, samples)                                                               \
     {"env",                                                                                       \
      0,                                                                                           \
-     CLI_TEXT,                                                                                    \
+     CLI_READ,                                                                                    \
      &(p).env,                                                                                    \
      0,                                                                                           \
      0,                                                                                           \
@@ -55,8 +55,8 @@ typedef report_light picture_options;
      "limit on what a path brings after its first reflection: no speckles, a little less light"}
 /* clang-format on */
 
-/* -1 to go on, or an exit code after a message: the name must end in .exr or .png, .exr must be
- * possible, the folder writable. */
+/* -1 to go on, or an exit code after a message: the name must end in .exr or .png, and .exr
+ * must be possible. */
 int picture_check_output(const cli_command *command, const char *path);
 
 /* Opens the environment and, where none was given, sets the exposure. 0, or CLI_FAILURE. */

@@ -107,26 +107,6 @@ static int is_directory(const char *path)
     return stat(path, &status) == 0 && S_ISDIR(status.st_mode);
 }
 
-/* safetensors: a u64 header length, below 2^32, then a JSON object. No measured format has '{'
- * there: MERL has the number 180 and RGL the letters "tensor_file"; UTIA may, but its first eight
- * bytes are a double, with zeros high up only if it is 0, and no header is empty. Only regular
- * files are looked into, a pipe would lose what was read. */
-static int looks_like_model(const char *path)
-{
-    unsigned char head[9];
-    struct stat status;
-    if (stat(path, &status) != 0 || !S_ISREG(status.st_mode))
-        return 0;
-    FILE *file = fopen(path, "rb");
-    if (!file)
-        return 0;
-    size_t size = fread(head, 1, sizeof head, file);
-    fclose(file);
-    static const unsigned char zeros[8];
-    return size == sizeof head && head[8] == '{' && memcmp(head + 4, zeros, 4) == 0 &&
-           memcmp(head, zeros, 8) != 0;
-}
-
 /* For a path that does not exist: a built-in material may have been meant. */
 static int fail_missing(const char *path)
 {
@@ -166,6 +146,8 @@ static int open_measured_file(const char *path, hnbrdf_measured **measured)
             return fail_missing(path);
         }
     }
+    if (cli_check_read(path) != CLI_OK)
+        return CLI_FAILURE;
     if (has_extension(path, ".brdf"))
         return cli_fail("%s: a published shader; make a model of it first: hnbrdf import", path);
     if (hnbrdf_measured_open(path, &cli_read, measured, &error) == HNBRDF_OK)
@@ -225,7 +207,7 @@ static int add_material(data_builder *builder, hnbrdf_measured *measured, const 
 static int add_file(data_builder *builder, const char *path)
 {
     hnbrdf_measured *measured = NULL;
-    if (looks_like_model(path)) {
+    if (cli_looks_like_model(path)) {
         char files[256];
         cli_measured_files(files, sizeof files, ", ");
         return cli_fail("%s: a model file, expected measured data (%s)", path, files);
@@ -368,7 +350,7 @@ int cli_open_source(const char *path, cli_source *source)
         result = open_builtin(find_builtin(builtin), &opened.measured);
     else if (is_directory(path))
         return cli_fail("%s: a directory, expected one model or measured file", path);
-    else if (looks_like_model(path) || has_extension(path, ".safetensors"))
+    else if (cli_looks_like_model(path) || has_extension(path, ".safetensors"))
         result = cli_load_model(path, &opened.model);
     else
         result = open_measured_file(path, &opened.measured);

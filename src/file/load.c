@@ -140,7 +140,7 @@ hnbrdf_result hnbrdf_model_load(const char *path, const hnbrdf_load_options *opt
                                "path is NULL, expected a file's path");
         }
         if (!(file = hnbrdf_open_to_read(path)))
-            return hnbrdf_fail(error, HNBRDF_ERROR_IO, "%s: cannot be opened for reading", path);
+            return hnbrdf_fail_to_open(path, error);
         s.read = read_stream;
         s.read_user = file;
     }

@@ -121,8 +121,8 @@ hnbrdf_result stability_gpus_open(const char *text, int styles, stability_gpus *
     if (!all && !none && (end_of_number == text || *end_of_number))
         return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT,
                            "--device: found '%s', expected a number, all or none", text);
-    snprintf(note, 128,
-             none ? "no GPU: --device none" : "no GPU: glslangValidator is not installed");
+    if (!none) /* who asks for none need not be told */
+        snprintf(note, 128, "no GPU: glslangValidator is not installed");
     if (none || !gpu_compiler_found())
         return HNBRDF_OK;
     stability_gpus *opened = calloc(1, sizeof *opened);

@@ -50,7 +50,7 @@ hnbrdf_result hnbrdf_read_file(const char *path, size_t limit, const char *label
 {
     FILE *stream = hnbrdf_open_to_read(path);
     if (!stream)
-        return hnbrdf_fail(error, HNBRDF_ERROR_IO, "%s: cannot be opened for reading", label);
+        return hnbrdf_fail_to_open(label, error);
     hnbrdf_result result = read_stream(stream, limit, label, bytes, size, error);
     fclose(stream);
     return result;

@@ -30,7 +30,8 @@ static void print_material(const hnbrdf_material *m, const char *name, int width
             (double)m->rotation);
 }
 
-void info_print_model(const char *path, const hnbrdf_model *model, FILE *file)
+void info_print_model(const char *path, const hnbrdf_model *model, const hnbrdf_physics *physics,
+                      FILE *file)
 {
     char net[16];
     hnbrdf_model_desc desc;
@@ -52,7 +53,7 @@ void info_print_model(const char *path, const hnbrdf_model *model, FILE *file)
             "eta (R G B)", "alpha (x y)", "rotation");
     for (int k = 0; k < desc.material_count; k++)
         print_material(&desc.materials[k], desc.names[k], width, file);
-    info_print_physics(model, width, file);
+    info_print_physics(model, physics, width, file);
 }
 
 static void json_number(float value, FILE *file)
@@ -82,7 +83,7 @@ static void json_names(const char *const *names, int count, FILE *file)
     fputs("],\n", file);
 }
 
-static void json_material(const hnbrdf_model *model, const hnbrdf_material *m, const char *name,
+static void json_material(const hnbrdf_material *m, const hnbrdf_physics *physics, const char *name,
                           int latent, FILE *file)
 {
     fputs("    {\"name\": ", file);
@@ -93,11 +94,11 @@ static void json_material(const hnbrdf_model *model, const hnbrdf_material *m, c
     fputs(", \"rotation\": ", file);
     json_number(m->rotation, file);
     json_numbers("latent", m->latent, latent, file);
-    info_json_physics(model, m, file);
+    info_json_physics(physics, file);
     putc('}', file);
 }
 
-void info_json_model(const hnbrdf_model *model, FILE *file)
+void info_json_model(const hnbrdf_model *model, const hnbrdf_physics *physics, FILE *file)
 {
     char net[16];
     hnbrdf_model_desc desc;
@@ -117,7 +118,7 @@ void info_json_model(const hnbrdf_model *model, FILE *file)
     json_number(desc.floor, file);
     fputs(",\n  \"parameters\": [\n", file);
     for (int k = 0; k < desc.material_count; k++) {
-        json_material(model, &desc.materials[k], desc.names[k], desc.latent, file);
+        json_material(&desc.materials[k], &physics[k], desc.names[k], desc.latent, file);
         fputs(k + 1 < desc.material_count ? ",\n" : "\n", file);
     }
     fputs("  ]\n}\n", file);

@@ -2,18 +2,57 @@
  * materials. */
 #include "report/info_physics.h"
 
-#include "hnbrdf/metrics.h"
+#include "base/threads.h"
+
+#include <stdlib.h>
 
 static const double DEGREES = 57.295779513082320877;
 
-void info_print_physics(const hnbrdf_model *model, int width, FILE *file)
+/* ---- Measuring ------------------------------------------------------------------------------- */
+
+enum { BATCH = 64 }; /* materials between two looks at the clock */
+
+typedef struct measuring {
+    const hnbrdf_model *model;
+    hnbrdf_physics *physics;
+    int first;
+} measuring;
+
+static void measure(void *context, int index, int worker)
+{
+    const measuring *m = context;
+    const int k = m->first + index;
+    (void)worker;
+    hnbrdf_physics_of(m->model, hnbrdf_model_material(m->model, k), &m->physics[k]);
+}
+
+hnbrdf_physics *info_measure_physics(const hnbrdf_model *model, const report_watch *watch)
+{
+    const int count = hnbrdf_model_material_count(model);
+    measuring m = {.model = model, .physics = malloc((size_t)count * sizeof *m.physics)};
+    hnbrdf_threads *threads = m.physics ? hnbrdf_threads_start(0) : NULL;
+    for (; threads && m.first < count; m.first += BATCH) {
+        report_show(watch, (double)m.first / count, "");
+        hnbrdf_threads_run(threads, count - m.first < BATCH ? count - m.first : BATCH, measure, &m);
+    }
+    if (!threads) {
+        free(m.physics);
+        return NULL;
+    }
+    hnbrdf_threads_stop(threads);
+    return m.physics;
+}
+
+/* ---- Writing --------------------------------------------------------------------------------- */
+
+void info_print_physics(const hnbrdf_model *model, const hnbrdf_physics *physics, int width,
+                        FILE *file)
 {
     int count = hnbrdf_model_material_count(model), above = 0, invalid = 0;
     fprintf(file, "\n%-*s  %-16s  %-9s  %-20s  %6s\n", width, "material", "albedo (at)", "energy",
             "not reciprocal by", "black");
     for (int k = 0; k < count; k++) {
-        hnbrdf_physics p;
-        hnbrdf_physics_of(model, hnbrdf_model_material(model, k), &p);
+        const hnbrdf_physics p = physics[k];
         fprintf(file, "%-*s  %6.3f %c (%2.0f deg)  %-9s  ", width,
                 hnbrdf_model_material_name(model, k), p.albedo, "RGB"[p.albedo_channel],
                 p.albedo_theta * DEGREES, p.albedo > 1.0 ? "ABOVE 1" : "kept");
@@ -40,10 +79,9 @@ void info_print_physics(const hnbrdf_model *model, int width, FILE *file)
         fprintf(file, "%d of %d materials have negative or infinite values.\n", invalid, count);
 }
 
-void info_json_physics(const hnbrdf_model *model, const hnbrdf_material *material, FILE *file)
+void info_json_physics(const hnbrdf_physics *physics, FILE *file)
 {
-    hnbrdf_physics p;
-    hnbrdf_physics_of(model, material, &p);
+    const hnbrdf_physics p = *physics;
     fprintf(file,
             ", \"albedo\": %.6g, \"albedo_degrees\": %.3g, \"albedo_channel\": %d, "
             "\"conserves_energy\": %s",

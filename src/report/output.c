@@ -4,6 +4,7 @@
 #include "base/error.h"
 
 #include <errno.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
@@ -60,4 +61,15 @@ hnbrdf_result report_make_folder(const char *path, hnbrdf_error *error)
         return HNBRDF_OK;
     return hnbrdf_fail(error, HNBRDF_ERROR_IO, "%s: cannot make this folder: %s", path,
                        strerror(errno));
+}
+
+char *report_png_beside(const char *path)
+{
+    size_t length = strlen(path);
+    char *beside = malloc(length + 1);
+    if (beside) {
+        memcpy(beside, path, length + 1);
+        memcpy(beside + length - 4, ".png", 4);
+    }
+    return beside;
 }

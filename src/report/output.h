@@ -26,4 +26,7 @@ hnbrdf_result report_make_folder(const char *path, hnbrdf_error *error);
 hnbrdf_result report_write_file(const char *path, void (*write)(const void *what, FILE *file),
                                 const void *what, hnbrdf_error *error);
 
+/* FILE.png, written beside FILE.exr; malloc'ed, NULL when memory is short. */
+char *report_png_beside(const char *path);
+
 #endif

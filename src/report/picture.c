@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "image/difference.h"
+#include "report/output.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -24,25 +25,13 @@ hnbrdf_result report_open_light(report_light *options, render_environment *envir
     return HNBRDF_OK;
 }
 
-/* FILE.png for FILE.exr; malloc'ed, NULL when memory is short. */
-static char *png_beside(const char *path)
-{
-    size_t length = strlen(path);
-    char *beside = malloc(length + 1);
-    if (beside) {
-        memcpy(beside, path, length + 1);
-        memcpy(beside + length - 4, ".png", 4);
-    }
-    return beside;
-}
-
 hnbrdf_result report_picture_write(const render_image *image, const char *path,
                                    const render_write_options *options, hnbrdf_error *error)
 {
     hnbrdf_result result = render_image_write(image, path, options, error);
     if (result != HNBRDF_OK || render_has_extension(path, ".png"))
         return result;
-    char *beside = png_beside(path);
+    char *beside = report_png_beside(path);
     if (!beside)
         return hnbrdf_fail(error, HNBRDF_ERROR_MEMORY, "out of memory");
     result = render_image_write(image, beside, options, error);
@@ -52,7 +41,7 @@ hnbrdf_result report_picture_write(const render_image *image, const char *path,
 
 void report_print_pictures(const char *path, FILE *file)
 {
-    char *beside = render_has_extension(path, ".png") ? NULL : png_beside(path);
+    char *beside = render_has_extension(path, ".png") ? NULL : report_png_beside(path);
     fprintf(file, "%s\n", path);
     if (beside)
         fprintf(file, "%s\n", beside);

@@ -1,6 +1,8 @@
 /* spheres.c: what pages of spheres share: the light, the measurements beside, progress. */
 #include "report/spheres.h"
 
+#include "report/output.h"
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -52,13 +54,9 @@ hnbrdf_result report_write_told(const render_image *image, const char *path,
     if (result)
         return result;
     report_tell(watch, path);
-    size_t length = strlen(path);
-    char *beside = render_has_extension(path, ".png") ? NULL : malloc(length + 1);
-    if (beside) { /* FILE.png for FILE.exr */
-        memcpy(beside, path, length + 1);
-        memcpy(beside + length - 4, ".png", 4);
+    char *beside = render_has_extension(path, ".png") ? NULL : report_png_beside(path);
+    if (beside)
         report_tell(watch, beside);
-    }
     free(beside);
     return HNBRDF_OK;
 }
