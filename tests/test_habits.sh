@@ -221,6 +221,18 @@ elif setpriv --reuid=65534 --regid=65534 --clear-groups "$HNBRDF" --version >/de
 fi
 [ -n "$user" ] || echo "no user without rights: read-only places are not tried"
 
+# Files that no argument names: in a folder, in a scene.
+mkdir folder
+cp lambert_rgb.bsdf folder/UPPER.BSDF
+cp lambert_rgb.bsdf folder/lower.bsdf
+run "$HNBRDF" info folder
+[ "$rc" -eq 0 ] && grep -q '^UPPER ' out && grep -q '^lower ' out || fail "an ending in capitals is left out"
+cp a.brdf light.exr
+sed 's/environment sky/environment light.exr/' small.scene >lit.scene
+run "$HNBRDF" scene lit.scene --spp 1 -o ./light.exr
+expect_failure "a scene over its own light" "light.exr: is read, and --output would overwrite it"
+cmp -s a.brdf light.exr || fail "a scene over its own light: it is overwritten"
+
 # Two rows at a time.
 half() {
     awk -v odd="$1" 'NR % 2 == odd' table | while IFS= read -r line; do

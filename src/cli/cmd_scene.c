@@ -49,12 +49,35 @@ typedef struct scene_command {
     render_description description;
 } scene_command;
 
+/* A file that the scene names, "" for none: is it written too? */
+static int check_named(const scene_command *c, const char *file)
+{
+    char path[2 * RENDER_MAX_PATH];
+    if (!file[0])
+        return CLI_OK;
+    render_description_path(&c->description, file, path);
+    return cli_check_read(path);
+}
+
+static int check_all_named(const scene_command *c)
+{
+    const render_description *d = &c->description;
+    int code = check_named(c, d->environment); /* sky and furnace are no pictures to write */
+    for (int k = 0; k < d->material_count && code == CLI_OK; k++)
+        code = check_named(c, d->materials[k].file);
+    for (int k = 0; k < d->shape_count && code == CLI_OK; k++)
+        code = check_named(c, d->shapes[k].file);
+    return code;
+}
+
 static int open_scene(scene_command *c)
 {
     hnbrdf_error error;
     render_camera *camera = &c->description.camera;
     if (render_description_read(c->path, &c->description, &error) != HNBRDF_OK)
         return cli_fail("%s", error.text);
+    if (check_all_named(c) != CLI_OK)
+        return CLI_FAILURE;
     camera->width = camera->width ? camera->width : 640;
     camera->height = camera->height ? camera->height : 480;
     if (c->width) { /* the picture keeps its shape */

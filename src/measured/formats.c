@@ -54,13 +54,26 @@ void hnbrdf_measured_expected(char *text, size_t size)
 
 /* ---- Names of files -------------------------------------------------------------------------- */
 
+static int lower(int c)
+{
+    return c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c;
+}
+
+/* Whatever the case, as other systems spell it: .BSDF in a folder is not left out silently. */
+static int is_ending(const char *text, const char *ending)
+{
+    while (*ending && lower(*text) == *ending)
+        text++, ending++;
+    return !*ending;
+}
+
 /* Which of the endings the name has, and more than it; -1: none. */
 static int find_ending(const char *const *endings, const char *name, size_t *stem)
 {
     size_t length = strlen(name);
     for (int k = 0; endings && endings[k]; k++) {
         size_t tail = strlen(endings[k]);
-        if (length > tail && strcmp(name + length - tail, endings[k]) == 0) {
+        if (length > tail && is_ending(name + length - tail, endings[k])) {
             *stem = length - tail;
             return k;
         }

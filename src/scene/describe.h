@@ -91,6 +91,9 @@ hnbrdf_result render_description_parse(const void *data, size_t size, const char
 hnbrdf_result render_description_read(const char *path, render_description *description,
                                       hnbrdf_error *error);
 void render_description_free(render_description *description);
+/* A file that it names: beside the scene, unless its path is absolute. */
+void render_description_path(const render_description *description, const char *file,
+                             char path[2 * RENDER_MAX_PATH]);
 
 /* What the materials from models are shown as. */
 typedef enum render_show {

@@ -29,12 +29,12 @@ static hnbrdf_result at_line(const loader *l, long line, hnbrdf_result result)
     return result;
 }
 
-/* A file beside the scene, unless its path is absolute. */
-static void beside(const loader *l, const char *file, char path[2 * RENDER_MAX_PATH])
+void render_description_path(const render_description *description, const char *file,
+                             char path[2 * RENDER_MAX_PATH])
 {
-    const char *slash = strrchr(l->d->name, '/');
-    int folder = slash && file[0] != '/' ? (int)(slash - l->d->name) + 1 : 0;
-    snprintf(path, (size_t)2 * RENDER_MAX_PATH, "%.*s%s", folder, l->d->name, file);
+    const char *slash = strrchr(description->name, '/');
+    int folder = slash && file[0] != '/' ? (int)(slash - description->name) + 1 : 0;
+    snprintf(path, (size_t)2 * RENDER_MAX_PATH, "%.*s%s", folder, description->name, file);
 }
 
 /* Whoever is told of measured data is told of the rest. */
@@ -53,7 +53,7 @@ static hnbrdf_result find_model(loader *l, const char *file, hnbrdf_model **mode
             return HNBRDF_OK;
         }
     char path[2 * RENDER_MAX_PATH];
-    beside(l, file, path);
+    render_description_path(l->d, file, path);
     const hnbrdf_load_options load = {.notes = scene_notes(l)};
     hnbrdf_result result = hnbrdf_model_load(path, &load, model, l->error);
     if (result == HNBRDF_OK) {
@@ -173,7 +173,7 @@ static hnbrdf_result load_material(loader *l, const render_text_material *m,
         *surface = render_surface_model(plain(l), &m->ggx);
         return result;
     case RENDER_FROM_MEASURED:
-        beside(l, m->file, path);
+        render_description_path(l->d, m->file, path);
         result = hnbrdf_measured_open(path, l->options, &measured, l->error);
         break;
     case RENDER_FROM_BUILTIN:
@@ -235,7 +235,7 @@ static hnbrdf_result place_sphere(const loader *l, const render_text_shape *t, r
 static hnbrdf_result read_mesh(const loader *l, const render_text_shape *t, render_mesh *mesh)
 {
     char path[2 * RENDER_MAX_PATH];
-    beside(l, t->file, path);
+    render_description_path(l->d, t->file, path);
     hnbrdf_result result = render_obj_read(path, NULL, mesh, l->error);
     if (result == HNBRDF_OK && t->smooth && render_mesh_smooth(mesh))
         result = hnbrdf_fail(l->error, HNBRDF_ERROR_MEMORY, "%s: no memory for its normals", path);
@@ -309,7 +309,7 @@ static hnbrdf_result load_environment(const loader *l)
     if (!source[0])
         return HNBRDF_OK;
     if (strcmp(source, "sky") != 0 && strcmp(source, "furnace") != 0) {
-        beside(l, d->environment, path);
+        render_description_path(l->d, d->environment, path);
         source = path;
     }
     const render_limits limits = {.notes = scene_notes(l),
