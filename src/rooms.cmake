@@ -29,7 +29,7 @@ hnbrdf_room(glsl
 hnbrdf_room(lobes
   fit_lobes.c)
 hnbrdf_room(measured
-  builtin.c builtin_film.c builtin_materials.c cie.c custom.c formats.c measured.c merl.c
+  builtin.c builtin_film.c builtin_materials.c cie.c custom.c families.c formats.c measured.c merl.c
   merl_known.c nbrdf.c nbrdf_npy.c pairs.c
   read_file.c rgl.c rgl_eval.c sha256.c tensor_file.c utia.c)
 hnbrdf_room(hdf5

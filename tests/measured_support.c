@@ -301,3 +301,29 @@ int pair_at(double theta_h, double theta_d, double phi_d, double phi_h, float wi
     wo[2] = (float)o[2];
     return wi[2] > 0.0f && wo[2] > 0.0f;
 }
+
+void directional_albedo(const hnbrdf_measured *measured, int rings, double theta, double phi,
+                        double albedo[3])
+{
+    enum { STEPS = 180 };
+    static const double pi = 3.14159265358979323846;
+    double wo[3] = {sin(theta) * cos(phi), sin(theta) * sin(phi), cos(theta)};
+    float to[3] = {(float)wo[0], (float)wo[1], (float)wo[2]};
+    albedo[0] = albedo[1] = albedo[2] = 0.0;
+    for (int r = 0; r < rings; r++)
+        for (int s = 0; s < STEPS; s++) {
+            double u = (r + 0.5) / rings, theta_h = pi / 2 * u * u * u * u,
+                   phi_h = 2 * pi * (s + 0.5) / STEPS;
+            double h[3] = {sin(theta_h) * cos(phi_h), sin(theta_h) * sin(phi_h), cos(theta_h)};
+            double c = wo[0] * h[0] + wo[1] * h[1] + wo[2] * h[2],
+                   weight = pi / 2 * 4 * u * u * u / rings;
+            float wi[3], f[3];
+            for (int i = 0; i < 3; i++)
+                wi[i] = (float)(2 * c * h[i] - wo[i]);
+            if (c <= 0.0 || !hnbrdf_measured_eval(measured, wi, to, f))
+                continue;
+            for (int i = 0; i < 3; i++)
+                albedo[i] +=
+                    (double)f[i] * (double)wi[2] * 4 * c * sin(theta_h) * weight * 2 * pi / STEPS;
+        }
+}

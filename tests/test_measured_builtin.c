@@ -82,33 +82,6 @@ static void formulas_are_finite_up_to_the_horizon(void **state)
     }
 }
 
-/* Integral of f wi.z over wi, by midpoints over the half vector: dwi = 4 (wo.h) dh, with theta_h =
- * pi/2 u^4, which resolves lobes down to alpha 0.005. */
-static void directional_albedo(const hnbrdf_measured *measured, double theta, double phi,
-                               double albedo[3])
-{
-    enum { RINGS = 240, STEPS = 180 };
-    double wo[3] = {sin(theta) * cos(phi), sin(theta) * sin(phi), cos(theta)};
-    float to[3] = {(float)wo[0], (float)wo[1], (float)wo[2]};
-    albedo[0] = albedo[1] = albedo[2] = 0.0;
-    for (int r = 0; r < RINGS; r++)
-        for (int s = 0; s < STEPS; s++) {
-            double u = (r + 0.5) / RINGS, theta_h = PI / 2 * u * u * u * u,
-                   phi_h = 2 * PI * (s + 0.5) / STEPS;
-            double h[3] = {sin(theta_h) * cos(phi_h), sin(theta_h) * sin(phi_h), cos(theta_h)};
-            double c = wo[0] * h[0] + wo[1] * h[1] + wo[2] * h[2],
-                   weight = PI / 2 * 4 * u * u * u / RINGS;
-            float wi[3], f[3];
-            for (int i = 0; i < 3; i++)
-                wi[i] = (float)(2 * c * h[i] - wo[i]);
-            if (c <= 0.0 || !hnbrdf_measured_eval(measured, wi, to, f))
-                continue;
-            for (int i = 0; i < 3; i++)
-                albedo[i] +=
-                    (double)f[i] * (double)wi[2] * 4 * c * sin(theta_h) * weight * 2 * PI / STEPS;
-        }
-}
-
 /* Against a 16 times finer quadrature these albedos are off by less than 0.001, for retro-tape
  * (whose lobe is not around n) by 0.04; the largest is 0.87. */
 static void no_material_reflects_more_than_arrives(void **state)
@@ -120,7 +93,7 @@ static void no_material_reflects_more_than_arrives(void **state)
         double least = 1.0;
         for (size_t k = 0; k < sizeof degrees / sizeof degrees[0]; k++) {
             double albedo[3];
-            directional_albedo(measured, degrees[k] * PI / 180, 0.4, albedo);
+            directional_albedo(measured, 240, degrees[k] * PI / 180, 0.4, albedo);
             for (int c = 0; c < 3; c++) {
                 if (!(albedo[c] >= 0.0 && albedo[c] <= 1.0))
                     fail_msg("%s: albedo %.3f at %.0f degrees", hnbrdf_measured_name(measured),

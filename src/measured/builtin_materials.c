@@ -3,12 +3,6 @@
  * measured.c clips it to 0, and so do the RGB editions of real measurements. */
 #include "measured/builtin_terms.h"
 
-/* n and k of metals in the red, green and blue, rounded: right enough for their colours. */
-static const double GOLD_N[3] = {0.18, 0.54, 1.35}, GOLD_K[3] = {3.44, 2.23, 1.89};
-static const double ALUMINIUM_N[3] = {1.43, 0.94, 0.69}, ALUMINIUM_K[3] = {7.52, 6.42, 5.64};
-static const double IRON_N[3] = {2.89, 2.95, 2.59}, IRON_K[3] = {3.35, 2.93, 2.77};
-static const double CHROMIUM_N[3] = {3.11, 2.98, 2.08}, CHROMIUM_K[3] = {3.32, 3.33, 3.02};
-
 /* Titania on mica in a coat; the oxide of titanium on the metal, in air. */
 static const film_stack PEARL_FILM = {1.5, 2.4, 255.0, 1.58, 0.0, 4};
 static const film_stack TITANIUM_FILM = {1.0, 2.4, 178.0, 2.7, 3.6, 1};

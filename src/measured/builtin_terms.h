@@ -68,15 +68,56 @@ static inline pair retro_pair(const pair *p)
 
 /* ---- Specular -------------------------------------------------------------------------------- */
 
+/* tan^2 of the angle between n and h, its two parts over alpha_x^2 and alpha_y^2: what every
+ * distribution of normals that only scales with roughness is a function of. */
+static inline double scaled_slope2(const pair *p, double alpha_x, double alpha_y)
+{
+    return (square(p->h[0] / alpha_x) + square(p->h[1] / alpha_y)) / square(p->h[2]);
+}
+
+/* 2 w.z / G1(w) of GGX: Heitz 2014. */
+static inline double smith_ggx(const double w[3], double alpha_x, double alpha_y)
+{
+    return w[2] + sqrt(square(w[2]) + square(alpha_x * w[0]) + square(alpha_y * w[1]));
+}
+
 /* D G1 G1 / (4 wi.z wo.z) of GGX with Smith shadowing: Walter et al. 2007; Heitz 2014. */
 static inline double ggx(const pair *p, double alpha_x, double alpha_y)
 {
     double t = square(p->h[0] / alpha_x) + square(p->h[1] / alpha_y) + square(p->h[2]);
-    double vi =
-        p->wi[2] + sqrt(square(p->wi[2]) + square(alpha_x * p->wi[0]) + square(alpha_y * p->wi[1]));
-    double vo =
-        p->wo[2] + sqrt(square(p->wo[2]) + square(alpha_x * p->wo[0]) + square(alpha_y * p->wo[1]));
+    double vi = smith_ggx(p->wi, alpha_x, alpha_y), vo = smith_ggx(p->wo, alpha_x, alpha_y);
     return 1.0 / (PI * alpha_x * alpha_y * t * t * (vi * vo));
+}
+
+/* w.z / G1(w) of Beckmann's distribution: Heitz 2014, Eq. 72. */
+static inline double smith_beckmann(const double w[3], double alpha_x, double alpha_y)
+{
+    double sine = sqrt(square(alpha_x * w[0]) + square(alpha_y * w[1]));
+    double a = sine > 0.0 ? w[2] / sine : INFINITY;
+    return w[2] * (1.0 + erf(a)) / 2 + sine * exp(-a * a) / (2 * sqrt(PI));
+}
+
+/* D G1 G1 / (4 wi.z wo.z) of Gaussian slopes: Cook and Torrance 1982; Heitz 2014. */
+static inline double beckmann(const pair *p, double alpha_x, double alpha_y)
+{
+    double d = exp(-scaled_slope2(p, alpha_x, alpha_y)) /
+               (PI * alpha_x * alpha_y * square(square(p->h[2])));
+    return d / (4 * (smith_beckmann(p->wi, alpha_x, alpha_y) *
+                     smith_beckmann(p->wo, alpha_x, alpha_y)));
+}
+
+/* Slopes after Student's t, exponent 7/4 in the place of GGX's 2, so with a longer tail: Ribardiere
+ * et al. 2017, STD: Student's t-Distribution of Slopes for Microfacet Based BSDFs. Its own masking
+ * has no closed form; that of GGX of LONG_TAIL_MASKING alpha is the same at grazing. */
+#define LONG_TAIL_EXPONENT 1.75
+#define LONG_TAIL_MASKING 1.6692 /* 2 Gamma(5/4) / (sqrt(pi) Gamma(3/4) (2 7/4 - 3)) */
+static inline double long_tail(const pair *p, double alpha_x, double alpha_y)
+{
+    double d = (LONG_TAIL_EXPONENT - 1.0) *
+               pow(1.0 + scaled_slope2(p, alpha_x, alpha_y), -LONG_TAIL_EXPONENT) /
+               (PI * alpha_x * alpha_y * square(square(p->h[2])));
+    double mx = LONG_TAIL_MASKING * alpha_x, my = LONG_TAIL_MASKING * alpha_y;
+    return d / (smith_ggx(p->wi, mx, my) * smith_ggx(p->wo, mx, my));
 }
 
 /* Unpolarised, no absorption; eta >= 1: Walter et al. 2007, Eq. 22, g - c without cancellation. */
@@ -96,6 +137,13 @@ static inline double fresnel_conductor(double n, double k, double c)
     double rp = (c2 * ab + s2 * s2 - 2 * a * c * s2) / (c2 * ab + s2 * s2 + 2 * a * c * s2);
     return rs * (1.0 + rp) / 2;
 }
+
+/* n and k of metals in the red, green and blue, rounded: right enough for their colours. */
+static const double GOLD_N[3] = {0.18, 0.54, 1.35}, GOLD_K[3] = {3.44, 2.23, 1.89};
+static const double COPPER_N[3] = {0.27, 0.68, 1.32}, COPPER_K[3] = {3.61, 2.63, 2.29};
+static const double ALUMINIUM_N[3] = {1.43, 0.94, 0.69}, ALUMINIUM_K[3] = {7.52, 6.42, 5.64};
+static const double IRON_N[3] = {2.89, 2.95, 2.59}, IRON_K[3] = {3.35, 2.93, 2.77};
+static const double CHROMIUM_N[3] = {3.11, 2.98, 2.08}, CHROMIUM_K[3] = {3.32, 3.33, 3.02};
 
 /* Schlick 1994, An Inexpensive BRDF Model for Physically-based Rendering. */
 static inline double schlick(double f0, double c)
