@@ -64,7 +64,9 @@ hnbrdf_room(edit
 hnbrdf_room(bake
   bake.c ggx.c half.c options.c report.c rows.c search.c sizes.c teacher.c tell.c wave.c)
 hnbrdf_room(report
-  bake_plot.c bake_tables.c compare.c compare_images.c fit_log.c gallery_choose.c
+  bake_plot.c bake_tables.c compare.c compare_images.c editing_edits.c editing_figures.c
+  editing_fit.c editing_measure.c editing_mix.c editing_plot.c editing_sheet.c
+  editing_tables.c fit_log.c gallery_choose.c
   gallery_pages.c gallery_strips.c grid.c grid_columns.c grid_figures.c grid_fit.c grid_ggx.c
   grid_image_tables.c grid_images.c grid_plot.c grid_rows.c grid_tables.c info.c
   info_physics.c lobes_table.c loss_plot.c output.c picture.c same_picture.c
@@ -76,6 +78,6 @@ hnbrdf_room(bench
 hnbrdf_room(cli
   cli.c cmd_bake.c cmd_bench.c cmd_compare.c cmd_edit.c cmd_eval.c cmd_export.c
   cmd_fit.c cmd_gallery.c cmd_import.c cmd_info.c cmd_lobes.c cmd_mix.c cmd_render.c
-  cmd_report.c cmd_report_images.c cmd_report_sampling.c cmd_scene.c cmd_sheet.c
-  cmd_stability.c cmd_verify.c files.c main.c message.c option.c output.c
+  cmd_report.c cmd_report_editing.c cmd_report_images.c cmd_report_sampling.c cmd_scene.c
+  cmd_sheet.c cmd_stability.c cmd_verify.c files.c main.c message.c option.c output.c
   picture.c progress.c reading.c report_options.c sources.c standard.c watch.c words.c)

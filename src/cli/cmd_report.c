@@ -22,7 +22,9 @@ static const cli_command command = {
     "materials.csv (a row a material and model), ggx.csv and ggx.svg (how the fits of GGX went),\n"
     "errors-NET.svg, and the models in models/. Beside SMAPE stands the PSNR of spheres under the\n"
     "built-in sky.\n"
-    "`hnbrdf report images --help` and `report sampling --help` tell about the other reports.\n"
+    "`hnbrdf report images --help`, `report sampling --help` and `report editing --help` tell "
+    "about\n"
+    "the other reports.\n"
     "Everything is written anew after each model: what an interrupted run has done stays, and "
     "--resume\n"
     "goes on with it. A model made with other settings is not reused.",
@@ -107,6 +109,8 @@ int cmd_report(int argc, char **argv)
         return cmd_report_images(argc, argv);
     if (argc > 1 && strcmp(argv[1], "sampling") == 0)
         return cmd_report_sampling(argc, argv);
+    if (argc > 1 && strcmp(argv[1], "editing") == 0)
+        return cmd_report_editing(argc, argv);
     report r = {.seed = 1, .image_size = 64, .light = PICTURE_DEFAULTS(REPORT_IMAGE_SAMPLES)};
     const char *nets = NULL, *latents = NULL, *models = "hybrid,paper,neural";
     cli_word sampler = {HNBRDF_SAMPLER_GRID, cli_sampler_word};
@@ -150,10 +154,12 @@ int cmd_report(int argc, char **argv)
     r.sampler = sampler.value;
     r.analytic = analytic.value;
     if (result < 0 && count < 1)
-        result = cli_usage(&command, "no report named, expected accuracy, images or sampling");
+        result =
+            cli_usage(&command, "no report named, expected accuracy, images, sampling or editing");
     if (result < 0 && strcmp(argv[1], "accuracy") != 0)
         result = cli_usage(
-            &command, "no report is called '%s', expected accuracy, images or sampling", argv[1]);
+            &command, "no report is called '%s', expected accuracy, images, sampling or editing",
+            argv[1]);
     if (result < 0 && count < 2)
         result = cli_usage(&command, "no DATA given");
     if (result < 0 && !r.directory)

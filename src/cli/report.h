@@ -10,6 +10,8 @@
 int cmd_report_images(int argc, char **argv);
 /* `hnbrdf report sampling`; argv[1] is "sampling". */
 int cmd_report_sampling(int argc, char **argv);
+/* `hnbrdf report editing`; argv[1] is "editing". */
+int cmd_report_editing(int argc, char **argv);
 
 int report_read_nets(const cli_command *command, const char *list, report *r);
 int report_read_latents(const cli_command *command, const char *list, report *r);

@@ -123,13 +123,7 @@ const hnbrdf_material *report_material(const report *r, const hnbrdf_model *mode
 
 char *report_path_in(const report *r, const char *name)
 {
-    size_t size = strlen(r->directory) + strlen(name) + 2;
-    char *path = malloc(size);
-    if (path)
-        snprintf(path, size, "%s/%s", r->directory, name);
-    else
-        hnbrdf_fail(r->error, HNBRDF_ERROR_MEMORY, "out of memory");
-    return path;
+    return report_path_join(r->directory, name, r->error);
 }
 
 hnbrdf_result report_make_folders(const report *r, const char *name)

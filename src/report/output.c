@@ -53,6 +53,17 @@ hnbrdf_result report_write_file(const char *path, void (*write)(const void *what
     return report_output_close(&output, error);
 }
 
+char *report_path_join(const char *directory, const char *name, hnbrdf_error *error)
+{
+    size_t size = strlen(directory) + strlen(name) + 2;
+    char *path = malloc(size);
+    if (path)
+        snprintf(path, size, "%s/%s", directory, name);
+    else
+        hnbrdf_fail(error, HNBRDF_ERROR_MEMORY, "out of memory");
+    return path;
+}
+
 hnbrdf_result report_make_folder(const char *path, hnbrdf_error *error)
 {
     struct stat status;

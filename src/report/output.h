@@ -22,6 +22,8 @@ void report_output_discard(report_output *output);
 /* Unless it is there. */
 hnbrdf_result report_make_folder(const char *path, hnbrdf_error *error);
 
+/* DIRECTORY/NAME; malloc'ed, NULL with the message of it when memory is short. */
+char *report_path_join(const char *directory, const char *name, hnbrdf_error *error);
 /* Opens, writes and closes; what `write` could not write is an error. */
 hnbrdf_result report_write_file(const char *path, void (*write)(const void *what, FILE *file),
                                 const void *what, hnbrdf_error *error);

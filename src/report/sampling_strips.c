@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "image/draw.h"
 #include "image/sheet.h"
+#include "report/output.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -58,13 +59,11 @@ static hnbrdf_result compose(const sampling_report *r, const render_sheet_row *r
     hnbrdf_result code = render_sheet_compose(&sheet, &image, r->error);
     if (code != HNBRDF_OK)
         return code;
-    size_t size = strlen(r->directory) + sizeof "/sampling-strips.exr";
-    char *path = malloc(size);
+    char *path = report_path_join(
+        r->directory, render_has_exr() ? "sampling-strips.exr" : "sampling-strips.png", r->error);
     if (!path)
-        code = hnbrdf_fail(r->error, HNBRDF_ERROR_MEMORY, "out of memory");
+        code = HNBRDF_ERROR_MEMORY;
     if (path) {
-        snprintf(path, size, "%s/sampling-strips.%s", r->directory,
-                 render_has_exr() ? "exr" : "png");
         code = report_picture_write(&image, path,
                                     &(render_write_options){.half = 1, .comments = what}, r->error);
         if (code == HNBRDF_OK)

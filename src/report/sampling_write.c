@@ -14,13 +14,9 @@
 static hnbrdf_result write_file(const sampling_report *r, const char *name,
                                 void (*write)(const sampling_report *r, FILE *file))
 {
-    size_t size = strlen(r->directory) + strlen(name) + 2;
-    char *path = malloc(size);
     report_output output;
-    if (!path)
-        return hnbrdf_fail(r->error, HNBRDF_ERROR_MEMORY, "out of memory");
-    snprintf(path, size, "%s/%s", r->directory, name);
-    hnbrdf_result code = report_output_open(path, &output, r->error);
+    char *path = report_path_join(r->directory, name, r->error);
+    hnbrdf_result code = path ? report_output_open(path, &output, r->error) : HNBRDF_ERROR_MEMORY;
     free(path);
     if (code != HNBRDF_OK)
         return code;
