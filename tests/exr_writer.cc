@@ -198,6 +198,23 @@ void write(const exr_part_description *parts, int count, render_bytes *bytes)
 
 } // namespace
 
+const exr_channel_set exr_channel_sets[] = {
+    {"R:h G:h B:h", EXR_KIND_RGB, 0},
+    {"R:f G:f B:f", EXR_KIND_RGB, 0},
+    {"R:h G:h B:h A:h", EXR_KIND_RGBA, 0},
+    {"R:h G:f B:h A:f", EXR_KIND_RGBA, 0},           // mixed
+    {"R:f G:h B:f Z:u id:u N.X:h", EXR_KIND_RGB, 0}, // what is passed over, between what is read
+    {"Y:h", EXR_KIND_GREY, 0},
+    {"Y:f A:h", EXR_KIND_GREY_ALPHA, 0},
+    {"Y:h RY:h2 BY:h2", EXR_KIND_CHROMA, 1},
+    {"Y:f RY:f2 BY:f2", EXR_KIND_CHROMA, 1},
+    {"Y:h RY:h BY:h A:h", EXR_KIND_CHROMA_ALPHA, 0},
+    {"X:h Y:h Z:h", EXR_KIND_XYZ, 0},
+    {"X:f Y:h Z:f", EXR_KIND_XYZ, 0},
+    {"diffuse.R:h diffuse.G:h diffuse.B:h", EXR_KIND_RGB, 0},
+    {nullptr, EXR_KIND_RGB, 0},
+};
+
 const char *exr_compression_name(int compression)
 {
     static const char *const names[EXR_COMPRESSIONS] = {"none",  "rle", "zips", "zip",  "piz",

@@ -35,9 +35,27 @@ typedef struct exr_part_description {
     const void *user;
 } exr_part_description;
 
+/* Sets of channels that a picture may have. */
+typedef enum exr_kind {
+    EXR_KIND_RGB,
+    EXR_KIND_RGBA,
+    EXR_KIND_GREY,
+    EXR_KIND_GREY_ALPHA,
+    EXR_KIND_XYZ,
+    EXR_KIND_CHROMA,
+    EXR_KIND_CHROMA_ALPHA
+} exr_kind;
+
+typedef struct exr_channel_set {
+    const char *channels; /* NULL past the last */
+    exr_kind kind;
+    int is_subsampled; /* then not in tiles, and even windows */
+} exr_channel_set;
+
 #ifdef __cplusplus
 extern "C" {
 #endif
+extern const exr_channel_set exr_channel_sets[];
 const char *exr_compression_name(int compression);
 /* A file of these parts; an empty one if the library refuses to write it. */
 render_bytes exr_write_parts(const exr_part_description *parts, int count);

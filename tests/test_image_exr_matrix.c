@@ -18,28 +18,6 @@
 
 /* ---- What is written ------------------------------------------------------------------------- */
 
-typedef enum kind { RGB, RGBA, GREY, GREY_ALPHA, XYZ, CHROMA, CHROMA_ALPHA } kind;
-
-static const struct channels {
-    const char *text;
-    kind kind;
-    int is_subsampled;
-} channel_sets[] = {
-    {"R:h G:h B:h", RGB, 0},
-    {"R:f G:f B:f", RGB, 0},
-    {"R:h G:h B:h A:h", RGBA, 0},
-    {"R:h G:f B:h A:f", RGBA, 0},           /* mixed */
-    {"R:f G:h B:f Z:u id:u N.X:h", RGB, 0}, /* what is passed over, between what is read */
-    {"Y:h", GREY, 0},
-    {"Y:f A:h", GREY_ALPHA, 0},
-    {"Y:h RY:h2 BY:h2", CHROMA, 1},
-    {"Y:f RY:f2 BY:f2", CHROMA, 1},
-    {"Y:h RY:h BY:h A:h", CHROMA_ALPHA, 0},
-    {"X:h Y:h Z:h", XYZ, 0},
-    {"X:f Y:h Z:f", XYZ, 0},
-    {"diffuse.R:h diffuse.G:h diffuse.B:h", RGB, 0},
-};
-
 /* Grows by the same share from pixel to pixel, so that an error of a few per cent is a mistake of
  * place anywhere; every channel has another size. */
 static float smooth(int channel, int x, int y)
@@ -50,15 +28,15 @@ static float smooth(int channel, int x, int y)
 /* RY and BY: constant, as the filter between them has tests of its own. */
 static float value(const void *user, int channel, int x, int y)
 {
-    const struct channels *set = user;
-    const int is_chroma = set->kind == CHROMA || set->kind == CHROMA_ALPHA;
+    const exr_channel_set *set = user;
+    const int is_chroma = set->kind == EXR_KIND_CHROMA || set->kind == EXR_KIND_CHROMA_ALPHA;
     return is_chroma && channel == 1   ? 0.5f
            : is_chroma && channel == 2 ? -0.25f
                                        : smooth(channel, x, y);
 }
 
 /* What the picture must hold at a pixel of the data window. */
-static void expected(const struct channels *set, int x, int y, float rgba[4])
+static void expected(const exr_channel_set *set, int x, int y, float rgba[4])
 {
     static const float of_xyz[3][3] = {{3.2409699f, -1.5373832f, -0.4986108f},
                                        {-0.9692436f, 1.8759675f, 0.0415551f},
@@ -66,14 +44,14 @@ static void expected(const struct channels *set, int x, int y, float rgba[4])
     const float v[4] = {value(set, 0, x, y), value(set, 1, x, y), value(set, 2, x, y),
                         value(set, 3, x, y)};
     memcpy(rgba, v, sizeof v);
-    if (set->kind == GREY || set->kind == GREY_ALPHA) {
+    if (set->kind == EXR_KIND_GREY || set->kind == EXR_KIND_GREY_ALPHA) {
         rgba[1] = rgba[2] = v[0];
         rgba[3] = v[1];
-    } else if (set->kind == CHROMA || set->kind == CHROMA_ALPHA) {
+    } else if (set->kind == EXR_KIND_CHROMA || set->kind == EXR_KIND_CHROMA_ALPHA) {
         rgba[0] = 1.5f * v[0];
         rgba[2] = 0.75f * v[0];
         rgba[1] = (v[0] - 0.2126390f * rgba[0] - 0.0721923f * rgba[2]) / 0.7151687f;
-    } else if (set->kind == XYZ) {
+    } else if (set->kind == EXR_KIND_XYZ) {
         for (int k = 0; k < 3; k++)
             rgba[k] = of_xyz[k][0] * v[0] + of_xyz[k][1] * v[1] + of_xyz[k][2] * v[2];
     }
@@ -108,7 +86,7 @@ static const char *doing(const exr_part_description *part)
 
 static void check_pixel(const exr_part_description *part, const render_image *image, int x, int y)
 {
-    const struct channels *set = part->user;
+    const exr_channel_set *set = part->user;
     const int u = x + part->display[0] - part->data[0], v = y + part->display[1] - part->data[1];
     const float *rgb = image->rgb + 3 * (y * image->width + x);
     float want[4] = {0, 0, 0, 0};
@@ -116,7 +94,7 @@ static void check_pixel(const exr_part_description *part, const render_image *im
         expected(set, u, v, want);
     /* XYZ is a difference of larger numbers. */
     const float most = fmaxf(fabsf(want[0]), fmaxf(fabsf(want[1]), fabsf(want[2]))) *
-                       (set->kind == XYZ ? 3.0f : 1.0f);
+                       (set->kind == EXR_KIND_XYZ ? 3.0f : 1.0f);
     for (int k = 0; k < 3; k++)
         if (!(fabsf(rgb[k] - want[k]) <= tolerance(part->compression) * most))
             fail_msg("%s: (%d, %d) channel %d is %g, not %g", doing(part), x, y, k, (double)rgb[k],
@@ -131,8 +109,9 @@ static void check_pixel(const exr_part_description *part, const render_image *im
 
 static void check_file(const exr_part_description *part)
 {
-    const struct channels *set = part->user;
-    const int has_alpha = set->kind == RGBA || set->kind == GREY_ALPHA || set->kind == CHROMA_ALPHA;
+    const exr_channel_set *set = part->user;
+    const int has_alpha = set->kind == EXR_KIND_RGBA || set->kind == EXR_KIND_GREY_ALPHA ||
+                          set->kind == EXR_KIND_CHROMA_ALPHA;
     render_bytes bytes = exr_write_parts(part, 1);
     render_image image = {0};
     hnbrdf_error error;
@@ -169,21 +148,21 @@ static int is_too_slow(const exr_part_description *part)
 /* Subsampled channels are not in tiles, and not of odd sides. */
 static int is_written(const exr_part_description *part)
 {
-    const struct channels *set = part->user;
+    const exr_channel_set *set = part->user;
     return !set->is_subsampled ||
            (part->layout <= EXR_LINES_DOWN && part->data[2] % 2 + part->data[3] % 2 == 0);
 }
 
 static void check_compression(int compression)
 {
-    for (size_t c = 0; c < sizeof channel_sets / sizeof *channel_sets; c++)
+    for (const exr_channel_set *set = exr_channel_sets; set->channels; set++)
         for (exr_layout layout = EXR_LINES; layout <= EXR_RIPMAP; layout++)
             for (size_t w = 0; w < sizeof windows / sizeof *windows; w++) {
                 exr_part_description part = {.compression = compression,
                                              .layout = layout,
-                                             .channels = channel_sets[c].text,
+                                             .channels = set->channels,
                                              .value = value,
-                                             .user = &channel_sets[c]};
+                                             .user = set};
                 memcpy(part.data, windows[w].data, sizeof part.data);
                 memcpy(part.display, windows[w].display, sizeof part.display);
                 if (is_written(&part) && !is_too_slow(&part))

@@ -61,7 +61,8 @@ typedef struct exr_picture {
     exr_colours colours;
     exr_plane planes[EXR_PLANES]; /* three of colour, then alpha */
     exr_attr_box2i_t window;      /* of the data */
-    int width, height;            /* of that window */
+    exr_attr_box2i_t display;
+    int width, height; /* of that window */
     exr_storage_t storage;
     exr_compression_t compression;
 } exr_picture;

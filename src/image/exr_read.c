@@ -37,6 +37,8 @@ static hnbrdf_result read_header(const exr_input *in, exr_picture *picture, fram
         result = exr_get_compression(in->context, part, &picture->compression);
     if (result == EXR_ERR_SUCCESS)
         result = exr_get_data_window(in->context, part, &picture->window);
+    if (result == EXR_ERR_SUCCESS)
+        result = exr_get_display_window(in->context, part, &picture->display);
     if (result != EXR_ERR_SUCCESS)
         return exr_library_error(in, result);
     const hnbrdf_result checked = check_window(in, "data", &picture->window, data);
@@ -49,12 +51,8 @@ static hnbrdf_result read_header(const exr_input *in, exr_picture *picture, fram
     for (int i = 0; i < list->num_channels; i++) {
         const int u = list->entries[i].x_sampling, v = list->entries[i].y_sampling;
         if (u < 1 || v < 1 || data->x % u != 0 || data->width % u != 0 || data->y % v != 0 ||
-            data->height % v != 0)
-            return hnbrdf_fail(in->error, HNBRDF_ERROR_FORMAT,
-                               "%s: data window of %d x %d at (%lld, %lld): expected multiples of "
-                               "%d and %d, the steps of channel %s",
-                               in->name, data->width, data->height, (long long)data->x,
-                               (long long)data->y, u, v, list->entries[i].name.str);
+            data->height % v != 0) /* the format forbids it, and planes rely on it */
+            return exr_library_error(in, EXR_ERR_INVALID_ATTR);
     }
     return HNBRDF_OK;
 }
@@ -65,17 +63,13 @@ static hnbrdf_result read_shown(const exr_input *in, const exr_picture *picture,
                                 frame *shown, render_map *map)
 {
     exr_envmap_t kind;
-    exr_attr_box2i_t window;
     *map = RENDER_MAP_UNSAID;
     *shown = *data;
     if (exr_attr_get_envmap(in->context, picture->part, "envmap", &kind) == EXR_ERR_SUCCESS) {
         *map = kind == EXR_ENVMAP_CUBE ? RENDER_MAP_CUBE : RENDER_MAP_LATLONG;
         return HNBRDF_OK;
     }
-    const exr_result_t got = exr_get_display_window(in->context, picture->part, &window);
-    if (got != EXR_ERR_SUCCESS)
-        return exr_library_error(in, got);
-    const hnbrdf_result result = check_window(in, "display", &window, shown);
+    const hnbrdf_result result = check_window(in, "display", &picture->display, shown);
     if (result != HNBRDF_OK)
         return result;
     const int overlap = data->x < shown->x + shown->width && shown->x < data->x + data->width &&

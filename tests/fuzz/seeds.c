@@ -5,7 +5,7 @@
 
 #include "measured_support.h"
 #include "nbrdf_support.h"
-#include "image/image.h"
+#include "exr_writer.h"
 
 #include <sys/stat.h>
 
@@ -203,6 +203,48 @@ static void put_exr(const char *name, int width, int height, int alpha, int half
     render_image_free(&image);
 }
 
+#if defined(HNBRDF_WITH_OPENEXR_CXX)
+static float picture_value(const void *user, int channel, int x, int y)
+{
+    (void)user;
+    return (float)((channel + 3 * x + 5 * y) % 11) / 4.0f;
+}
+
+/* Every compression with every set of channels, in lines, tiles and with levels, each in one of the
+ * windows. */
+static void put_exr_kinds(void)
+{
+    static const struct {
+        int data[4], display[4];
+    } windows[] = {{{0, 0, 6, 4}, {0, 0, 6, 4}},
+                   {{2, 4, 6, 4}, {0, 0, 9, 9}},
+                   {{-4, -2, 6, 4}, {0, 0, 5, 5}},
+                   {{-2, -2, 18, 4}, {1, 0, 3, 1}}};
+    static const exr_layout layouts[] = {EXR_LINES, EXR_TILES, EXR_MIPMAP, EXR_LINES_DOWN};
+    int window = 0;
+    for (int compression = 0; compression < EXR_COMPRESSIONS; compression++)
+        for (const exr_channel_set *set = exr_channel_sets; set->channels; set++)
+            for (size_t i = 0; i < sizeof layouts / sizeof *layouts; i++) {
+                exr_part_description part = {.compression = compression,
+                                             .layout = layouts[i],
+                                             .channels = set->channels,
+                                             .value = picture_value};
+                if (set->is_subsampled && part.layout != EXR_LINES && part.layout != EXR_LINES_DOWN)
+                    continue;
+                memcpy(part.data, windows[window % 4].data, sizeof part.data);
+                memcpy(part.display, windows[window % 4].display, sizeof part.display);
+                window++;
+                char name[64];
+                snprintf(name, sizeof name, "%s_%d_%d", exr_compression_name(compression),
+                         (int)(set - exr_channel_sets), (int)i);
+                render_bytes bytes = exr_write_parts(&part, 1);
+                FUZZ_CHECK(bytes.size > 0);
+                put(name, bytes.data, bytes.size);
+                free(bytes.data);
+            }
+}
+#endif
+
 static void write_pictures(void)
 {
     static const char flat[] =
@@ -215,6 +257,9 @@ static void write_pictures(void)
     put_exr("half", 4, 2, 0, 1);
     put_exr("float_alpha", 3, 18, 1, 0);
     put_exr("line", 5, 1, 0, 0);
+#if defined(HNBRDF_WITH_OPENEXR_CXX)
+    put_exr_kinds();
+#endif
     target = "radiance";
     put("flat", flat, sizeof flat - 1);
     put("runs", runs, sizeof runs - 1);
