@@ -82,9 +82,11 @@ build/plain/hnbrdf --help > /dev/null || fail "hnbrdf --help without Vulkan, Ope
 announce "AddressSanitizer and UndefinedBehaviorSanitizer"
 # libhdf5 and what it links keep memory at exit, which LeakSanitizer would count as ours.
 build gcc build/sanitize -DCMAKE_BUILD_TYPE=RelWithDebInfo -DHNBRDF_SANITIZE=ON -DHNBRDF_WITH_HDF5=OFF
-# Tests of what other programs make of our text or flags, of a second driver, and of how good long
-# fits end (test_fit runs the same code) find nothing here that the release tests do not.
-elsewhere='^test_(glsl_languages|minimal|fit_divergence|fit_stiff|.*_second_driver)'
+# Tests of what other programs make of our text or flags, of the tree itself, of a second driver, of
+# how good long fits end (test_fit runs the same code), of statistics, and of long commands that
+# call what other tests call too find nothing here that the release tests do not.
+elsewhere='^test_(glsl_languages|minimal|fit_divergence|fit_stiff|.*_second_driver|rooms|habits)'
+elsewhere="$elsewhere|^test_(sampling_density|bench|bake_cli|gallery|report_sampling|report_editing)\$"
 UBSAN_OPTIONS=print_stacktrace=1 ctest --test-dir build/sanitize -E "$elsewhere" -j "$jobs" \
     --output-on-failure || fail "tests under sanitizers"
 
