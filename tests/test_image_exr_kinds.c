@@ -263,32 +263,33 @@ static void chroma_between_its_values_lies_on_a_line(void **state)
     render_image_free(&image);
 }
 
-/* Y: dark but for a bright column; the chroma of bright red there, grey elsewhere. */
-static float red_column(const void *user, int channel, int x, int y)
+/* Two columns of pure red in grey, so that the filter brings the pixels between them twice as much
+ * of its negative lobes as there is red. */
+static float red_columns(const void *user, int channel, int x, int y)
 {
     (void)user, (void)y;
-    const int is_red = x == 20;
-    return channel == 0   ? (is_red ? 1.0f : 0.01f)
-           : channel == 1 ? (is_red ? 2.0f : 0.0f)
-                          : (is_red ? -0.8f : 0.0f);
+    const int is_red = x == 20 || x == 26;
+    return channel == 0 ? 1.0f : channel == 1 ? (is_red ? 3.5f : 0.0f) : (is_red ? -1.0f : 0.0f);
 }
 
-/* What the filter brings to the dark columns beside it would be wide outside of the colours that
- * are around. */
+/* Neighbours without any saturation allow 3/4. */
 static void pixels_are_not_more_colourful_than_all_around(void **state)
 {
     (void)state;
     exr_part_description part = {.compression = 0,
                                  .data = {0, 0, 40, 8},
                                  .channels = "Y:f RY:f2 BY:f2",
-                                 .value = red_column};
+                                 .value = red_columns};
     render_image image = expect_read(&part, 1, NULL);
     for (int x = 0; x < 40; x++) {
         const float *rgb = image.rgb + 3 * (4 * 40 + x);
         const float most = fmaxf(rgb[0], fmaxf(rgb[1], rgb[2]));
-        assert_true(fminf(rgb[0], fminf(rgb[1], rgb[2])) >= 0.0f || x == 20);
+        const float least = fminf(rgb[0], fminf(rgb[1], rgb[2]));
         const float y = 0.2126390f * rgb[0] + 0.7151687f * rgb[1] + 0.0721923f * rgb[2];
-        assert_true(fabsf(y - red_column(NULL, 0, x, 0)) < 1e-4f * (1.0f + most));
+        assert_true(least >= 0.0f);
+        assert_true(fabsf(y - 1.0f) < 1e-4f);
+        if (x == 23)
+            assert_true(fabsf(1.0f - least / most - 0.75f) < 1e-4f);
     }
     render_image_free(&image);
 }
@@ -416,6 +417,41 @@ static void a_map_fills_its_data_window(void **state)
     render_image_free(&image);
 }
 
+/* ---- What is not finite ---------------------------------------------------------------------- */
+
+static void holes_are_filled_from_their_rims(void **state)
+{
+    (void)state;
+    const hnbrdf_notes told = {keep_note, NULL};
+    render_image image;
+    hnbrdf_error error;
+    assert_int_equal(render_image_create(5, 5, 1, &image, NULL), HNBRDF_OK);
+    for (int i = 0; i < 25; i++) {
+        const int x = i % 5, y = i / 5, is_hole = x > 0 && x < 4 && y > 0 && y < 4;
+        for (int k = 0; k < 3; k++)
+            image.rgb[3 * i + k] = is_hole && k == i % 3 ? NAN : (float)x;
+        image.alpha[i] = is_hole ? INFINITY : 1.0f;
+    }
+    assert_int_equal(render_image_check(&image, "x.exr", &error), HNBRDF_ERROR_FORMAT);
+    assert_non_null(strstr(error.text, "9 pixels are not finite, the first at column 1, row 1: ("));
+    notes[0] = 0;
+    assert_int_equal(render_image_repair(&image, "x.exr", &told, &error), HNBRDF_OK);
+    assert_string_equal(
+        notes, "x.exr: 9 pixels were not finite, replaced by the mean of their neighbours\n");
+    expect_near(image.rgb + 3 * 6, 0.6f, 0.6f, 0.6f, 1e-6f); /* a corner has five */
+    expect_near(image.rgb + 3 * 7, 2, 2, 2, 1e-6f);          /* an edge three */
+    expect_near(image.rgb + 3 * 12, 2, 2, 2, 1e-6f);         /* the middle those before */
+    expect_near(image.rgb + 3 * 18, 3.4f, 3.4f, 3.4f, 1e-6f);
+    for (int i = 0; i < 25; i++)
+        assert_true(fabsf(image.alpha[i] - 1.0f) < 1e-6f);
+    assert_int_equal(render_image_check(&image, "x.exr", &error), HNBRDF_OK);
+    for (int i = 0; i < 75; i++)
+        image.rgb[i] = NAN;
+    assert_int_equal(render_image_repair(&image, "x.exr", &told, &error), HNBRDF_OK);
+    assert_int_equal(render_image_check(&image, "x.exr", &error), HNBRDF_ERROR_FORMAT);
+    render_image_free(&image);
+}
+
 /* ---- Cube maps ------------------------------------------------------------------------------- */
 
 static float face_number(const void *user, int channel, int x, int y)
@@ -533,6 +569,7 @@ int main(void)
         cmocka_unit_test(a_crop_is_placed),
         cmocka_unit_test(a_window_outside_is_black_and_said),
         cmocka_unit_test(a_map_fills_its_data_window),
+        cmocka_unit_test(holes_are_filled_from_their_rims),
         cmocka_unit_test(a_cube_is_unfolded),
         cmocka_unit_test(faces_are_turned_as_openexr_has_them),
     };

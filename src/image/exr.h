@@ -2,7 +2,7 @@
  *
  *   exr_memory.c   files in memory, messages of the library
  *   exr_write.c    writing
- *   exr_layers.c   which channels of which part are the picture
+ *   exr_layers.c   which channels of which part form a layer; exr_choose.c: which is the picture
  *   exr_planes.c   their values, by the C library; exr_planes_cxx.cc: by the C++ library
  *   exr_colour.c   rows of linear Rec. 709 from them
  *   exr_read.c     all of it in order; windows */
@@ -67,7 +67,7 @@ typedef struct exr_picture {
     exr_compression_t compression;
 } exr_picture;
 
-/* exr_layers.c: finds part, channels and colours; messages name all there are. */
+/* exr_choose.c: finds part, channels and colours; messages name all there are. */
 hnbrdf_result exr_choose_layer(const exr_input *in, exr_picture *picture);
 
 /* exr_planes.c: fills the planes; on failure exr_free_planes() is still due. */

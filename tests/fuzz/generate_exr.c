@@ -109,7 +109,8 @@ static void put_box(writer *w, const char *name, const int window[4])
 
 static void put_channels(writer *w, part *p)
 {
-    size_t size = 1;
+    const int more = fuzz_odd(w->c) ? fuzz_between(w->c, 1000, 1100) : 0;
+    size_t size = 1 + (size_t)more * (6 + 16);
     for (int i = 0; i < p->channel_count; i++)
         size += strlen(p->channels[i].name) + 1 + 16;
     begin(w, "channels", "chlist", size);
@@ -120,6 +121,12 @@ static void put_channels(writer *w, part *p)
         fuzz_put_le(w->out, 0, 4); /* linear, reserved */
         fuzz_put_le(w->out, fuzz_whole(w->c, (uint64_t)c->step), 4);
         fuzz_put_le(w->out, fuzz_whole(w->c, (uint64_t)c->step), 4);
+    }
+    for (int i = 0; i < more; i++) {
+        fuzz_printf(w->out, "z%04d", i);
+        fuzz_put_le(w->out, 0, 1);
+        fuzz_put_le(w->out, 1, 8);
+        fuzz_put_le(w->out, (uint64_t)1 << 32 | 1, 8);
     }
     fuzz_put_le(w->out, 0, 1);
 }
