@@ -27,6 +27,7 @@ bake|whole|IN --net 4x1 --steps 1 --pairs 100 --pool 64 -o @
 report accuracy|-|builtin:rough-clay --quick -o @/
 report images|-|builtin:rough-clay --quick -o @/
 report sampling|-|IN --quick -o @/
+report editing|-|--families plastic --quick -o @/
 bench|-|IN --quick --device none --csv @
 import|whole|a.brdf -o @
 END

@@ -189,9 +189,9 @@ int cmd_report_editing(int argc, char **argv)
     list_families(names, sizeof names);
     snprintf(families_help, sizeof families_help, "default all: %s", names);
     const cli_option options[] = {
-        {"output", 'o', CLI_TEXT, &r.directory, 0, 0, "DIR",
+        {"output", 'o', CLI_WRITE_FOLDER, &r.directory, 0, 0, "DIR",
          "the folder to write (required); made if missing"},
-        {"model", 0, CLI_TEXT, &r.given_name, 0, 0, "FILE",
+        {"model", 0, CLI_READ, &r.given_name, 0, 0, "FILE",
          "measure this model; nothing is fitted but what is compared"},
         {"families", 0, CLI_TEXT, &families, 0, 0, "LIST", families_help},
         {"net", 0, CLI_NET, r.net, 0, 0, "HxN", "of the fit (default 32x2)"},
