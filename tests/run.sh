@@ -7,7 +7,7 @@
 #   sh tests/run.sh quick   for daily work: builds the release in build/ and runs the tests that are
 #                           labelled quick (tests/CMakeLists.txt lists the others). Less than three
 #                           minutes where build/ is up to date.
-# HNBRDF_FUZZ_SECONDS: how long each reader is fuzzed (7). tests/coverage.sh, tests/mutants.sh and
+# HNBRDF_FUZZ_SECONDS: how long each reader is fuzzed (5). tests/coverage.sh, tests/mutants.sh and
 # tests/lint.sh are commands of their own.
 set -eu
 cd "$(dirname "$0")/.."
@@ -86,11 +86,12 @@ build gcc build/sanitize -DCMAKE_BUILD_TYPE=RelWithDebInfo -DHNBRDF_SANITIZE=ON 
 # how good long fits end (test_fit runs the same code), of statistics, and of long commands that
 # call what other tests call too find nothing here that the release tests do not.
 elsewhere='^test_(glsl_languages|minimal|fit_divergence|fit_stiff|.*_second_driver|rooms|habits)'
-elsewhere="$elsewhere|^test_(sampling_density|bench|bake_cli|gallery|report_sampling|report_editing)\$"
+elsewhere="$elsewhere|^test_(sampling_density|glsl_sample|glsl_sampling_density|bench|bake_cli|gallery)\$"
+elsewhere="$elsewhere|^test_(report|report_sampling|report_editing|stability_cli)\$"
 UBSAN_OPTIONS=print_stacktrace=1 ctest --test-dir build/sanitize -E "$elsewhere" -j "$jobs" \
     --output-on-failure || fail "tests under sanitizers"
 
-seconds=${HNBRDF_FUZZ_SECONDS:-7}
+seconds=${HNBRDF_FUZZ_SECONDS:-5}
 announce "fuzzing every reader for $seconds s (HNBRDF_FUZZ_SECONDS)"
 HNBRDF_FUZZ_JOBS=$jobs sh tests/fuzz/run.sh "$seconds" || fail "fuzzing"
 
