@@ -1,6 +1,8 @@
 /* foreign.c: what files of other kinds begin with. */
 #include "base/foreign.h"
 
+#include "base/text.h"
+
 #include <string.h>
 
 /* Letters of either case; after a byte order mark and white space where `text` is set. */
@@ -36,11 +38,6 @@ static const beginning BEGINNINGS[] = {
     {BYTES("GGUF"), 0, "a GGUF model"},
 };
 
-static char lower(char c)
-{
-    return c >= 'A' && c <= 'Z' ? (char)(c - 'A' + 'a') : c;
-}
-
 static int begins(const char *from, size_t size, const beginning *b)
 {
     if (size < b->size)
@@ -48,7 +45,7 @@ static int begins(const char *from, size_t size, const beginning *b)
     if (!b->text)
         return memcmp(from, b->bytes, b->size) == 0;
     for (size_t k = 0; k < b->size; k++)
-        if (lower(from[k]) != lower(b->bytes[k]))
+        if (hnbrdf_lower(from[k]) != hnbrdf_lower(b->bytes[k]))
             return 0;
     return 1;
 }

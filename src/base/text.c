@@ -300,3 +300,16 @@ size_t hnbrdf_utf8_length(const char *begin, const char *end)
     const int too_large = b[0] == 0xf4 && b[1] >= 0x90;
     return overlong || surrogate || too_large ? 0 : length;
 }
+
+/* ---- Letters --------------------------------------------------------------------------------- */
+
+int hnbrdf_ends_with(const char *text, const char *ending)
+{
+    const size_t length = strlen(text), count = strlen(ending);
+    if (length < count)
+        return 0;
+    for (size_t k = 0; k < count; k++)
+        if (hnbrdf_lower(text[length - count + k]) != hnbrdf_lower(ending[k]))
+            return 0;
+    return 1;
+}

@@ -25,4 +25,12 @@ const char *hnbrdf_parse_float(const char *begin, const char *end, float *value)
 /* Bytes of the well-formed UTF-8 sequence (RFC 3629) at begin, before end; 0 if there is none. */
 size_t hnbrdf_utf8_length(const char *begin, const char *end);
 
+/* Capitals of ASCII as small letters, everything else as it is. */
+static inline char hnbrdf_lower(char c)
+{
+    return c >= 'A' && c <= 'Z' ? (char)(c - 'A' + 'a') : c;
+}
+/* 1 if text ends so, whatever the case of ASCII letters. */
+int hnbrdf_ends_with(const char *text, const char *ending);
+
 #endif

@@ -1,6 +1,7 @@
 /* cmd_stability.c: `hnbrdf stability`: every implementation against the oracle, where floats are
  * hard pressed. */
 #include "cli/cli.h"
+#include "base/text.h"
 #include "image/image.h"
 #include "report/stability_plot.h"
 #include "report/stability_report.h"
@@ -160,7 +161,7 @@ int cmd_stability(int argc, char **argv)
         return code;
     if (count < 1)
         return cli_usage(&command, "no MODEL to examine");
-    if (set.plot && (count > 1 || !render_has_extension(set.plot, ".png")))
+    if (set.plot && (count > 1 || !hnbrdf_ends_with(set.plot, ".png")))
         return cli_usage(&command, "--plot: expected one MODEL and a name ending in .png");
     stability_result *results = calloc((size_t)count, sizeof *results);
     code = results ? run(argv + 1, count, &set, results) : cli_fail("out of memory");

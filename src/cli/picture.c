@@ -2,6 +2,7 @@
 #include "cli/picture.h"
 
 #include "base/interrupt.h"
+#include "base/text.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -10,10 +11,10 @@ int picture_check_output(const cli_command *command, const char *path)
 {
     if (!path)
         return cli_usage(command, "where to write: -o FILE.exr or -o FILE.png is missing");
-    if (render_has_extension(path, ".exr") && !render_has_exr())
+    if (hnbrdf_ends_with(path, ".exr") && !render_has_exr())
         return cli_usage(
             command, "%s: this program was built without OpenEXR: expected a name in .png", path);
-    if (!render_has_extension(path, ".exr") && !render_has_extension(path, ".png"))
+    if (!hnbrdf_ends_with(path, ".exr") && !hnbrdf_ends_with(path, ".png"))
         return cli_usage(command, "%s: expected a name ending in .exr or .png", path);
     return -1;
 }

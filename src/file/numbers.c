@@ -2,6 +2,7 @@
 #include "file/numbers.h"
 
 #include "core/half.h"
+#include "core/math.h"
 
 #include <stdint.h>
 #include <string.h>
@@ -38,13 +39,6 @@ size_t hnbrdf_number_size(hnbrdf_number_type type)
     return TYPES[type].size;
 }
 
-static float float_of_bits(uint32_t bits)
-{
-    float value;
-    memcpy(&value, &bits, sizeof value);
-    return value;
-}
-
 double hnbrdf_number_read(hnbrdf_number_type type, const unsigned char *bytes)
 {
     uint64_t bits = 0;
@@ -53,11 +47,11 @@ double hnbrdf_number_read(hnbrdf_number_type type, const unsigned char *bytes)
         bits = bits << 8 | bytes[k];
     switch (type) {
     case HNBRDF_NUMBER_F32:
-        return (double)float_of_bits((uint32_t)bits);
+        return (double)hnbrdf_bits_to_float((int32_t)(uint32_t)bits);
     case HNBRDF_NUMBER_F16:
         return (double)hnbrdf_float_of_half((uint16_t)bits);
     case HNBRDF_NUMBER_BF16: /* the upper half of a float */
-        return (double)float_of_bits((uint32_t)bits << 16);
+        return (double)hnbrdf_bits_to_float((int32_t)((uint32_t)bits << 16));
     case HNBRDF_NUMBER_F64:
         break;
     }

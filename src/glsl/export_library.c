@@ -3,6 +3,8 @@
  * function or a struct stays only if something that stays names it. */
 #include "glsl/export_library.h"
 
+#include "base/text.h"
+
 #include <string.h>
 
 /* The text of shaders/hybrid_brdf.glsl; the build makes it from that file. */
@@ -81,16 +83,11 @@ static void take_apart(library *lib)
 
 /* ---- What is needed -------------------------------------------------------------------------- */
 
-static char lower(char c)
-{
-    return (char)(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
-}
-
 /* HNBRDF_EXP(x) may stand for hnbrdf_exp(x): letters count as equal whatever their case. */
 static void need_word(library *lib)
 {
     for (size_t i = 0; i < lib->word_size; i++)
-        lib->word[i] = lower(lib->word[i]);
+        lib->word[i] = hnbrdf_lower(lib->word[i]);
     for (int k = 0; k < lib->count; k++) {
         piece *p = &lib->pieces[k];
         if (p->name_size == lib->word_size && memcmp(p->name, lib->word, p->name_size) == 0)

@@ -2,6 +2,7 @@
  * file names, options and the list of what can be opened. A row stands in its format's own file. */
 #include "measured/format.h"
 #include "base/error.h"
+#include "base/text.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -54,26 +55,14 @@ void hnbrdf_measured_expected(char *text, size_t size)
 
 /* ---- Names of files -------------------------------------------------------------------------- */
 
-static int lower(int c)
-{
-    return c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c;
-}
-
-/* Whatever the case, as other systems spell it: .BSDF in a folder is not left out silently. */
-static int is_ending(const char *text, const char *ending)
-{
-    while (*ending && lower(*text) == *ending)
-        text++, ending++;
-    return !*ending;
-}
-
-/* Which of the endings the name has, and more than it; -1: none. */
+/* Which of the endings the name has, and more than it; -1: none. Whatever their case, as other
+ * systems spell it: .BSDF in a folder is not left out silently. */
 static int find_ending(const char *const *endings, const char *name, size_t *stem)
 {
     size_t length = strlen(name);
     for (int k = 0; endings && endings[k]; k++) {
         size_t tail = strlen(endings[k]);
-        if (length > tail && is_ending(name + length - tail, endings[k])) {
+        if (length > tail && hnbrdf_ends_with(name, endings[k])) {
             *stem = length - tail;
             return k;
         }

@@ -1,5 +1,6 @@
 /* spheres.c: what pages of spheres share: the light, the measurements beside, progress. */
 #include "report/spheres.h"
+#include "base/text.h"
 
 #include "report/output.h"
 
@@ -54,7 +55,7 @@ hnbrdf_result report_write_told(const render_image *image, const char *path,
     if (result)
         return result;
     report_tell(watch, path);
-    char *beside = render_has_extension(path, ".png") ? NULL : report_png_beside(path);
+    char *beside = hnbrdf_ends_with(path, ".png") ? NULL : report_png_beside(path);
     if (beside)
         report_tell(watch, beside);
     free(beside);

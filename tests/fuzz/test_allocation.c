@@ -2,6 +2,7 @@
  * last, the call says HNBRDF_ERROR_MEMORY in one line, leaves its result alone and leaks nothing.
  */
 #include "failing_malloc.h"
+#include "base/text.h"
 #include "measured_support.h"
 #include "nbrdf_support.h"
 
@@ -368,7 +369,7 @@ static hnbrdf_result use_picture(const void *with, hnbrdf_error *error)
         image.rgb[i] = (float)(i % 5);
     if (!result)
         result = render_image_write(&image, path, NULL, error);
-    if (!result && render_has_extension(path, ".exr"))
+    if (!result && hnbrdf_ends_with(path, ".exr"))
         result = render_image_read(path, NULL, &back, error);
     if (!result && back.rgb) {
         assert_memory_equal(back.rgb, image.rgb, sizeof(float) * 3 * 20 * 20);
