@@ -25,7 +25,7 @@ static void keep_note(void *user, const char *line)
 static hnbrdf_result read_parts(const exr_part_description *parts, int count, const char *layer,
                                 render_image *image, hnbrdf_error *error)
 {
-    const render_limits limits = {.notes = {keep_note, NULL}, .layer = layer};
+    const render_read_options limits = {.notes = {keep_note, NULL}, .layer = layer};
     render_bytes bytes = exr_write_parts(parts, count);
     assert_true(bytes.size > 0);
     notes[0] = 0;

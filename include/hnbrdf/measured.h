@@ -97,7 +97,6 @@ typedef struct hnbrdf_measured_options {
      * links libhdf5 who does not want it. NULL: such files are refused. */
     hnbrdf_result (*read_hdf5)(const void *bytes, size_t size, const char *label,
                                hnbrdf_hdf5_arrays *arrays, hnbrdf_error *error);
-    hnbrdf_notes notes; /* told of data that were read in another way than the format has it */
 } hnbrdf_measured_options;
 
 /* Open a file; its material's name is the file's name without directory, extension and a trailing

@@ -49,6 +49,8 @@ typedef struct scene_command {
     render_description description;
 } scene_command;
 
+static const render_reading reading = {.measured = &cli_read, .notes = CLI_NOTES};
+
 /* A file that the scene names, "" for none: is it written too? */
 static int check_named(const scene_command *c, const char *file)
 {
@@ -105,7 +107,7 @@ static int render_one(const scene_command *c)
     job.progress_user = &progress;
     picture_begin(&progress.line, "rendering", 1);
     hnbrdf_result result = render_job_run_description(&job, &c->description, show, c->measured,
-                                                      &cli_read, &image, &outcome, &error);
+                                                      &reading, &image, &outcome, &error);
     picture_end(&progress.line, result == HNBRDF_OK ? &outcome : NULL, job.spp);
     if (result != HNBRDF_OK)
         return cli_fail("%s", error.text);
@@ -124,7 +126,7 @@ static int compare(const scene_command *c)
     cli_progress line;
     report_scene_row rows[REPORT_SCENE_ROWS];
     const report_scene scene = {.description = &c->description,
-                                .reading = &cli_read,
+                                .reading = &reading,
                                 .folder = c->compare,
                                 .job = c->job,
                                 .exposure = c->exposure,

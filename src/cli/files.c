@@ -1,6 +1,7 @@
 /* files.c: the files that the options of a command name, looked at before any work: may they be
  * written, and would one take the place of something that is still needed? */
 #include "cli/cli.h"
+#include "base/text.h"
 #include "image/image.h"
 
 #include <errno.h>
@@ -51,27 +52,7 @@ static int same_file(const char *a, const char *b)
 
 /* ---- What is there --------------------------------------------------------------------------- */
 
-/* safetensors: a u64 header length, below 2^32, then a JSON object. No measured format has '{'
- * there: MERL has the number 180 and RGL the letters "tensor_file"; UTIA may, but its first eight
- * bytes are a double, with zeros high up only if it is 0, and no header is empty. Only regular
- * files are looked into, a pipe would lose what was read. */
-int cli_looks_like_model(const char *path)
-{
-    unsigned char head[9];
-    struct stat status;
-    if (stat(path, &status) != 0 || !S_ISREG(status.st_mode))
-        return 0;
-    FILE *file = fopen(path, "rb");
-    if (!file)
-        return 0;
-    size_t size = fread(head, 1, sizeof head, file);
-    fclose(file);
-    static const unsigned char zeros[8];
-    return size == sizeof head && head[8] == '{' && memcmp(head + 4, zeros, 4) == 0 &&
-           memcmp(head, zeros, 8) != 0;
-}
-
-/* The first bytes of a regular file; 0 for anything else. */
+/* The first bytes of a regular file; 0 for anything else: a pipe would lose what was read. */
 static size_t read_head(const char *path, char head[HEAD_SIZE])
 {
     struct stat status;
@@ -83,6 +64,22 @@ static size_t read_head(const char *path, char head[HEAD_SIZE])
     return size;
 }
 
+/* safetensors: a u64 header length, below 2^32, then a JSON object. No measured format has '{'
+ * there: MERL has the number 180 and RGL the letters "tensor_file"; UTIA may, but its first eight
+ * bytes are a double, with zeros high up only if it is 0, and no header is empty. */
+static int is_model(const char *head, size_t size)
+{
+    static const char zeros[8];
+    return size > 8 && head[8] == '{' && memcmp(head + 4, zeros, 4) == 0 &&
+           memcmp(head, zeros, 8) != 0;
+}
+
+int cli_looks_like_model(const char *path)
+{
+    char head[HEAD_SIZE];
+    return is_model(head, read_head(path, head));
+}
+
 /* A name that stands for the wrong thing, as `--csv *.bsdf` does: text takes the place of no
  * measurement, model or picture, a model that of nothing but a model. */
 static int check_replaced(const written_file *w)
@@ -92,7 +89,7 @@ static int check_replaced(const written_file *w)
     const char *found = NULL;
     if (w->option->type == CLI_WRITE_TEXT && memchr(head, '\0', size))
         found = "no text";
-    if (w->option->type == CLI_WRITE_MODEL && size && !cli_looks_like_model(w->path))
+    if (w->option->type == CLI_WRITE_MODEL && size && !is_model(head, size))
         found = "no model";
     return found ? cli_fail("%s: is there and is %s, so --%s does not overwrite it; remove it or "
                             "give another name",
@@ -165,7 +162,7 @@ static int add_option(const cli_command *command, const cli_option *option)
         (strcmp(*path, "/dev/stdout") == 0 || strcmp(*path, "/dev/fd/1") == 0))
         *path = "-";
     int code = add_written(command, option, *path);
-    if (code >= 0 || option->type != CLI_WRITE_PICTURE || !render_has_extension(*path, ".exr"))
+    if (code >= 0 || option->type != CLI_WRITE_PICTURE || !hnbrdf_ends_with(*path, ".exr"))
         return code;
     free(png_beside);
     png_beside = report_png_beside(*path);

@@ -97,7 +97,6 @@ static int run(int argc, char **argv)
 
 int main(int argc, char **argv)
 {
-    cli_read.notes = (hnbrdf_notes)CLI_NOTES;
     cli_standard_begin();
     return cli_standard_end(run(argc, argv));
 }

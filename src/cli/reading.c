@@ -9,12 +9,11 @@
 
 enum { MOST_OPTIONS = 32, WORDS_SIZE = 256 };
 
-hnbrdf_measured_options cli_read = {
 #ifdef HNBRDF_WITH_HDF5
-    .read_hdf5 = hnbrdf_hdf5_read,
+hnbrdf_measured_options cli_read = {.read_hdf5 = hnbrdf_hdf5_read};
+#else
+hnbrdf_measured_options cli_read;
 #endif
-    .notes = {NULL, NULL}, /* main() fills them */
-};
 
 /* The argument of an option for the help: "djb|raw|srgb", "X", or NULL of a flag. */
 static const char *argument_of(const hnbrdf_measured_option *option, char *words, size_t *used)

@@ -31,7 +31,7 @@ typedef struct exr_input {
     exr_context_t context;
     exr_memory *memory;
     const char *name; /* for messages */
-    render_limits limits;
+    render_read_options options;
     hnbrdf_error *error;
 } exr_input;
 

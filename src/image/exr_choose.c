@@ -145,8 +145,8 @@ static hnbrdf_result choose(exr_layers *all)
         return hnbrdf_fail(in->error, HNBRDF_ERROR_UNSUPPORTED,
                            "%s: deep data, several samples a pixel: expected a flat picture",
                            in->name);
-    if (in->limits.layer) {
-        const hnbrdf_result result = choose_named(all, in->limits.layer);
+    if (in->options.layer) {
+        const hnbrdf_result result = choose_named(all, in->options.layer);
         if (result != HNBRDF_OK)
             return result;
     } else {
@@ -164,7 +164,7 @@ static hnbrdf_result choose(exr_layers *all)
                            "%s: several layers, %s: choose one with --layer", in->name, names);
     }
     if (before > 1)
-        hnbrdf_note(&in->limits.notes, "%s: view '%s' taken, the first of %d", in->name,
+        hnbrdf_note(&in->options.notes, "%s: view '%s' taken, the first of %d", in->name,
                     all->items[0].view, before);
     return HNBRDF_OK;
 }
@@ -218,7 +218,8 @@ static hnbrdf_result take_layer(const exr_input *in, const exr_layer *l, exr_pic
     if (result == HNBRDF_OK && picture->colours == EXR_RGB)
         for (int k = 0; k < 3; k++)
             if (!l->channels[k])
-                hnbrdf_note(&in->limits.notes, "%s: no channel %c, taken as 0", in->name, "RGB"[k]);
+                hnbrdf_note(&in->options.notes, "%s: no channel %c, taken as 0", in->name,
+                            "RGB"[k]);
     return result;
 }
 

@@ -145,7 +145,7 @@ static int adopted_neutral(const exr_input *in, int part, exr_attr_v2f_t *neutra
 
 static void tell_primaries(const exr_input *in, const exr_attr_chromaticities_t *c, int adapted)
 {
-    hnbrdf_note(&in->limits.notes,
+    hnbrdf_note(&in->options.notes,
                 "%s: converted to Rec. 709 from its own primaries, red (%s, %s) green (%s, %s) "
                 "blue (%s, %s) white (%s, %s)%s",
                 in->name, HNBRDF_NUMBER(c->red_x), HNBRDF_NUMBER(c->red_y),
@@ -167,7 +167,7 @@ static void read_primaries(const exr_input *in, exr_colour *colour)
     if (!given || is_rec709(&own)) {
         own = rec709;
     } else if (rgb_to_xyz(&own, to_xyz)) {
-        hnbrdf_note(&in->limits.notes, "%s: its chromaticities are none: taken as Rec. 709",
+        hnbrdf_note(&in->options.notes, "%s: its chromaticities are none: taken as Rec. 709",
                     in->name);
         own = rec709;
     }
@@ -346,7 +346,7 @@ hnbrdf_result exr_colour_open(const exr_input *in, const exr_picture *picture, e
     if (picture->colours == EXR_XYZ) {
         matrix same = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
         set_matrix(colour, same, NULL);
-        hnbrdf_note(&in->limits.notes, "%s: converted to Rec. 709 from CIE XYZ", in->name);
+        hnbrdf_note(&in->options.notes, "%s: converted to Rec. 709 from CIE XYZ", in->name);
     } else {
         read_primaries(in, colour);
     }

@@ -18,10 +18,10 @@ hnbrdf_result render_exr_encode(const render_image *image, const render_write_op
 }
 
 hnbrdf_result render_exr_decode(const void *data, size_t size, const char *name,
-                                const render_limits *limits, render_image *image,
+                                const render_read_options *options, render_image *image,
                                 hnbrdf_error *error)
 {
-    (void)data, (void)size, (void)limits, (void)image;
+    (void)data, (void)size, (void)options, (void)image;
     return hnbrdf_fail(error, HNBRDF_ERROR_UNSUPPORTED,
                        "%s: this program was built without OpenEXR: use a Radiance .hdr file",
                        name);

@@ -205,7 +205,7 @@ static hnbrdf_result read_by_cxx(const exr_input *in, const exr_picture *picture
 
 static hnbrdf_result check_block_size(const exr_input *in, const exr_picture *picture)
 {
-    const uint64_t most = MAX_CHUNK_SHARE * (uint64_t)in->limits.max_pixels;
+    const uint64_t most = MAX_CHUNK_SHARE * (uint64_t)in->options.max_pixels;
     uint64_t size;
     const exr_result_t result = exr_get_chunk_unpacked_size(in->context, picture->part, &size);
     if (result != EXR_ERR_SUCCESS)

@@ -19,11 +19,11 @@ static hnbrdf_result check_window(const exr_input *in, const char *which,
     const int64_t w = (int64_t)window->max.x - window->min.x + 1;
     const int64_t h = (int64_t)window->max.y - window->min.y + 1;
     if (w < 1 || h < 1 || w > RENDER_MAX_SIDE || h > RENDER_MAX_SIDE ||
-        w * h > (int64_t)in->limits.max_pixels)
+        w * h > (int64_t)in->options.max_pixels)
         return hnbrdf_fail(
             in->error, HNBRDF_ERROR_LIMIT,
             "%s: %s window of %lld x %lld: expected sides of 1 to %d and at most %zu pixels",
-            in->name, which, (long long)w, (long long)h, RENDER_MAX_SIDE, in->limits.max_pixels);
+            in->name, which, (long long)w, (long long)h, RENDER_MAX_SIDE, in->options.max_pixels);
     *out = (frame){window->min.x, window->min.y, (int)w, (int)h};
     return HNBRDF_OK;
 }
@@ -75,13 +75,13 @@ static hnbrdf_result read_shown(const exr_input *in, const exr_picture *picture,
     const int overlap = data->x < shown->x + shown->width && shown->x < data->x + data->width &&
                         data->y < shown->y + shown->height && shown->y < data->y + data->height;
     if (!overlap)
-        hnbrdf_note(&in->limits.notes,
+        hnbrdf_note(&in->options.notes,
                     "%s: its data window of %d x %d lies outside the display window: black",
                     in->name, data->width, data->height);
     else if (data->x > shown->x || data->y > shown->y ||
              data->x + data->width < shown->x + shown->width ||
              data->y + data->height < shown->y + shown->height)
-        hnbrdf_note(&in->limits.notes,
+        hnbrdf_note(&in->options.notes,
                     "%s: data window of %d x %d at (%lld, %lld), black outside it in %d x %d",
                     in->name, data->width, data->height, (long long)(data->x - shown->x),
                     (long long)(data->y - shown->y), shown->width, shown->height);
@@ -153,13 +153,15 @@ static hnbrdf_result read_picture(const exr_input *in, exr_picture *picture, ren
 }
 
 hnbrdf_result render_exr_decode(const void *data, size_t size, const char *name,
-                                const render_limits *limits, render_image *image,
+                                const render_read_options *options, render_image *image,
                                 hnbrdf_error *error)
 {
     exr_memory memory = {.data = data, .size = size};
     exr_picture picture = {0};
-    exr_input in = {
-        .memory = &memory, .name = name, .limits = render_limits_settle(limits), .error = error};
+    exr_input in = {.memory = &memory,
+                    .name = name,
+                    .options = render_read_options_settle(options),
+                    .error = error};
     const exr_context_initializer_t init = exr_memory_start(&memory);
     exr_result_t started = exr_start_read(&in.context, "memory", &init);
     if (started == EXR_ERR_SUCCESS && memory.out_of_memory) { /* it goes on without attributes */

@@ -12,11 +12,11 @@ static size_t settle(size_t given, size_t most)
     return given && given < most ? given : most;
 }
 
-render_limits render_limits_settle(const render_limits *limits)
+render_read_options render_read_options_settle(const render_read_options *options)
 {
-    render_limits settled = {0};
-    if (limits)
-        settled = *limits;
+    render_read_options settled = {0};
+    if (options)
+        settled = *options;
     settled.max_bytes = settle(settled.max_bytes, RENDER_MAX_FILE);
     settled.max_pixels = settle(settled.max_pixels, RENDER_MAX_PIXELS);
     return settled;
@@ -88,20 +88,4 @@ int render_bytes_put(render_bytes *bytes, size_t offset, const void *data, size_
     if (end > bytes->size)
         bytes->size = end;
     return 0;
-}
-
-static int lower(int c)
-{
-    return c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c;
-}
-
-int render_has_extension(const char *path, const char *extension)
-{
-    size_t length = strlen(path), count = strlen(extension);
-    if (length < count)
-        return 0;
-    for (size_t i = 0; i < count; i++)
-        if (lower(path[length - count + i]) != lower(extension[i]))
-            return 0;
-    return 1;
 }

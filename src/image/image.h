@@ -15,13 +15,13 @@
  * than a default is taken as the default. Memory while reading is at most the file, 32 bytes a
  * pixel (with repair 17 more for those that need it), and 16 bytes times max_pixels for one block
  * of compressed lines. */
-typedef struct render_limits {
+typedef struct render_read_options {
     size_t max_bytes;   /* of the file; 0 stands for RENDER_MAX_FILE */
     size_t max_pixels;  /* of the picture; 0 stands for RENDER_MAX_PIXELS */
     hnbrdf_notes notes; /* told of what was converted or passed over */
     const char *layer;  /* of an OpenEXR file, by its name; NULL: the only one, or the main one */
     int repair;         /* pixels that are not finite become the mean of their neighbours */
-} render_limits;
+} render_read_options;
 
 /* What a picture says that it is a map of. */
 typedef enum render_map {
@@ -68,10 +68,10 @@ hnbrdf_result render_image_write(const render_image *image, const char *path,
                                  const render_write_options *options, hnbrdf_error *error);
 /* EXR or Radiance .hdr, recognised by content. One layer is read, with its alpha if there is
  * any. */
-hnbrdf_result render_image_read(const char *path, const render_limits *limits, render_image *image,
-                                hnbrdf_error *error);
-/* limits with its zeros settled; limits may be NULL. */
-render_limits render_limits_settle(const render_limits *limits);
+hnbrdf_result render_image_read(const char *path, const render_read_options *options,
+                                render_image *image, hnbrdf_error *error);
+/* options with its zeros settled; options may be NULL. */
+render_read_options render_read_options_settle(const render_read_options *options);
 /* Refuses a picture with values that are not finite: how many, and where the first one is. */
 hnbrdf_result render_image_check(const render_image *image, const char *name, hnbrdf_error *error);
 /* Replaces pixels that have a value that is not finite by the mean of those next to them that are
@@ -83,8 +83,6 @@ hnbrdf_result render_image_repair(render_image *image, const char *name, const h
  * rows; other pictures stay as they are. */
 hnbrdf_result render_image_unfold(render_image *image, const char *name, hnbrdf_error *error);
 
-/* 1 if path ends in extension (with its dot), whatever the case. */
-int render_has_extension(const char *path, const char *extension);
 /* 0 when the program was built without OpenEXR: every EXR call then fails with a message saying
  * so. */
 int render_has_exr(void);
@@ -113,11 +111,11 @@ hnbrdf_result render_exr_encode(const render_image *image, const render_write_op
  * channels of integers. DWAA and DWAB need OpenEXR's C++ library, or its C library of version
  * 3.2. */
 hnbrdf_result render_exr_decode(const void *data, size_t size, const char *name,
-                                const render_limits *limits, render_image *image,
+                                const render_read_options *options, render_image *image,
                                 hnbrdf_error *error);
 /* RGBE, flat or run-length coded, top or bottom row first. */
 hnbrdf_result render_radiance_decode(const void *data, size_t size, const char *name,
-                                     const render_limits *limits, render_image *image,
+                                     const render_read_options *options, render_image *image,
                                      hnbrdf_error *error);
 /* 8 bits a channel: value * 2^exposure, clamped to [0, 1], the sRGB curve (IEC 61966-2-1), rounded.
  * NaN becomes 0. With alpha the PNG is RGBA, its colour divided by alpha as PNG asks. */

@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "base/files.h"
 #include "base/foreign.h"
+#include "base/text.h"
 
 #include <errno.h>
 #include <stdlib.h>
@@ -46,23 +47,24 @@ static hnbrdf_result fail_foreign(const char *path, const render_bytes *bytes, h
 }
 
 static hnbrdf_result decode(const render_bytes *bytes, const char *path,
-                            const render_limits *limits, render_image *image, hnbrdf_error *error)
+                            const render_read_options *options, render_image *image,
+                            hnbrdf_error *error)
 {
     static const unsigned char exr_magic[4] = {0x76, 0x2f, 0x31, 0x01};
     if (bytes->size >= 4 && memcmp(bytes->data, exr_magic, 4) == 0)
-        return render_exr_decode(bytes->data, bytes->size, path, limits, image, error);
+        return render_exr_decode(bytes->data, bytes->size, path, options, image, error);
     if (bytes->size < 2 || memcmp(bytes->data, "#?", 2) != 0)
         return fail_foreign(path, bytes, error);
-    if (limits && limits->layer)
+    if (options && options->layer)
         return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT,
-                           "%s: no layer '%s': a Radiance picture has none", path, limits->layer);
-    return render_radiance_decode(bytes->data, bytes->size, path, limits, image, error);
+                           "%s: no layer '%s': a Radiance picture has none", path, options->layer);
+    return render_radiance_decode(bytes->data, bytes->size, path, options, image, error);
 }
 
-hnbrdf_result render_image_read(const char *path, const render_limits *limits, render_image *image,
-                                hnbrdf_error *error)
+hnbrdf_result render_image_read(const char *path, const render_read_options *options,
+                                render_image *image, hnbrdf_error *error)
 {
-    const render_limits settled = render_limits_settle(limits);
+    const render_read_options settled = render_read_options_settle(options);
     render_bytes bytes = {0};
     render_image read = {0};
     hnbrdf_result result = render_file_read(path, settled.max_bytes, &bytes, error);
@@ -85,9 +87,9 @@ hnbrdf_result render_image_write(const render_image *image, const char *path,
     options = options ? options : &defaults;
     render_bytes bytes = {0};
     hnbrdf_result result;
-    if (render_has_extension(path, ".exr"))
+    if (hnbrdf_ends_with(path, ".exr"))
         result = render_exr_encode(image, options, &bytes, error);
-    else if (render_has_extension(path, ".png"))
+    else if (hnbrdf_ends_with(path, ".png"))
         result = render_png_encode(image, options->exposure, &bytes, error);
     else
         result = hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT,

@@ -158,10 +158,10 @@ static hnbrdf_result pixels(reader *in, render_image *image, int bottom_up)
 }
 
 hnbrdf_result render_radiance_decode(const void *data, size_t size, const char *name,
-                                     const render_limits *limits, render_image *image,
+                                     const render_read_options *options, render_image *image,
                                      hnbrdf_error *error)
 {
-    const size_t max_pixels = render_limits_settle(limits).max_pixels;
+    const size_t max_pixels = render_read_options_settle(options).max_pixels;
     reader in = {.data = data, .size = size, .name = name, .error = error};
     int width = 0, height = 0, bottom_up = 0;
     hnbrdf_result result = header(&in, &width, &height, &bottom_up);

@@ -141,26 +141,26 @@ static void tell_shape(const render_image *image, const char *name, const hnbrdf
                     name, image->width, image->height, looks);
 }
 
-static hnbrdf_result read_map(const char *path, const render_limits *limits, render_image *image,
-                              hnbrdf_error *error)
+static hnbrdf_result read_map(const char *path, const render_read_options *options,
+                              render_image *image, hnbrdf_error *error)
 {
-    hnbrdf_result result = render_image_read(path, limits, image, error);
+    hnbrdf_result result = render_image_read(path, options, image, error);
     if (result == HNBRDF_OK)
         result = render_image_check(image, path, error);
-    if (result == HNBRDF_OK && limits)
-        tell_shape(image, path, &limits->notes);
+    if (result == HNBRDF_OK && options)
+        tell_shape(image, path, &options->notes);
     return result == HNBRDF_OK ? render_image_unfold(image, path, error) : result;
 }
 
 hnbrdf_result render_environment_open(const char *source, double rotation,
-                                      const render_limits *limits, render_environment *environment,
-                                      hnbrdf_error *error)
+                                      const render_read_options *options,
+                                      render_environment *environment, hnbrdf_error *error)
 {
     render_image image = {0};
     hnbrdf_result result = strcmp(source, "sky") == 0 ? render_sky(&image, error)
                            : strcmp(source, "furnace") == 0
                                ? make_furnace(&image, error)
-                               : read_map(source, limits, &image, error);
+                               : read_map(source, options, &image, error);
     if (result == HNBRDF_OK)
         result = render_environment_create(&image, rotation, source, environment, error);
     render_image_free(&image);

@@ -42,11 +42,11 @@ typedef struct render_environment {
 hnbrdf_result render_environment_create(render_image *image, double rotation, const char *name,
                                         render_environment *environment, hnbrdf_error *error);
 /* "sky", the built-in one, "furnace", radiance 1 from everywhere, or a latitude-longitude map in
- * an OpenEXR or Radiance file, read with these limits (NULL: the defaults). An OpenEXR file that
+ * an OpenEXR or Radiance file, read with these options (NULL: the defaults). An OpenEXR file that
  * says so is a cube map, which is turned into one. */
 hnbrdf_result render_environment_open(const char *source, double rotation,
-                                      const render_limits *limits, render_environment *environment,
-                                      hnbrdf_error *error);
+                                      const render_read_options *options,
+                                      render_environment *environment, hnbrdf_error *error);
 void render_environment_free(render_environment *environment);
 /* Multiplies all radiance by gain > 0; before the environment is shared. */
 void render_environment_scale(render_environment *environment, double gain);

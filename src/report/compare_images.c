@@ -32,9 +32,9 @@ typedef struct job {
 static hnbrdf_result read_picture(const job *j, picture *p, const char *path, hnbrdf_error *error)
 {
     const compare_images_options *o = j->options;
-    const render_limits limits = {.notes = o->notes, .layer = o->layer, .repair = o->repair};
+    const render_read_options options = {.notes = o->notes, .layer = o->layer, .repair = o->repair};
     p->path = path;
-    hnbrdf_result result = render_image_read(path, &limits, &p->image, error);
+    hnbrdf_result result = render_image_read(path, &options, &p->image, error);
     return result == HNBRDF_OK ? render_image_check(&p->image, path, error) : result;
 }
 

@@ -13,7 +13,7 @@ typedef struct compare_images_options {
     const char *difference; /* where to draw the difference of the only picture; NULL: nowhere */
     double top;             /* of its scale; 0: chosen */
     const char *layer;      /* of OpenEXR pictures; NULL: the only or main one */
-    int repair;             /* see render_limits */
+    int repair;             /* see render_read_options */
     hnbrdf_notes notes;     /* told of what the files needed to be read */
     FILE *table; /* gets the table for people and the names of the pictures; NULL: nowhere */
 } compare_images_options;

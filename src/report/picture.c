@@ -2,6 +2,7 @@
 #include "report/picture.h"
 
 #include "base/error.h"
+#include "base/text.h"
 #include "image/difference.h"
 #include "report/output.h"
 
@@ -14,10 +15,10 @@ hnbrdf_result report_open_light(report_light *options, render_environment *envir
 {
     static const double sky_level = 0.56; /* what render_environment_level() gives for the sky */
     double radians = options->rotate * 3.14159265358979323846 / 180.0;
-    const render_limits limits = {
+    const render_read_options reading = {
         .notes = options->notes, .layer = options->layer, .repair = options->repair};
     hnbrdf_result result =
-        render_environment_open(options->env, radians, &limits, environment, error);
+        render_environment_open(options->env, radians, &reading, environment, error);
     if (result != HNBRDF_OK)
         return result;
     if (isnan(options->exposure))
@@ -29,7 +30,7 @@ hnbrdf_result report_picture_write(const render_image *image, const char *path,
                                    const render_write_options *options, hnbrdf_error *error)
 {
     hnbrdf_result result = render_image_write(image, path, options, error);
-    if (result != HNBRDF_OK || render_has_extension(path, ".png"))
+    if (result != HNBRDF_OK || hnbrdf_ends_with(path, ".png"))
         return result;
     char *beside = report_png_beside(path);
     if (!beside)
@@ -41,7 +42,7 @@ hnbrdf_result report_picture_write(const render_image *image, const char *path,
 
 void report_print_pictures(const char *path, FILE *file)
 {
-    char *beside = render_has_extension(path, ".png") ? NULL : report_png_beside(path);
+    char *beside = hnbrdf_ends_with(path, ".png") ? NULL : report_png_beside(path);
     fprintf(file, "%s\n", path);
     if (beside)
         fprintf(file, "%s\n", beside);

@@ -12,7 +12,7 @@ typedef struct report_light {
     double rotate;   /* degrees */
     double exposure; /* stops; NAN: chosen */
     long spp, seed, threads;
-    const char *layer;  /* of the environment's file, see render_limits */
+    const char *layer;  /* of the environment's file, see render_read_options */
     int repair;         /* likewise */
     hnbrdf_notes notes; /* told of what the environment's file needed */
 } report_light;

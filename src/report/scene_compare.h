@@ -10,8 +10,8 @@
 
 typedef struct report_scene {
     const render_description *description;
-    const hnbrdf_measured_options *reading; /* of the measurements */
-    const char *folder;                     /* where they are */
+    const render_reading *reading;
+    const char *folder; /* where the measurements are */
     /* its output: the models' picture; OUTPUT_ggx and OUTPUT_measured lie beside. No progress and
      * no checkpoints */
     render_job job;

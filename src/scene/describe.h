@@ -112,10 +112,16 @@ typedef struct render_loaded {
     int measured_count;
 } render_loaded;
 
+/* How the files of a scene are read. Zero-initialise for defaults. */
+typedef struct render_reading {
+    const hnbrdf_measured_options *measured; /* NULL: the defaults */
+    hnbrdf_notes notes;                      /* told of what models and pictures needed */
+} render_reading;
+
 /* Reads all files and builds the scene. `folder`: for RENDER_SHOW_MEASURED, holds each
- * NAME or NAME_rgb with the ending of a measured format. options may be NULL. */
+ * NAME or NAME_rgb with the ending of a measured format. reading may be NULL. */
 hnbrdf_result render_description_load(const render_description *description, render_show show,
-                                      const char *folder, const hnbrdf_measured_options *options,
+                                      const char *folder, const render_reading *reading,
                                       render_loaded *loaded, hnbrdf_error *error);
 void render_loaded_free(render_loaded *loaded);
 

@@ -81,7 +81,7 @@ hnbrdf_result render_job_run(const render_job *job, const render_scene *scene, r
 
 hnbrdf_result render_job_run_description(const render_job *job,
                                          const render_description *description, render_show show,
-                                         const char *folder, const hnbrdf_measured_options *reading,
+                                         const char *folder, const render_reading *reading,
                                          render_image *image, render_outcome *outcome,
                                          hnbrdf_error *error)
 {

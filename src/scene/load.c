@@ -13,7 +13,7 @@ typedef struct loader {
     const render_description *d;
     render_show show;
     const char *folder;
-    const hnbrdf_measured_options *options;
+    render_reading reading;
     render_loaded *out;
     const char **model_files; /* of out->models */
     hnbrdf_error *error;
@@ -37,12 +37,6 @@ void render_description_path(const render_description *description, const char *
     snprintf(path, (size_t)2 * RENDER_MAX_PATH, "%.*s%s", folder, description->name, file);
 }
 
-/* Whoever is told of measured data is told of the rest. */
-static hnbrdf_notes scene_notes(const loader *l)
-{
-    return l->options ? l->options->notes : (hnbrdf_notes){NULL, NULL};
-}
-
 /* ---- Materials ------------------------------------------------------------------------------- */
 
 static hnbrdf_result find_model(loader *l, const char *file, hnbrdf_model **model)
@@ -54,7 +48,7 @@ static hnbrdf_result find_model(loader *l, const char *file, hnbrdf_model **mode
         }
     char path[2 * RENDER_MAX_PATH];
     render_description_path(l->d, file, path);
-    const hnbrdf_load_options load = {.notes = scene_notes(l)};
+    const hnbrdf_load_options load = {.notes = l->reading.notes};
     hnbrdf_result result = hnbrdf_model_load(path, &load, model, l->error);
     if (result == HNBRDF_OK) {
         l->model_files[l->out->model_count] = file;
@@ -101,7 +95,7 @@ static hnbrdf_result open_counterpart(loader *l, const char *name, hnbrdf_measur
             find_counterpart(l, name, info->endings, path) ||
             find_counterpart(l, rgb, info->part_endings, path) ||
             find_counterpart(l, name, info->part_endings, path))
-            return hnbrdf_measured_open(path, l->options, measured, l->error);
+            return hnbrdf_measured_open(path, l->reading.measured, measured, l->error);
         for (int i = 0; info->endings && info->endings[i] && length < sizeof endings; i++)
             length += (size_t)snprintf(endings + length, sizeof endings - length, ", %s",
                                        info->endings[i]);
@@ -174,7 +168,7 @@ static hnbrdf_result load_material(loader *l, const render_text_material *m,
         return result;
     case RENDER_FROM_MEASURED:
         render_description_path(l->d, m->file, path);
-        result = hnbrdf_measured_open(path, l->options, &measured, l->error);
+        result = hnbrdf_measured_open(path, l->reading.measured, &measured, l->error);
         break;
     case RENDER_FROM_BUILTIN:
         result = open_builtin(l, m->which, &measured);
@@ -312,11 +306,12 @@ static hnbrdf_result load_environment(const loader *l)
         render_description_path(l->d, d->environment, path);
         source = path;
     }
-    const render_limits limits = {.notes = scene_notes(l),
-                                  .layer = d->environment_layer[0] ? d->environment_layer : NULL,
-                                  .repair = d->environment_repair};
+    const render_read_options options = {.notes = l->reading.notes,
+                                         .layer =
+                                             d->environment_layer[0] ? d->environment_layer : NULL,
+                                         .repair = d->environment_repair};
     hnbrdf_result result =
-        render_environment_open(source, d->rotate * 3.14159265358979323846 / 180.0, &limits,
+        render_environment_open(source, d->rotate * 3.14159265358979323846 / 180.0, &options,
                                 &l->out->environment, l->error);
     if (result != HNBRDF_OK)
         return at_line(l, d->environment_line, result);
@@ -326,13 +321,13 @@ static hnbrdf_result load_environment(const loader *l)
 }
 
 hnbrdf_result render_description_load(const render_description *description, render_show show,
-                                      const char *folder, const hnbrdf_measured_options *options,
+                                      const char *folder, const render_reading *reading,
                                       render_loaded *loaded, hnbrdf_error *error)
 {
     loader l = {.d = description,
                 .show = show,
                 .folder = folder,
-                .options = options,
+                .reading = reading ? *reading : (render_reading){0},
                 .out = loaded,
                 .error = error};
     memset(loaded, 0, sizeof *loaded);

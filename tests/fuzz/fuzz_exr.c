@@ -12,7 +12,7 @@ static void read_layer(const uint8_t *data, size_t size, const char *layer)
 {
     render_image image = {0};
     hnbrdf_error error = {""};
-    render_limits limits = fuzz_limits;
+    render_read_options limits = fuzz_limits;
     limits.layer = layer;
     limits.notes.note = nobody;
     hnbrdf_result result = render_exr_decode(data, size, "picture.exr", &limits, &image, &error);

@@ -8,7 +8,7 @@
 #include "render/environment.h"
 
 /* Small, so that a run is fast; the tests hold the defaults. */
-static const render_limits fuzz_limits = {.max_bytes = 1 << 20, .max_pixels = 1 << 16};
+static const render_read_options fuzz_limits = {.max_bytes = 1 << 20, .max_pixels = 1 << 16};
 
 static inline void fuzz_environment(hnbrdf_result result, render_image *image, hnbrdf_error *error)
 {
