@@ -10,6 +10,12 @@
 #include <stdio.h>
 
 /* One line whatever it holds: control characters, from names and contents of files, become '?'. */
+static inline void hnbrdf_one_line(char *text)
+{
+    for (char *c = text; *c; ++c)
+        *c = (unsigned char)*c < 0x20 || *c == 0x7f ? '?' : *c;
+}
+
 #if defined(__GNUC__) && !defined(__MINGW32__)
 __attribute__((format(printf, 2, 0)))
 #endif
@@ -17,8 +23,7 @@ static inline void
 hnbrdf_error_print(hnbrdf_error *error, const char *format, va_list arguments)
 {
     vsnprintf(error->text, sizeof error->text, format, arguments);
-    for (char *c = error->text; *c; ++c)
-        *c = (unsigned char)*c < 0x20 || *c == 0x7f ? '?' : *c;
+    hnbrdf_one_line(error->text);
 }
 
 /* Writes the message if error is not NULL and returns result, so that a failure is one statement:

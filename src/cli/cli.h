@@ -154,6 +154,9 @@ int cli_load_model(const char *path, hnbrdf_model **model);
 /* The same, and says of measured data that they are none. Returns 0, or CLI_FAILURE after a
  * message. */
 int cli_open_model(const char *path, hnbrdf_model **model);
+/* The same for a command that writes it to `output`, which may be `path`: asks, before any work,
+ * whether that can be written. */
+int cli_open_model_to_change(const char *path, const char *output, hnbrdf_model **model);
 /* The message for a new name that a material of the model has; returns CLI_FAILURE. */
 int cli_fail_name_taken(const char *path, const char *name);
 /* Puts a model whose materials have lobes of this scheme in the place of *model, which is freed;

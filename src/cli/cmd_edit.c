@@ -88,12 +88,8 @@ static int edit_material(const edit_job *job, const hnbrdf_model *model, int ind
 static int run(const edit_job *job)
 {
     hnbrdf_model *model;
-    if (cli_open_model(job->path, &model) != CLI_OK)
+    if (cli_open_model_to_change(job->path, job->output, &model) != CLI_OK)
         return CLI_FAILURE;
-    if (cli_output_check(job->output) != CLI_OK) { /* MODEL itself is no option */
-        hnbrdf_model_free(model);
-        return CLI_FAILURE;
-    }
     int index = cli_choose_material(model, job->material);
     int result = index < 0 ? CLI_FAILURE : edit_material(job, model, index);
     hnbrdf_model_free(model);

@@ -43,13 +43,12 @@ static int run(hnbrdf_model **model, hnbrdf_lobes_scheme scheme, int show, const
 {
     hnbrdf_model_desc desc;
     hnbrdf_error error;
-    int to_stdout = csv && csv[0] == '-' && !csv[1];
     if (!show && cli_set_lobes(model, scheme) != CLI_OK)
         return CLI_FAILURE;
     hnbrdf_model_describe(*model, &desc);
     if (!show && hnbrdf_model_save(*model, output, &error) != HNBRDF_OK)
         return cli_fail("%s", error.text);
-    if (!to_stdout)
+    if (!cli_is_stdout(csv))
         report_lobes_print(&desc, stdout);
     return cli_write_file(csv, report_lobes_write_csv, &desc);
 }
@@ -79,11 +78,11 @@ int cmd_lobes(int argc, char **argv)
         return cli_usage(&command, "--show writes no model: leave out -o");
     hnbrdf_model *model;
     output = output ? output : argv[1];
-    if (cli_open_model(argv[1], &model) != CLI_OK)
-        return CLI_FAILURE;
-    result = show ? CLI_OK : cli_output_check(output); /* MODEL itself is no option */
-    if (result == CLI_OK)
-        result = run(&model, schemes[scheme], show, csv, output);
+    result =
+        show ? cli_open_model(argv[1], &model) : cli_open_model_to_change(argv[1], output, &model);
+    if (result != CLI_OK)
+        return result;
+    result = run(&model, schemes[scheme], show, csv, output);
     hnbrdf_model_free(model);
     return result;
 }

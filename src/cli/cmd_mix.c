@@ -132,12 +132,8 @@ static int write_mixed(const mix_job *job, const hnbrdf_model *model,
 static int run(const mix_job *job)
 {
     hnbrdf_model *model;
-    if (cli_open_model(job->path, &model) != CLI_OK)
+    if (cli_open_model_to_change(job->path, job->output, &model) != CLI_OK)
         return CLI_FAILURE;
-    if (cli_output_check(job->output) != CLI_OK) { /* MODEL itself is no option */
-        hnbrdf_model_free(model);
-        return CLI_FAILURE;
-    }
     mixtures *m = calloc(1, sizeof *m);
     int result = m ? mix_all(job, model, m) : cli_fail("out of memory");
     if (result == CLI_OK)

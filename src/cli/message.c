@@ -1,18 +1,17 @@
 /* message.c: what commands say on stderr: one line each. */
 #include "cli/cli.h"
 
+#include "base/error.h"
+
 #include <stdarg.h>
 
 enum { MESSAGE_SIZE = 1024 };
 
-/* One line whatever file names and contents hold: control characters become '?'. */
 static void print_line(const char *before, const char *format, va_list arguments)
 {
     char text[MESSAGE_SIZE];
     vsnprintf(text, sizeof text, format, arguments);
-    for (char *c = text; *c; c++)
-        if ((unsigned char)*c < 0x20 || *c == 0x7f)
-            *c = '?';
+    hnbrdf_one_line(text);
     fprintf(stderr, "hnbrdf%s: %s\n", before, text);
 }
 

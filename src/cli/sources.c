@@ -380,6 +380,16 @@ int cli_open_model(const char *path, hnbrdf_model **model)
     return CLI_OK;
 }
 
+int cli_open_model_to_change(const char *path, const char *output, hnbrdf_model **model)
+{
+    if (cli_open_model(path, model) != CLI_OK)
+        return CLI_FAILURE;
+    if (cli_output_check(output) == CLI_OK)
+        return CLI_OK;
+    hnbrdf_model_free(*model);
+    return CLI_FAILURE;
+}
+
 int cli_fail_name_taken(const char *path, const char *name)
 {
     return cli_fail("%s: there is a material %s already (--replace overwrites it)", path, name);
