@@ -327,3 +327,16 @@ void directional_albedo(const hnbrdf_measured *measured, int rings, double theta
                     (double)f[i] * (double)wi[2] * 4 * c * sin(theta_h) * weight * 2 * pi / STEPS;
         }
 }
+
+void assert_reciprocal(const hnbrdf_measured *measured, uint64_t stream, int pairs)
+{
+    hnbrdf_rng rng;
+    hnbrdf_rng_seed(&rng, 1, stream);
+    for (int k = 0; k < pairs; k++) {
+        float wi[3], wo[3], f[3], swapped[3];
+        hnbrdf_sampler_draw((hnbrdf_sampler)(k % 3), &rng, wi, wo);
+        assert_int_equal(hnbrdf_measured_eval(measured, wi, wo, f), 1);
+        assert_int_equal(hnbrdf_measured_eval(measured, wo, wi, swapped), 1);
+        assert_memory_equal(f, swapped, sizeof f);
+    }
+}

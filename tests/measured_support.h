@@ -63,4 +63,8 @@ int pair_at(double theta_h, double theta_d, double phi_d, double phi_h, float wi
 void directional_albedo(const hnbrdf_measured *measured, int rings, double theta, double phi,
                         double albedo[3]);
 
+/* f(wi, wo) and f(wo, wi) have the same bits, over pairs of all samplers; stream: of the random
+ * numbers. */
+void assert_reciprocal(const hnbrdf_measured *measured, uint64_t stream, int pairs);
+
 #endif
