@@ -56,7 +56,8 @@ static void write_mixtures_csv(const void *report, FILE *file)
             hnbrdf_write_csv_number(file, m->t, 6);
             putc(',', file);
             hnbrdf_write_csv_number(file, m->beyond, 6);
-            fprintf(file, ",%c,%d\n", "rgb"[m->channel], m -> beyond <= EDITING_WIDENED);
+            const int within = m->beyond <= EDITING_WIDENED;
+            fprintf(file, ",%c,%d\n", "rgb"[m->channel], within);
         }
 }
 
@@ -226,6 +227,7 @@ static int find_worst(const editing_pairs *set, const editing_mixture *worst[WOR
 
 static void write_worst(const editing_report *r, const editing_pairs *set, FILE *file)
 {
+    static const char *const channels[3] = {"red", "green", "blue"};
     const editing_mixture *worst[WORST];
     const editing_model *model = &r->models[set->model];
     int count = find_worst(set, worst);
@@ -233,7 +235,7 @@ static void write_worst(const editing_report *r, const editing_pairs *set, FILE 
         fprintf(file, "%s%s to %s at %.2f (%.1f in %s)", k ? ", " : "\nFarthest beyond: ",
                 hnbrdf_model_material_name(model->model, worst[k]->ends[0]),
                 hnbrdf_model_material_name(model->model, worst[k]->ends[1]), worst[k]->t,
-                worst[k]->beyond, &"red\0\0\0green\0blue"[6 * worst[k]->channel]);
+                worst[k]->beyond, channels[worst[k]->channel]);
     if (count)
         fputs(".\n", file);
 }
@@ -246,7 +248,8 @@ static void write_mixtures(const editing_report *r, FILE *file)
     write_halves(r, file);
     fputs("\nAll pairs of a model's materials at t = 1/4, 1/2 and 3/4: mixtures whose directional "
           "albedo, seen from 0, 30 and\n60 degrees, lies in every channel between those of the two "
-          "ends, widened by a tenth (mixtures.csv has each):\n\n| network | mixtures | within | "
+          "ends, widened by a tenth; under 0.001 counts as that (mixtures.csv has each):\n\n| "
+          "network | mixtures | within | "
           "pairs | within at all t |\n|---|---|---|---|---|\n",
           file);
     for (int s = 0; s < r->pair_set_count; s++) {
