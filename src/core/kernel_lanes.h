@@ -1,0 +1,282 @@
+/* kernel_lanes.h: a block of pairs, arrays over lanes: gathered, encoded, evaluated, drawn, and what
+ * their materials and sampling lobes are. Part of kernel_body.h, after kernel_network.h. */
+#include "core/compose.h"
+#include "core/encoding.h"
+#include "core/sampling.h"
+
+/* The materials of a block. */
+typedef struct lane_materials {
+    lane cosine, sine, ax, ay, area, diffuse[3], e[3];
+} lane_materials;
+
+/* Pairs in the tangent frames of their materials, and what comes of them. Lanes that have no pair
+ * above the horizon hold wi = wo = n, and 0 in `above`. */
+typedef struct lane_pairs {
+    lane wi[3], wo[3], sx, sy, sz, length2, c, f[3];
+    lane x[HNBRDF_MAX_LATENT + HNBRDF_ENCODING_SIZE]; /* the latent code, then what is encoded */
+    lane out[HNBRDF_MAX_OUTPUTS];
+    int above[LANES];
+} lane_pairs;
+
+static void put_material(const hnbrdf_prepared *prepared, int l, lane_materials *m)
+{
+    m->cosine[l] = prepared->cosine;
+    m->sine[l] = prepared->sine;
+    m->ax[l] = prepared->alpha[0];
+    m->ay[l] = prepared->alpha[1];
+    m->area[l] = prepared->area;
+    for (int c = 0; c < 3; c++) {
+        m->diffuse[c][l] = prepared->diffuse[c];
+        m->e[c][l] = prepared->e[c];
+    }
+}
+
+/* The sampling lobes of a block. */
+typedef struct lane_lobes {
+    lane ax[HNBRDF_LOBES], ay[HNBRDF_LOBES], area[HNBRDF_LOBES], scale[HNBRDF_LOBES];
+    lane share[HNBRDF_LOBES][HNBRDF_LOBE_KNOTS];
+} lane_lobes;
+
+static void put_lobes(const hnbrdf_prepared *prepared, int l, lane_lobes *m)
+{
+    for (int k = 0; k < HNBRDF_LOBES; k++) {
+        m->ax[k][l] = prepared->lobe_alpha[k][0];
+        m->ay[k][l] = prepared->lobe_alpha[k][1];
+        m->area[k][l] = prepared->lobe_area[k];
+        m->scale[k][l] = prepared->lobes.scale[k];
+        for (int j = 0; j < HNBRDF_LOBE_KNOTS; j++)
+            m->share[k][j][l] = prepared->lobes.share[k][j];
+    }
+}
+
+static inline void lobes_of(const lane_lobes *m, int l, hnbrdf_lobe lobes[HNBRDF_LOBES])
+{
+    for (int k = 0; k < HNBRDF_LOBES; k++)
+        lobes[k] = (hnbrdf_lobe){
+            m->ax[k][l],
+            m->ay[k][l],
+            m->area[k][l],
+            m->scale[k][l],
+            {m->share[k][0][l], m->share[k][1][l], m->share[k][2][l], m->share[k][3][l]}};
+}
+
+static const float *at(const float *first, size_t stride, size_t index)
+{
+    return (const float *)((const char *)first + index * stride);
+}
+
+KERNEL_APART void gather(const hnbrdf_pairs *pairs, size_t first, size_t count, lane_pairs *b)
+{
+    static const float normal[3] = {0.0f, 0.0f, 1.0f};
+    for (size_t l = 0; l < LANES; l++) {
+        const float *wi = normal, *wo = normal;
+        b->above[l] = 0;
+        if (l < count) {
+            const float *i = at(pairs->wi, pairs->wi_stride, first + l);
+            const float *o = at(pairs->wo, pairs->wo_stride, first + l);
+            int above = hnbrdf_above_horizon(i, o);
+            b->above[l] = above;
+            wi = above ? i : normal;
+            wo = above ? o : normal;
+        }
+        for (int k = 0; k < 3; k++) {
+            b->wi[k][l] = wi[k];
+            b->wo[k][l] = wo[k];
+        }
+    }
+}
+
+KERNEL_APART void scatter(const hnbrdf_pairs *pairs, size_t first, size_t count,
+                          const lane_pairs *b)
+{
+    for (size_t l = 0; l < count; l++) {
+        float *to = (float *)((char *)pairs->f + (first + l) * pairs->f_stride);
+        for (int c = 0; c < 3; c++)
+            to[c] = b->above[l] ? b->f[c][l] : 0.0f;
+    }
+}
+
+KERNEL_APART void make_pairs(const lane_materials *restrict m, lane_pairs *restrict b)
+{
+    for (int l = 0; l < LANES; l++) {
+        const hnbrdf_frame frame = {m->cosine[l], m->sine[l]};
+        const float wi[3] = {b->wi[0][l], b->wi[1][l], b->wi[2][l]};
+        const float wo[3] = {b->wo[0][l], b->wo[1][l], b->wo[2][l]};
+        float i[3], o[3];
+        hnbrdf_to_tangent(frame, wi, i);
+        hnbrdf_to_tangent(frame, wo, o);
+        hnbrdf_pair pair = hnbrdf_pair_make(i, o);
+        b->wi[0][l] = pair.wi[0];
+        b->wi[1][l] = pair.wi[1];
+        b->wo[0][l] = pair.wo[0];
+        b->wo[1][l] = pair.wo[1];
+        b->sx[l] = pair.sx;
+        b->sy[l] = pair.sy;
+        b->sz[l] = pair.sz;
+        b->length2[l] = pair.length2;
+        b->c[l] = pair.c;
+    }
+}
+
+static inline hnbrdf_pair pair_of(const lane_pairs *b, int l)
+{
+    return (hnbrdf_pair){.wi = {b->wi[0][l], b->wi[1][l], b->wi[2][l]},
+                         .wo = {b->wo[0][l], b->wo[1][l], b->wo[2][l]},
+                         .sx = b->sx[l],
+                         .sy = b->sy[l],
+                         .sz = b->sz[l],
+                         .length2 = b->length2[l],
+                         .c = b->c[l]};
+}
+
+/* Of pairs in the tangent frame. */
+KERNEL_APART void density_lanes(const lane_lobes *restrict m, const lane_pairs *restrict b,
+                                float *restrict pdf)
+{
+    for (int l = 0; l < LANES; l++) {
+        hnbrdf_lobe lobes[HNBRDF_LOBES];
+        hnbrdf_pair pair = pair_of(b, l);
+        lobes_of(m, l, lobes);
+        pdf[l] = hnbrdf_density(lobes, &pair);
+    }
+}
+
+/* wo, and the two random numbers in wi. */
+KERNEL_APART void gather_draws(const hnbrdf_draws *draws, size_t first, size_t count, lane_pairs *b)
+{
+    static const float normal[3] = {0.0f, 0.0f, 1.0f};
+    for (size_t l = 0; l < LANES; l++) {
+        const float *wo = normal, *u = normal;
+        b->above[l] = 0;
+        if (l < count) {
+            const float *o = at(draws->wo, draws->wo_stride, first + l);
+            b->above[l] = o[2] > 0.0f;
+            wo = b->above[l] ? o : normal;
+            u = at(draws->u, draws->u_stride, first + l);
+        }
+        for (int k = 0; k < 3; k++)
+            b->wo[k][l] = wo[k];
+        for (int k = 0; k < 2; k++)
+            b->wi[k][l] = u[k];
+    }
+}
+
+/* The lobe of each draw from the first number. */
+typedef struct lane_choices {
+    lane ax, ay, azimuth;
+    int is_lobe[LANES], is_all[LANES];
+} lane_choices;
+
+KERNEL_APART void choose_lanes(const lane_lobes *restrict s, const lane_pairs *restrict b,
+                               lane_choices *restrict to)
+{
+    for (int l = 0; l < LANES; l++) {
+        hnbrdf_lobe lobes[HNBRDF_LOBES];
+        lobes_of(s, l, lobes);
+        hnbrdf_choice choice = hnbrdf_choose(lobes, b->wo[2][l], b->wi[0][l], 0.0f);
+        to->ax[l] = choice.ax;
+        to->ay[l] = choice.ay;
+        to->azimuth[l] = choice.azimuth;
+        to->is_lobe[l] = choice.is_lobe;
+        to->is_all[l] = choice.is_all;
+    }
+}
+
+/* wi from what was chosen and the second number; `above` falls to 0 where nothing above the
+ * horizon comes out, and wi is n there. */
+KERNEL_APART void draw_lanes(const lane_materials *restrict m, const lane_choices *restrict from,
+                             lane_pairs *restrict b)
+{
+    for (int l = 0; l < LANES; l++) {
+        const hnbrdf_frame frame = {m->cosine[l], m->sine[l]};
+        const hnbrdf_choice choice = {from->ax[l], from->ay[l], from->azimuth[l], from->is_lobe[l],
+                                      from->is_all[l]};
+        const float wo[3] = {b->wo[0][l], b->wo[1][l], b->wo[2][l]};
+        float o[3], i[3], wi[3];
+        hnbrdf_to_tangent(frame, wo, o);
+        int drawn = hnbrdf_draw_chosen(&choice, o, b->wi[1][l], i);
+        hnbrdf_from_tangent(frame, i, wi);
+        int above = b->above[l] & drawn & (wi[2] > 0.0f);
+        b->above[l] = above;
+        b->wi[0][l] = above ? wi[0] : 0.0f;
+        b->wi[1][l] = above ? wi[1] : 0.0f;
+        b->wi[2][l] = above ? wi[2] : 1.0f;
+    }
+}
+
+/* f = f_a */
+KERNEL_APART void analytic_lanes(const lane_materials *restrict m, lane_pairs *restrict b)
+{
+    for (int l = 0; l < LANES; l++) {
+        hnbrdf_pair pair = pair_of(b, l);
+        float specular = hnbrdf_specular_of_area(&pair, m->ax[l], m->ay[l], m->area[l]);
+        for (int c = 0; c < 3; c++)
+            b->f[c][l] = hnbrdf_microfacet_of(m->diffuse[c][l], m->e[c][l], pair.c, specular);
+    }
+}
+
+KERNEL_APART void finish_lanes(lane_pairs *b)
+{
+    for (int c = 0; c < 3; c++)
+        for (int l = 0; l < LANES; l++)
+            b->f[c][l] = hnbrdf_finish(b->f[c][l]);
+}
+
+/* One loop an encoding: none asks within it. */
+#define ENCODE_LANES(encode)                           \
+    for (int l = 0; l < LANES; l++) {                  \
+        hnbrdf_pair pair = pair_of(b, l);              \
+        float encoded[HNBRDF_ENCODING_SIZE];           \
+        encode(&pair, encoded);                        \
+        for (int i = 0; i < HNBRDF_ENCODING_SIZE; i++) \
+            x[i][l] = encoded[i];                      \
+    }
+
+static void encode_lanes(hnbrdf_encoding encoding, lane_pairs *restrict b, lane *restrict x)
+{
+#define ENCODE_CASE(ENUM, function, name, reciprocal, azimuth) \
+    case HNBRDF_ENCODING_##ENUM:                               \
+        ENCODE_LANES(hnbrdf_encode_##function)                 \
+        break;
+    switch (encoding) {
+        HNBRDF_ENCODINGS(ENCODE_CASE)
+    }
+#undef ENCODE_CASE
+}
+
+static void compose_lanes(const hnbrdf_model_desc *desc, lane_pairs *b)
+{
+    const float scale = desc->scale, shift = desc->shift, lowest = desc->floor;
+    if (desc->kind == HNBRDF_KIND_HYBRID)
+        for (int c = 0; c < 3; c++)
+            for (int l = 0; l < LANES; l++)
+                b->f[c][l] = hnbrdf_compose_hybrid(b->out[c][l], b->out[c + 3][l], b->f[c][l],
+                                                   scale, shift, lowest);
+    else
+        for (int c = 0; c < 3; c++)
+            for (int l = 0; l < LANES; l++)
+                b->f[c][l] = hnbrdf_compose_neural(b->out[c][l], scale, shift, lowest);
+}
+
+/* Everything between gather and scatter. shared: the one material of all lanes, or NULL, then b->x
+ * begins with the latent codes. */
+KERNEL_APART void evaluate_lanes(const hnbrdf_model *model, const hnbrdf_prepared *shared,
+                                 const lane_materials *m, lane_pairs *b)
+{
+    const hnbrdf_model_desc *desc = &model->desc;
+    lane *encoded = b->x + desc->latent;
+    make_pairs(m, b);
+    if (desc->kind != HNBRDF_KIND_NEURAL)
+        analytic_lanes(m, b);
+    if (desc->kind == HNBRDF_KIND_GGX) {
+        finish_lanes(b);
+        return;
+    }
+    encode_lanes(desc->encoding, b, encoded);
+    if (shared)
+        network_folded(shared, encoded, b->out);
+    else
+        network_lanes(model, model->packed[0], desc->latent + HNBRDF_ENCODING_SIZE, b->x,
+                      model->packed_biases[0], b->out);
+    compose_lanes(desc, b);
+}
