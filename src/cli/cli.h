@@ -149,10 +149,7 @@ void cli_close_source(cli_source *source);
  * whose name must then be `name` or name NULL. -1 after a message. */
 int cli_choose_source_material(const cli_source *source, const char *name);
 
-/* Loads a file that must be a model. Returns 0, or CLI_FAILURE after a message. */
-int cli_load_model(const char *path, hnbrdf_model **model);
-/* The same, and says of measured data that they are none. Returns 0, or CLI_FAILURE after a
- * message. */
+/* A model file and nothing else. Returns 0, or CLI_FAILURE after a message. */
 int cli_open_model(const char *path, hnbrdf_model **model);
 /* The same for a command that writes it to `output`, which may be `path`: asks, before any work,
  * whether that can be written. */

@@ -225,7 +225,7 @@ int cmd_report_editing(int argc, char **argv)
         code = read_families(families, chosen);
         r.families = chosen;
     }
-    if (code < 0 && r.given_name && cli_load_model(r.given_name, &given) != CLI_OK)
+    if (code < 0 && r.given_name && cli_open_model(r.given_name, &given) != CLI_OK)
         code = CLI_FAILURE;
     if (code < 0 && given && check_model(r.given_name, given) != CLI_OK)
         code = CLI_FAILURE;

@@ -329,7 +329,7 @@ void cli_close_data(cli_data *data)
 
 cli_word cli_variant = {HNBRDF_VARIANT_AUTO, cli_variant_word};
 
-int cli_load_model(const char *path, hnbrdf_model **model)
+static int load_model(const char *path, hnbrdf_model **model)
 {
     hnbrdf_error error;
     const hnbrdf_load_options load = {.variant = (hnbrdf_variant)cli_variant.value,
@@ -351,7 +351,7 @@ int cli_open_source(const char *path, cli_source *source)
     else if (is_directory(path))
         return cli_fail("%s: a directory, expected one model or measured file", path);
     else if (cli_looks_like_model(path) || has_extension(path, ".safetensors"))
-        result = cli_load_model(path, &opened.model);
+        result = load_model(path, &opened.model);
     else
         result = open_measured_file(path, &opened.measured);
     if (result == CLI_OK)
