@@ -1,5 +1,5 @@
-/* kernel_lanes.h: a block of pairs, arrays over lanes: gathered, encoded, evaluated, drawn, and what
- * their materials and sampling lobes are. Part of kernel_body.h, after kernel_network.h. */
+/* kernel_lanes.h: a block of pairs, arrays over lanes: gathered, encoded, evaluated, drawn; and
+ * what their materials and sampling lobes are. Part of kernel_body.h, after kernel_network.h. */
 #include "core/compose.h"
 #include "core/encoding.h"
 #include "core/sampling.h"
