@@ -311,6 +311,23 @@ static void chroma_uses_the_weights_of_the_primaries(void **state)
     render_image_free(&image);
 }
 
+static void chroma_needs_a_green_that_has_luminance(void **state)
+{
+    (void)state;
+    /* Those of XYZ in another order: all of Y is R, and nothing tells G. */
+    static const float dark_green[8] = {0, 1, 1, 0, 0, 0, 1.0f / 3, 1.0f / 3};
+    static const float values[3] = {0.5f, 0.25f, -0.5f};
+    exr_part_description part = flat("Y:f RY:f2 BY:f2");
+    part.user = values;
+    render_image plain = expect_read(&part, 1, NULL);
+    part.chromaticities = dark_green;
+    render_image image = expect_read(&part, 1, NULL);
+    expect_near(image.rgb, plain.rgb[0], plain.rgb[1], plain.rgb[2], 0.0f);
+    assert_non_null(strstr(notes, "its chromaticities are none"));
+    render_image_free(&plain);
+    render_image_free(&image);
+}
+
 static void primaries_are_converted_and_said(void **state)
 {
     (void)state;
@@ -564,6 +581,7 @@ int main(void)
         cmocka_unit_test(chroma_between_its_values_lies_on_a_line),
         cmocka_unit_test(pixels_are_not_more_colourful_than_all_around),
         cmocka_unit_test(chroma_uses_the_weights_of_the_primaries),
+        cmocka_unit_test(chroma_needs_a_green_that_has_luminance),
         cmocka_unit_test(primaries_are_converted_and_said),
         cmocka_unit_test(the_adopted_neutral_becomes_white),
         cmocka_unit_test(a_crop_is_placed),

@@ -154,6 +154,16 @@ static void tell_primaries(const exr_input *in, const exr_attr_chromaticities_t 
                 adapted ? ", adapted from its neutral" : "");
 }
 
+/* Can these primaries tell the picture's colours? G is what R and B leave of Y, over the luminance
+ * of the green primary: where that is below the rounding of a half-precision Y, nothing of G is
+ * left in it. */
+static int are_usable(const exr_picture *picture, const exr_attr_chromaticities_t *c)
+{
+    matrix to_xyz;
+    return rgb_to_xyz(c, to_xyz) == 0 &&
+           (picture->colours != EXR_CHROMA || to_xyz[1][1] > 1.0 / 2048);
+}
+
 /* Reads primaries and white of RGB and chroma, and decides what is converted. */
 static void read_primaries(const exr_input *in, exr_colour *colour)
 {
@@ -166,7 +176,7 @@ static void read_primaries(const exr_input *in, exr_colour *colour)
                                                   &own) == EXR_ERR_SUCCESS;
     if (!given || is_rec709(&own)) {
         own = rec709;
-    } else if (rgb_to_xyz(&own, to_xyz)) {
+    } else if (!are_usable(picture, &own)) {
         hnbrdf_note(&in->options.notes, "%s: its chromaticities are none: taken as Rec. 709",
                     in->name);
         own = rec709;
