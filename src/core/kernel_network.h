@@ -2,6 +2,7 @@
  * side. Part of kernel_body.h, which says what is defined before. */
 #include "core/kernel.h"
 
+#include <stdint.h>
 #include <string.h>
 
 enum { LANES = HNBRDF_LANES };
