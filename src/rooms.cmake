@@ -25,7 +25,8 @@ hnbrdf_room(import
   brdf_network.c brdf_text.c import_brdf.c)
 hnbrdf_room(glsl
   export_evaluate.c export_glsl.c export_input.c export_library.c export_loops.c export_material.c
-  export_network.c export_scene.c export_unpack.c export_weights.c half.c names.c printer.c)
+  export_network.c export_scene.c export_unpack.c export_weights.c half.c macro_names.c
+  names.c printer.c)
 hnbrdf_room(lobes
   fit_lobes.c)
 hnbrdf_room(measured

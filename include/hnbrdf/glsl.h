@@ -84,7 +84,13 @@ typedef struct hnbrdf_glsl_options {
  *   hnbrdf_sample_result hnbrdf_sample(hnbrdf_material m, vec3 wo, vec2 u)
  *   float hnbrdf_pdf(hnbrdf_material m, vec3 wi, vec3 wo)
  * whose values are those of their namesakes in C. Its first lines state what it holds. options
- * may be NULL. */
+ * may be NULL.
+ *
+ * HNBRDF_MATERIAL_NAME is the index of a material: its name in capitals, with one '_' for what is
+ * neither an ASCII letter nor a digit. Where several materials of the model come to the same, that
+ * belongs to the one whose name differs by capitals only, or to none, and the others end in '_'
+ * and a hash of their name: a_b is A_B, a-b beside it A_B_2A89DF63, in whatever order, and also
+ * where one of them is exported alone. */
 HNBRDF_EXPERIMENTAL hnbrdf_result hnbrdf_export_glsl(const hnbrdf_model *model,
                                                      const hnbrdf_glsl_options *options,
                                                      hnbrdf_write_fn write, void *user,

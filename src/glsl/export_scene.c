@@ -1,11 +1,8 @@
-/* export_scene.c: which materials of a model are written, what they need, and what they are
- * called in GLSL. */
+/* export_scene.c: which materials of a model are written, and what they need. */
 #include "glsl/export_scene.h"
 
 #include "base/error.h"
-#include "base/hash.h"
 
-#include <stdint.h>
 #include <string.h>
 
 int hnbrdf_scene_index(const hnbrdf_scene *s, int k)
@@ -48,53 +45,6 @@ int hnbrdf_scene_has_rotation(const hnbrdf_scene *s)
     int fields = hnbrdf_scene_has_analytic(s) + hnbrdf_scene_latent_vectors(s) +
                  hnbrdf_scene_bias_vectors(s);
     return s->rotated || fields == 0;
-}
-
-/* Letters, digits and single underscores, which GLSL does not reserve; at least one character. */
-static void sanitise(const char *name, hnbrdf_macro_name text)
-{
-    size_t length = 0;
-    for (; *name; name++) {
-        unsigned char c = (unsigned char)*name;
-        if ((c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9'))
-            text[length++] = (char)(c >= 'a' && c <= 'z' ? c - 'a' + 'A' : c);
-        else if (length > 0 && text[length - 1] != '_')
-            text[length++] = '_';
-    }
-    while (length > 0 && text[length - 1] == '_')
-        length--;
-    if (length == 0)
-        text[length++] = 'X';
-    text[length] = '\0';
-}
-
-/* A hash set of names by their numbers; free slots hold -1, `slots` is a power of two. */
-static int claim(const hnbrdf_scene *s, int *table, size_t slots, int k)
-{
-    const uint32_t hash = hnbrdf_hash32(HNBRDF_HASH32_START, s->names[k], strlen(s->names[k]));
-    size_t at = hash & (slots - 1);
-    for (; table[at] >= 0; at = (at + 1) & (slots - 1))
-        if (strcmp(s->names[table[at]], s->names[k]) == 0)
-            return 0;
-    table[at] = k;
-    return 1;
-}
-
-/* Names of their own for all materials, and none for the last, which HNBRDF_MATERIAL_COUNT takes.
- * */
-static void name_materials(const hnbrdf_scene *s, int *table, size_t slots)
-{
-    for (size_t i = 0; i < slots; i++)
-        table[i] = -1;
-    strcpy(s->names[s->count], "COUNT");
-    claim(s, table, slots, s->count);
-    for (int k = 0; k < s->count; k++) {
-        sanitise(s->desc->names[hnbrdf_scene_index(s, k)], s->names[k]);
-        size_t length = strlen(s->names[k]);
-        for (int attempt = 0; !claim(s, table, slots, k); attempt++)
-            snprintf(s->names[k] + length, HNBRDF_MACRO_NAME_SIZE - length,
-                     attempt > 0 ? "_%d_%d" : "_%d", k, attempt);
-    }
 }
 
 static hnbrdf_result use_packing(hnbrdf_scene *s, const hnbrdf_packing *packing,
@@ -184,20 +134,12 @@ hnbrdf_result hnbrdf_scene_make(const hnbrdf_model *model, const hnbrdf_glsl_opt
         s->multiplications -= (size_t)s->desc->hidden * (size_t)s->desc->latent;
     }
     set_first_bias(s);
-    size_t slots = 4;
-    while (slots < 2 * ((size_t)s->count + 1))
-        slots *= 2;
     const hnbrdf_allocator *memory = &model->allocator;
-    s->names = memory->allocate(memory->user, ((size_t)s->count + 1) * sizeof(hnbrdf_macro_name));
-    int *table = memory->allocate(memory->user, slots * sizeof *table);
-    if (s->names && table)
-        name_materials(s, table, slots);
-    else if (s->names)
+    s->names = memory->allocate(memory->user, (size_t)s->count * sizeof *s->names);
+    if (!s->names)
+        return hnbrdf_fail(error, HNBRDF_ERROR_MEMORY, "export: no memory for %d names", s->count);
+    result = hnbrdf_macro_names(model, s->indices, s->count, s->names, error);
+    if (result)
         memory->release(memory->user, s->names);
-    if (!s->names || !table)
-        result =
-            hnbrdf_fail(error, HNBRDF_ERROR_MEMORY, "export: no memory for %d names", s->count);
-    if (table)
-        memory->release(memory->user, table);
     return result;
 }

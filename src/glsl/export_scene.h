@@ -3,10 +3,8 @@
 #define HNBRDF_GLSL_EXPORT_SCENE_H
 
 #include "core/model.h"
+#include "glsl/macro_names.h"
 #include "hnbrdf/glsl.h"
-
-enum { HNBRDF_MACRO_NAME_SIZE = HNBRDF_MAX_NAME + 32 };
-typedef char hnbrdf_macro_name[HNBRDF_MACRO_NAME_SIZE]; /* what follows HNBRDF_MATERIAL_ */
 
 typedef struct hnbrdf_scene {
     const hnbrdf_model *model;
