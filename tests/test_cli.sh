@@ -143,10 +143,23 @@ same() {
 }
 run_in "wi_x,wi_y,wi_z,wo_x,wo_y,wo_z\n$pairs" "$HNBRDF" eval "builtin:$first"
 same "a header"
-run_in '0.6,0,0.8,0,0,1\r\n\r\n0,0.6,0.8,-0.6,0,0.8\r\n' "$HNBRDF" eval "builtin:$first"
+run_in '0.6,0,0.8,0,0,1\r\n0,0.6,0.8,-0.6,0,0.8\r\n' "$HNBRDF" eval "builtin:$first"
 same "CRLF"
-run_in '\n  \n0.6,0,0.8,0,0,1\n\n0,0.6,0.8,-0.6,0,0.8\n\n' "$HNBRDF" eval "builtin:$first"
-same "blank lines"
+# One line out for every line in, blank ones where blank ones were. The header out stands where that
+# of the input stood, or first where there was none.
+kinds() {
+    awk '{ print (/[^ \t\r]/ ? "text" : "blank") }' "$1"
+}
+run_in '\n  \n0.6,0,0.8,0,0,1\n\t\n0,0.6,0.8,-0.6,0,0.8\n\n\n' tee blank.csv
+run "$HNBRDF" eval "builtin:$first" -i blank.csv
+grep . out | cmp -s - plain || fail "blank lines: other values than without"
+{ echo text; kinds blank.csv; } >expected
+kinds out | cmp -s - expected || fail "blank lines stand elsewhere"
+run_in '\n\nwi_x,wi_y,wi_z,wo_x,wo_y,wo_z\n\n0.6,0,0.8,0,0,1\r\n\r\n\r\n0,0.6,0.8,-0.6,0,0.8\n ' tee blank.csv
+run "$HNBRDF" eval "builtin:$first" -i blank.csv
+grep . out | cmp -s - plain || fail "blank lines and a header: other values than without"
+kinds blank.csv >expected
+kinds out | cmp -s - expected || fail "blank lines with a header stand elsewhere"
 run_in '0.6,0,0.8,0,0,1\n0,0.6,0.8,-0.6,0,0.8' "$HNBRDF" eval "builtin:$first"
 same "no newline at the end"
 run_in "\\357\\273\\277$pairs" "$HNBRDF" eval "builtin:$first"
@@ -208,7 +221,22 @@ bad_line "an empty field" '0,0,1,0,,1\n' "stdin:1: wo_y: found '', expected"
 bad_line "nan" '0,0,1,0,0,1\n0,0,nan,0,0,1\n' "stdin:2: wi_z: found 'nan'"
 bad_line "inf" '0,0,1,0,0,inf\n' "found 'inf'"
 bad_line "an overflow" '0,0,1,0,0,1e39\n' "found '1e39'"
-bad_line "a decimal comma" '0;0;1;0;0;1\n' "expected numbers or a header"
+bad_line "semicolons" '0;0;1;0;0;1\n' "expected numbers or a header.*commas separate fields here, not ';'"
+bad_line "decimal commas" '0,6;0;0,8;0;0;1\n' "stdin:1: found 3 fields, expected 6; commas separate"
+bad_line "as many decimal commas as expected" '0,6;0,1;0,8;0,1;0,1;1\n' "found '6;0', expected.*; commas"
+bad_line "a header with semicolons" 'wi_x;wi_y;wi_z;wo_x;wo_y;wo_z\n' "wi_x is missing.; commas"
+bad_line "tabs" '0\t0\t1\t0\t0\t1\n' "commas separate fields here, not tabs"
+bad_line "a CR alone" '0,0,1,0,0,1\r0,0,1,0,0,1\r' 'stdin:1: found a CR inside a line'
+bad_line "two CRs" '0,0,1,0,0,1\r\r\n' 'stdin:1: found a CR inside a line'
+bad_line "UTF-16" '\377\376\060\000,\000' 'stdin:1: found UTF-16, expected UTF-8'
+bad_line "UTF-16, the other order" '\376\377\000\060\000,' 'stdin:1: found UTF-16, expected UTF-8'
+bad_line "blank fields" '0,0,1,0,0,1\n,,,,,\n' "stdin:2: wi_x: found ''"
+bad_line "two columns of a name" 'wi_x,wi_y,wi_z,wo_x,note,wo_y,wo_z,wi_y\n0,0,1,0,0,0,1,0\n' \
+    'stdin:1: fields 2 and 8 are both named wi_y, expected one'
+bad_line "two columns of a name after a mark" '\357\273\277"wi_x",wi_x,wi_y,wi_z,wo_x,wo_y,wo_z\n' \
+    'stdin:1: fields 1 and 2 are both named wi_x'
+bad_line "two materials" 'material,wi_x,wi_y,wi_z,wo_x,wo_y,wo_z,material\na,0,0,1,0,0,1,b\n' \
+    'fields 1 and 8 are both named material'
 bad_line "a header without wo_z" 'wi_x,wi_y,wi_z,wo_x,wo_y\n' 'wo_z is missing'
 bad_line "a NUL byte" '0,0,1,0,0,\0001\n' 'stdin:1: found a NUL byte'
 bad_line "an open quote" '"0,0,1,0,0,1\n' 'stdin:1: a quoted field is not closed'

@@ -13,6 +13,7 @@ void hnbrdf_csv_begin(hnbrdf_csv_reader *reader, FILE *file, const char *name)
     reader->file = file;
     reader->name = name;
     reader->line = 0;
+    reader->blank = 0;
     reader->count = 0;
 }
 
@@ -20,6 +21,13 @@ static int fail_line(const hnbrdf_csv_reader *reader, const char *what, hnbrdf_e
 {
     hnbrdf_fail(error, HNBRDF_ERROR_FORMAT, "%s:%ld: %s", reader->name, reader->line, what);
     return -1;
+}
+
+/* As spreadsheets write "Unicode text"; its first letter brings the first NUL byte. */
+static int is_utf16(const hnbrdf_csv_reader *reader, size_t length)
+{
+    return reader->line == 1 && length >= 2 &&
+           (memcmp(reader->text, "\xff\xfe", 2) == 0 || memcmp(reader->text, "\xfe\xff", 2) == 0);
 }
 
 /* One line into text, without its end: 1, 0 at the end of the file, -1 with *error filled. */
@@ -32,7 +40,10 @@ static int read_line(hnbrdf_csv_reader *reader, hnbrdf_error *error)
         return 0;
     for (; c != EOF && c != '\n'; c = getc(reader->file)) {
         if (c == '\0')
-            return fail_line(reader, "found a NUL byte, expected text", error);
+            return fail_line(reader,
+                             is_utf16(reader, length) ? "found UTF-16, expected UTF-8"
+                                                      : "found a NUL byte, expected text",
+                             error);
         if (length == HNBRDF_CSV_LINE - 1)
             return fail_line(reader, "the line is longer than 8191 bytes", error);
         reader->text[length++] = (char)c;
@@ -44,6 +55,9 @@ static int read_line(hnbrdf_csv_reader *reader, hnbrdf_error *error)
     if (length > 0 && reader->text[length - 1] == '\r')
         length--;
     reader->text[length] = '\0';
+    if (strchr(reader->text, '\r'))
+        return fail_line(
+            reader, "found a CR inside a line, expected lines that end with LF or CRLF", error);
     if (reader->line == 1 && strncmp(reader->text, "\xef\xbb\xbf", 3) == 0)
         memmove(reader->text, reader->text + 3, length - 2);
     return 1;
@@ -107,13 +121,21 @@ static int split(hnbrdf_csv_reader *reader, hnbrdf_error *error)
 
 int hnbrdf_csv_next(hnbrdf_csv_reader *reader, hnbrdf_error *error)
 {
-    for (;;) {
+    for (reader->blank = 0;; reader->blank++) {
         int result = read_line(reader, error);
         if (result <= 0)
             return result;
         if (reader->text[strspn(reader->text, " \t")] != '\0')
             return split(reader, error);
     }
+}
+
+int hnbrdf_csv_has(const hnbrdf_csv_reader *reader, char c)
+{
+    for (int k = 0; k < reader->count; k++)
+        if (strchr(reader->fields[k], c))
+            return 1;
+    return 0;
 }
 
 int hnbrdf_csv_number(const hnbrdf_csv_reader *reader, int index, const char *what, float *value,

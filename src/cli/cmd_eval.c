@@ -19,12 +19,15 @@ static const cli_command command = {
     "among\n"
     "     other columns; without one there are these six. With a model and a column `material`, "
     "each\n"
-    "     line is evaluated for the material it names, unless --material is given.\n"
+    "     line is evaluated for the material it names, unless --material is given. Fields are "
+    "separated by\n"
+    "     commas and may be in quotes, numbers have decimal points.\n"
     "Out: CSV with the header f_r,f_g,f_b: the BRDF in 1/sr, linear RGB, without the cosine; one "
     "line "
     "for\n"
-    "     each line of input, 0 where wi or wo is below the horizon or there is no valid "
-    "measurement.",
+    "     each line of input, a blank one for a blank one, 0 where wi or wo is below the horizon "
+    "or there\n"
+    "     is no valid measurement.",
     "echo 0,0,1,0.6,0,0.8 | hnbrdf eval builtin:velvet-crimson\n"
     "hnbrdf eval model.safetensors --material velvet-crimson -i pairs.csv -o values.csv\n"
     "hnbrdf eval gold.binary < pairs.csv > values.csv",
@@ -50,18 +53,43 @@ typedef struct eval_job {
 
 /* ---- Columns --------------------------------------------------------------------------------- */
 
+/* For the end of a message about a line whose fields are not those expected. */
+static const char *separator_hint(const eval_job *job)
+{
+    return hnbrdf_csv_has(&job->in, ';')    ? "; commas separate fields here, not ';'"
+           : hnbrdf_csv_has(&job->in, '\t') ? "; commas separate fields here, not tabs"
+                                            : "";
+}
+
+/* Where the column stands among the fields, -1: nowhere, -2 after a message: twice. */
+static int find_column(const eval_job *job, const char *name)
+{
+    int found = -1;
+    for (int k = 0; k < job->in.count; k++) {
+        if (strcmp(job->in.fields[k], name) != 0)
+            continue;
+        if (found >= 0) {
+            cli_fail("%s:%ld: fields %d and %d are both named %s, expected one", job->in.name,
+                     job->in.line, found + 1, k + 1, name);
+            return -2;
+        }
+        found = k;
+    }
+    return found;
+}
+
 static int read_header(eval_job *job)
 {
     job->fields = job->in.count;
     for (int column = 0; column < COLUMNS; column++) {
-        job->columns[column] = -1;
-        for (int k = job->in.count - 1; k >= 0; k--)
-            if (strcmp(job->in.fields[k], column_names[column]) == 0)
-                job->columns[column] = k;
+        job->columns[column] = find_column(job, column_names[column]);
+        if (job->columns[column] < -1)
+            return CLI_FAILURE;
         if (job->columns[column] < 0 && column != MATERIAL)
             return cli_fail("%s:%ld: found '%.40s' first, expected numbers or a header with "
-                            "wi_x,wi_y,wi_z,wo_x,wo_y,wo_z (%s is missing)",
-                            job->in.name, job->in.line, job->in.fields[0], column_names[column]);
+                            "wi_x,wi_y,wi_z,wo_x,wo_y,wo_z (%s is missing)%s",
+                            job->in.name, job->in.line, job->in.fields[0], column_names[column],
+                            separator_hint(job));
     }
     return CLI_OK;
 }
@@ -85,11 +113,11 @@ static int read_pair(const eval_job *job, float pair[6])
 {
     hnbrdf_error error;
     if (job->in.count != job->fields)
-        return cli_fail("%s:%ld: found %d fields, expected %d", job->in.name, job->in.line,
-                        job->in.count, job->fields);
+        return cli_fail("%s:%ld: found %d fields, expected %d%s", job->in.name, job->in.line,
+                        job->in.count, job->fields, separator_hint(job));
     for (int k = 0; k < 6; k++)
         if (hnbrdf_csv_number(&job->in, job->columns[k], column_names[k], &pair[k], &error) != 0)
-            return cli_fail("%s", error.text);
+            return cli_fail("%s%s", error.text, separator_hint(job));
     return CLI_OK;
 }
 
@@ -152,29 +180,42 @@ static int evaluate_line(eval_job *job)
     return write_value(job, f);
 }
 
+static void write_blank(const eval_job *job, long lines)
+{
+    while (lines-- > 0)
+        putc('\n', job->out);
+}
+
+/* As many lines as there were in, so that the two can stand side by side. */
 static int evaluate_lines(eval_job *job)
 {
     hnbrdf_error error;
+    int headed = 0;
     int more = hnbrdf_csv_next(&job->in, &error);
     if (more == 0)
         return cli_fail("%s: empty, expected lines with wi_x,wi_y,wi_z,wo_x,wo_y,wo_z",
                         job->in.name);
     if (more < 0)
         return cli_fail("%s", error.text);
-    if (is_number(job->in.fields[0])) {
+    if (is_number(job->in.fields[0]))
         assume_columns(job);
-    } else {
-        if (read_header(job) != CLI_OK)
-            return CLI_FAILURE;
-        more = hnbrdf_csv_next(&job->in, &error);
-    }
+    else if (read_header(job) != CLI_OK)
+        return CLI_FAILURE;
+    else
+        headed = 1;
     if (job->source.model && job->material < 0 && job->columns[MATERIAL] < 0 &&
         (job->material = cli_choose_material(job->source.model, NULL)) < 0)
         return CLI_FAILURE;
+    write_blank(job, headed ? job->in.blank : 0);
     fputs("f_r,f_g,f_b\n", job->out);
-    for (; more > 0; more = hnbrdf_csv_next(&job->in, &error))
+    if (headed)
+        more = hnbrdf_csv_next(&job->in, &error);
+    for (; more > 0; more = hnbrdf_csv_next(&job->in, &error)) {
+        write_blank(job, job->in.blank);
         if (evaluate_line(job) != CLI_OK)
             return CLI_FAILURE;
+    }
+    write_blank(job, more == 0 ? job->in.blank : 0);
     return more == 0 ? CLI_OK : cli_fail("%s", error.text);
 }
 
