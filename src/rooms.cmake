@@ -44,10 +44,9 @@ hnbrdf_room(check
   backends.c bounds.c cases.c half.c maps.c oracle.c pairs.c reference.c rounding.c
   rules.c run.c)
 hnbrdf_room(image
-  cube.c difference.c draw.c exr_choose.c exr_colour.c exr_layers.c exr_memory.c exr_none.c
-  exr_planes.c
-  exr_planes_cxx.cc exr_read.c exr_write.c glyphs.c image.c image_file.c label.c png.c radiance.c
-  repair.c sheet.c)
+  colour_space.c cube.c difference.c draw.c exr_choose.c exr_colour.c exr_layers.c exr_memory.c
+  exr_none.c exr_planes.c exr_planes_cxx.cc exr_read.c exr_write.c glyphs.c image.c image_file.c
+  label.c png.c radiance.c radiance_header.c radiance_pixels.c repair.c sheet.c)
 hnbrdf_room(render
   backdrop.c environment.c guide.c sequence.c shade.c sky.c sphere.c surface.c
   tabulated.c tiles.c)
