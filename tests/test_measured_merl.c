@@ -213,7 +213,7 @@ static void every_wrong_header_is_refused(void **state)
     expect_header(1, 1, 1458000, FILE_SIZE, HNBRDF_ERROR_FORMAT, "1 1 1458000 bins");
     expect_header(0, 0, 0, FILE_SIZE, HNBRDF_ERROR_FORMAT, "0 0 0 bins");
     expect_header(0xffffffff, 90, 180, FILE_SIZE, HNBRDF_ERROR_FORMAT, "4294967295 90 180 bins");
-    expect_header(90, 90, 360, 400, HNBRDF_ERROR_UNSUPPORTED, "90 90 360 bins");
+    expect_header(90, 90, 360, FILE_SIZE, HNBRDF_ERROR_FORMAT, "expected 69984012");
     expect_header(180, 90, 90, 400, HNBRDF_ERROR_FORMAT, "180 90 90 bins");
     expect_header(91, 90, 180, 400, HNBRDF_ERROR_FORMAT, "expected an RGL .bsdf");
 }
@@ -257,6 +257,114 @@ static void a_table_without_any_valid_bin_is_refused(void **state)
     free(file.data);
 }
 
+/* ---- Tables over the full circle of phi_d ---------------------------------------------------- */
+
+enum { FULL = 2 * PD, FULL_SIZE = 12 + 48 * BINS };
+
+static size_t full_sample_at(int channel, int bin, int half)
+{
+    return 12 + 8 * ((size_t)channel * BINS * 2 + (size_t)(bin / PD) * FULL + (size_t)(bin % PD) +
+                     (size_t)half * PD);
+}
+
+/* numbered_table() with every phi_d twice. */
+static test_bytes full_table(void)
+{
+    test_bytes file = {malloc(FULL_SIZE), FULL_SIZE};
+    assert_non_null(file.data);
+    memcpy(file.data, table.data, 8);
+    put_le(file.data + 8, FULL, 4);
+    for (int channel = 0; channel < 3; channel++)
+        for (int row = 0; row < TH * TD; row++)
+            for (int half = 0; half < 2; half++)
+                memcpy(file.data + full_sample_at(channel, row * PD, half),
+                       table.data + sample_at(channel, row * PD), (size_t)PD * 8);
+    return file;
+}
+
+static void assert_equal_values(const hnbrdf_measured *a, const hnbrdf_measured *b)
+{
+    hnbrdf_rng rng;
+    hnbrdf_rng_seed(&rng, 6, 6);
+    for (int i = 0; i < 100000; i++) {
+        float wi[3], wo[3], f[3], g[3];
+        hnbrdf_sampler_draw((hnbrdf_sampler)(i % 3), &rng, wi, wo);
+        assert_int_equal(hnbrdf_measured_eval(a, wi, wo, f), hnbrdf_measured_eval(b, wi, wo, g));
+        assert_memory_equal(f, g, sizeof f);
+    }
+}
+
+static void equal_halves_are_read_as_one(void **state)
+{
+    (void)state;
+    test_bytes file = full_table();
+    hnbrdf_measured *measured = expect_opens(file.data, file.size, "full.binary");
+    assert_equal_values(measured, numbered);
+    assert_non_null(strstr(hnbrdf_measured_summary(measured), "90 x 90 x 360 bins"));
+    assert_non_null(strstr(hnbrdf_measured_summary(measured), "reciprocal, 100.0 % valid"));
+    hnbrdf_measured_close(measured);
+    free(file.data);
+}
+
+/* 1e-3 is more than a rounding of 6e-8 and less than 1 %, what it may become. */
+static void halves_equal_but_for_rounding_give_their_mean(void **state)
+{
+    (void)state;
+    const double angles[4] = {0.3, 0.2, 0.9, 1.9};
+    float f[3], g[3];
+    test_bytes file = full_table();
+    eval_angles(numbered, angles, f);
+    const int bin = looked_up(f);
+    put_double(file.data + full_sample_at(0, bin, 1), (double)bin * (1 + 1e-3));
+    hnbrdf_measured *measured = expect_opens(file.data, file.size, "full.binary");
+    assert_int_equal(eval_angles(measured, angles, g), 1);
+    /* the mean in double, then rounded to a float of the order of 1 by 2^-24 */
+    assert_true(fabs((double)g[0] / ((double)bin / 1500 * (1 + 5e-4)) - 1) < 1.2e-7);
+    assert_true(g[1] == f[1] && g[2] == f[2]);
+    hnbrdf_measured_close(measured);
+    free(file.data);
+}
+
+static void what_one_half_holds_is_enough(void **state)
+{
+    (void)state;
+    test_bytes file = full_table();
+    for (int bin = 0; bin < BINS; bin++)
+        put_double(file.data + full_sample_at(bin % 3, bin, bin % 2), bin % 5 ? -1.0 : NAN);
+    hnbrdf_measured *measured = expect_opens(file.data, file.size, "full.binary");
+    assert_equal_values(measured, numbered);
+    hnbrdf_measured_close(measured);
+    for (int bin = 0; bin < BINS; bin++)
+        put_double(file.data + full_sample_at(bin % 3, bin, 1 - bin % 2), -1.0);
+    expect_refusal(file.data, file.size, HNBRDF_ERROR_FORMAT, "all 1458000 MERL bins are negative");
+    free(file.data);
+}
+
+/* In whichever channel and half. */
+static void halves_that_differ_are_refused(void **state)
+{
+    (void)state;
+    test_bytes file = full_table();
+    put_double(file.data + full_sample_at(0, 700000, 0), 700000 * 1.02);
+    expect_refusal(file.data, file.size, HNBRDF_ERROR_UNSUPPORTED,
+                   "1 of 1458000 differ between phi_d and phi_d + pi");
+    put_double(file.data + full_sample_at(2, 3, 1), 0.0);
+    put_double(file.data + full_sample_at(1, BINS - 1, 1), 1500 / 1.15 * 0.98);
+    expect_refusal(file.data, file.size, HNBRDF_ERROR_UNSUPPORTED, "3 of 1458000 differ");
+    free(file.data);
+}
+
+static void a_size_of_the_other_kind_is_refused(void **state)
+{
+    (void)state;
+    test_bytes file = full_table();
+    expect_refusal(file.data, file.size - 1, HNBRDF_ERROR_FORMAT,
+                   "69984011 bytes, expected 69984012");
+    put_le(file.data + 8, PD, 4);
+    expect_refusal(file.data, file.size, HNBRDF_ERROR_FORMAT, "the size is that of 90 90 360");
+    free(file.data);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -272,6 +380,11 @@ int main(void)
         cmocka_unit_test(every_truncation_is_refused),
         cmocka_unit_test(bytes_after_the_table_are_mentioned),
         cmocka_unit_test(a_table_without_any_valid_bin_is_refused),
+        cmocka_unit_test(equal_halves_are_read_as_one),
+        cmocka_unit_test(halves_equal_but_for_rounding_give_their_mean),
+        cmocka_unit_test(what_one_half_holds_is_enough),
+        cmocka_unit_test(halves_that_differ_are_refused),
+        cmocka_unit_test(a_size_of_the_other_kind_is_refused),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }

@@ -4,12 +4,14 @@
  * both away from the surface; f in 1/sr without the cosine, linear RGB, never NaN, and never
  * negative unless rgl_signed asks for it.
  *
- * Formats: MERL .binary (Matusik et al. 2003), RGL .bsdf, isotropic and anisotropic, RGB and
- * spectral (Dupuy and Jakob 2018), UTIA .bin (Filip and Vavra 2014; the set of 150 anisotropic
- * materials, not the dense one of 1.5 GB a file), networks of Neural-BRDF (Sztrajman et al. 2021;
- * .h5 as published with the part of hdf5.h, and the six .npy of its own renderer), and built-in
- * procedural materials. A file is recognised by its content; a UTIA file, which has no header, by
- * its size. */
+ * Formats: MERL .binary (Matusik et al. 2003; also with phi_d over the full circle, 90 90 360,
+ * where f(wi, wo) = f(wo, wi) but for rounding in single precision), RGL .bsdf, isotropic and
+ * anisotropic, RGB and spectral (Dupuy and Jakob 2018), UTIA .bin (Filip and Vavra 2014; the set of
+ * 150 anisotropic materials, not the dense one of 1.5 GB a file), networks of Neural-BRDF
+ * (Sztrajman et al. 2021; .h5 as published with the part of hdf5.h, and the six .npy of its own
+ * renderer), and built-in procedural materials. A file is recognised by its content; a UTIA file,
+ * which has no header, by its size.
+ */
 #ifndef HNBRDF_MEASURED_H
 #define HNBRDF_MEASURED_H
 

@@ -15,12 +15,12 @@ enum {
     THETA_D_BINS = 90, /* theta_d = (j/90) pi/2 */
     PHI_D_BINS = 180,  /* phi_d in [0, pi): f(phi_d + pi) = f(phi_d) is reciprocity */
     BINS = THETA_H_BINS * THETA_D_BINS * PHI_D_BINS,
-    FULL_CIRCLE_BINS = 360, /* phi_d bins of a derived, non-reciprocal variant */
+    FULL_CIRCLE_BINS = 2 * PHI_D_BINS, /* of derived tables: phi_d in [0, 2 pi), all twice */
     HEADER_SIZE = 12,
     TYPICAL_VALID = 1111432 /* bins whose lower edge is above the horizon for wi and wo */
 };
-static const size_t PLANE_SIZE = (size_t)BINS * 8;
 static const size_t FILE_SIZE = HEADER_SIZE + (size_t)BINS * 24;
+static const size_t FULL_CIRCLE_SIZE = HEADER_SIZE + (size_t)BINS * 48;
 static const double PI = 3.14159265358979323846;
 /* What a stored sample is multiplied by to become f in 1/sr. */
 static const double SCALE[3] = {1.00 / 1500.0, 1.15 / 1500.0, 1.66 / 1500.0};
@@ -157,40 +157,113 @@ static hnbrdf_result check_header(const unsigned char *bytes, size_t size, const
                                   hnbrdf_error *error)
 {
     uint32_t theta_h = le32(bytes), theta_d = le32(bytes + 4), phi_d = le32(bytes + 8);
-    if (theta_h == THETA_H_BINS && theta_d == THETA_D_BINS && phi_d == FULL_CIRCLE_BINS)
-        return hnbrdf_fail(
-            error, HNBRDF_ERROR_UNSUPPORTED,
-            "%s: MERL header says 90 90 360 bins, a variant over the full circle of phi_d "
-            "that is not read; expected 90 90 180",
-            label);
-    if (theta_h != THETA_H_BINS || theta_d != THETA_D_BINS || phi_d != PHI_D_BINS)
+    if (theta_h != THETA_H_BINS || theta_d != THETA_D_BINS ||
+        (phi_d != PHI_D_BINS && phi_d != FULL_CIRCLE_BINS))
         return hnbrdf_fail(error, HNBRDF_ERROR_FORMAT,
                            "%s: MERL header says %lu %lu %lu bins, expected 90 90 180", label,
                            (unsigned long)theta_h, (unsigned long)theta_d, (unsigned long)phi_d);
-    if (size < FILE_SIZE)
+    const size_t expected = phi_d == PHI_D_BINS ? FILE_SIZE : FULL_CIRCLE_SIZE;
+    if (size < expected)
         return hnbrdf_fail(error, HNBRDF_ERROR_FORMAT,
                            "%s: MERL table is truncated: %zu bytes, expected %zu", label, size,
-                           FILE_SIZE);
+                           expected);
+    if (size == FULL_CIRCLE_SIZE && phi_d == PHI_D_BINS)
+        return hnbrdf_fail(error, HNBRDF_ERROR_FORMAT,
+                           "%s: MERL header says 90 90 180 bins, the size is that of 90 90 360, "
+                           "expected %zu bytes",
+                           label, expected);
     return HNBRDF_OK;
 }
 
-/* Scales every sample; returns how many bins are valid: finite, not negative, within a float. */
-static int fill_table(merl_table *table, const unsigned char *samples)
+/* ---- The table ------------------------------------------------------------------------------- */
+
+/* The samples of a file: three planes of [theta_h][theta_d][phi_d]. */
+typedef struct merl_samples {
+    const unsigned char *bytes;
+    size_t phi_d; /* bins of the last axis */
+} merl_samples;
+
+/* The scaled sample of a bin; 1 if it is valid: finite, not negative, within a float. */
+static int read_bin(const merl_samples *samples, size_t theta, size_t phi_d, double f[3])
+{
+    const size_t plane = THETA_H_BINS * THETA_D_BINS * samples->phi_d * 8;
+    const unsigned char *at = samples->bytes + (theta * samples->phi_d + phi_d) * 8;
+    int good = 1;
+    for (size_t c = 0; c < 3; c++) {
+        f[c] = le_double(at + c * plane) * SCALE[c];
+        good &= f[c] >= 0.0 && f[c] <= (double)HNBRDF_MAX_VALUE; /* false for NaN */
+    }
+    return good;
+}
+
+/* Are these the value of one reciprocal BRDF for two directions and for the same swapped, worked
+ * out in single precision? In each of the two a component of the half vector is off by at most four
+ * roundings of 2^-24. The narrowest lobe that the table resolves is as wide as its first bin,
+ * (1/90)^2 pi/2, and the logarithm of one of width w changes by at most 4/w a radian (GGX): 1 % in
+ * all. What is computed as a difference of numbers near 1, as networks do, adds four roundings. */
+static int agree(double a, double b)
+{
+    const double rounding = 1.0 / 16777216;
+    const double first_bin = PI / 2 / (THETA_H_BINS * THETA_H_BINS);
+    return fabs(a - b) <= 8 * rounding * (4 / first_bin * fmax(a, b) + 1);
+}
+
+/* Of one valid half that half, of two their mean; where they differ nothing, and it is counted. */
+static int read_halves(const merl_samples *samples, size_t theta, size_t phi_d, double f[3],
+                       int *differ)
+{
+    double other[3];
+    const int good = read_bin(samples, theta, phi_d, f),
+              other_good = read_bin(samples, theta, phi_d + PHI_D_BINS, other);
+    int same = 1;
+    for (int c = 0; c < 3 && other_good; c++) {
+        same &= !good || agree(f[c], other[c]);
+        f[c] = good ? (f[c] + other[c]) / 2 : other[c];
+    }
+    *differ += !same;
+    return good || other_good;
+}
+
+/* Scales every sample; returns how many bins are valid. *differ: those of a full circle whose
+ * halves are not one reciprocal value. */
+static int fill_table(merl_table *table, const merl_samples *samples, int *differ)
 {
     int valid = 0;
+    *differ = 0;
     for (size_t bin = 0; bin < BINS; bin++) {
-        int good = 1;
-        float *f = table->f[bin];
-        for (size_t c = 0; c < 3; c++) {
-            double value = le_double(samples + c * PLANE_SIZE + bin * 8) * SCALE[c];
-            good &= value >= 0.0 && value <= (double)HNBRDF_MAX_VALUE; /* false for NaN */
-            f[c] = good ? (float)value : 0.0f;
-        }
+        const size_t theta = bin / PHI_D_BINS, phi_d = bin % PHI_D_BINS;
+        double f[3];
+        const int good = samples->phi_d == PHI_D_BINS
+                             ? read_bin(samples, theta, phi_d, f)
+                             : read_halves(samples, theta, phi_d, f, differ);
+        for (int c = 0; c < 3; c++)
+            table->f[bin][c] = good ? (float)f[c] : 0.0f;
         if (!good)
-            f[0] = -1.0f;
+            table->f[bin][0] = -1.0f;
         valid += good;
     }
     return valid;
+}
+
+/* What the file holds can be told only when all of it was read. */
+static hnbrdf_result read_table(merl_table *table, const measured_file *file, int *valid,
+                                hnbrdf_error *error)
+{
+    const merl_samples samples = {file->bytes + HEADER_SIZE, le32(file->bytes + 8)};
+    int differ;
+    *valid = fill_table(table, &samples, &differ);
+    if (differ > 0)
+        return hnbrdf_fail(error, HNBRDF_ERROR_UNSUPPORTED,
+                           "%s: MERL header says 90 90 360 bins, and %d of %d differ between "
+                           "phi_d and phi_d + pi by more than rounding: this BRDF changes when "
+                           "light and view are swapped, expected one that does not",
+                           file->label, differ, BINS);
+    if (*valid == 0)
+        return hnbrdf_fail(
+            error, HNBRDF_ERROR_FORMAT,
+            "%s: all %d MERL bins are negative or not finite, expected about %d valid ones",
+            file->label, BINS, TYPICAL_VALID);
+    return HNBRDF_OK;
 }
 
 static const char *lookup_name(const hnbrdf_measured_options *options)
@@ -202,22 +275,25 @@ static const char *lookup_name(const hnbrdf_measured_options *options)
 }
 
 static void summarise(char summary[256], const hnbrdf_measured_options *options, int valid,
-                      size_t size)
+                      const measured_file *file)
 {
+    const int full = le32(file->bytes + 8) == FULL_CIRCLE_BINS;
+    const size_t size = full ? FULL_CIRCLE_SIZE : FILE_SIZE;
     int permille = (int)((int64_t)valid * 1000 / BINS);
     int unusual = valid < TYPICAL_VALID / 10 * 9 || valid > TYPICAL_VALID / 10 * 11;
-    int n = snprintf(summary, 256,
-                     "MERL 90 x 90 x 180 bins (theta_h, theta_d, phi_d), %d.%d %% valid%s, %s",
-                     permille / 10, permille % 10, unusual ? " (unusual: 76 % is typical)" : "",
-                     lookup_name(options));
-    if (size > FILE_SIZE && n > 0 && n < 256)
+    int n = snprintf(
+        summary, 256, "MERL 90 x 90 x %d bins (theta_h, theta_d, phi_d)%s, %d.%d %% valid%s, %s",
+        full ? FULL_CIRCLE_BINS : PHI_D_BINS, full ? ", reciprocal" : "", permille / 10,
+        permille % 10, unusual ? " (unusual: 76 % is typical)" : "", lookup_name(options));
+    if (file->size > size && n > 0 && n < 256)
         snprintf(summary + n, (size_t)(256 - n), ", %zu bytes after the table ignored",
-                 size - FILE_SIZE);
+                 file->size - size);
 }
 
 static hnbrdf_result merl_open(const measured_file *file, const hnbrdf_measured_options *options,
                                measured_body *body, hnbrdf_error *error)
 {
+    int valid;
     hnbrdf_result result = check_header(file->bytes, file->size, file->label, error);
     if (result)
         return result;
@@ -225,13 +301,10 @@ static hnbrdf_result merl_open(const measured_file *file, const hnbrdf_measured_
     if (!table)
         return hnbrdf_fail(error, HNBRDF_ERROR_MEMORY, "%s: out of memory (%zu bytes)", file->label,
                            sizeof *table);
-    int valid = fill_table(table, file->bytes + HEADER_SIZE);
-    if (valid == 0) {
+    result = read_table(table, file, &valid, error);
+    if (result) {
         free(table);
-        return hnbrdf_fail(
-            error, HNBRDF_ERROR_FORMAT,
-            "%s: all %d MERL bins are negative or not finite, expected about %d valid ones",
-            file->label, BINS, TYPICAL_VALID);
+        return result;
     }
     table->node = options->merl_node == HNBRDF_MERL_CENTRE ? 0.5 : 0.0;
     body->data = table;
@@ -240,7 +313,7 @@ static hnbrdf_result merl_open(const measured_file *file, const hnbrdf_measured_
     body->isotropic = 1;
     if (options->merl_identify)
         body->published = hnbrdf_merl_known(file->bytes, file->size);
-    summarise(body->summary, options, valid, file->size);
+    summarise(body->summary, options, valid, file);
     return HNBRDF_OK;
 }
 
