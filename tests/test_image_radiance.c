@@ -199,6 +199,7 @@ static void absurd_files_are_refused(void **state)
     } cases[] = {
         {HNBRDF_ERROR_FORMAT, "", "starts with '#?'"},
         {HNBRDF_ERROR_FORMAT, "RADIANCE\n\n-Y 1 +X 1\n....", "starts with '#?'"},
+        {HNBRDF_ERROR_FORMAT, "\n\nFORMAT=32-bit_rle_rgbe\n", "starts with '#?'"},
         {HNBRDF_ERROR_FORMAT, "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n", "ends inside the header"},
         {HNBRDF_ERROR_FORMAT, "#?RADIANCE\n\n", "before the line with the resolution"},
         {HNBRDF_ERROR_FORMAT, "#?RADIANCE\n\n-Y 0 +X 5\n", "'-Y 0 +X 5': expected"},

@@ -56,6 +56,9 @@ static void blanks_and_line_ends_do_not_matter(void **state)
     expect_plain("#?RGBE\nFORMAT=32-bit_rle_rgbe\n\n", "-Y 1 +X 1\n");
     expect_plain("#?RGBE\n\n", "-Y 1 +X 1\n");
     expect_plain("#? any program\n# a comment\n\n", "-Y 1 +X 1\n");
+    /* before 1992 */
+    expect_plain("rpict -x 5\nFORMAT=32-bit_rle_rgbe\npfilt -1\n\n", "-Y 1 +X 1\n");
+    expect_plain("FORMAT=32-bit_rle_rgbe\r\n\r\n", "-Y 1 +X 1\n");
 }
 
 static void lines_of_cameras_and_programs_are_passed_over(void **state)

@@ -113,6 +113,8 @@ hnbrdf_result render_exr_encode(const render_image *image, const render_write_op
 hnbrdf_result render_exr_decode(const void *data, size_t size, const char *name,
                                 const render_read_options *options, render_image *image,
                                 hnbrdf_error *error);
+/* Do these bytes begin a Radiance picture? */
+int render_is_radiance(const void *data, size_t size);
 /* RGBE or XYZE, flat or with old or new run lengths, of any orientation; pixels come out the right
  * way round. RGB is Rec. 709 unless a PRIMARIES line says other primaries, which are converted
  * and their white made white; XYZ goes to the primaries of Radiance, or by such a line. EXPOSURE

@@ -53,7 +53,7 @@ static hnbrdf_result decode(const render_bytes *bytes, const char *path,
     static const unsigned char exr_magic[4] = {0x76, 0x2f, 0x31, 0x01};
     if (bytes->size >= 4 && memcmp(bytes->data, exr_magic, 4) == 0)
         return render_exr_decode(bytes->data, bytes->size, path, options, image, error);
-    if (bytes->size < 2 || memcmp(bytes->data, "#?", 2) != 0)
+    if (!render_is_radiance(bytes->data, bytes->size))
         return fail_foreign(path, bytes, error);
     if (options && options->layer)
         return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT,

@@ -54,6 +54,19 @@ static const char *skip_blanks(const char *text)
     return text + strspn(text, " ");
 }
 
+/* Pictures from before 1992 have no first line "#?RADIANCE", but say their format. */
+int render_is_radiance(const void *data, size_t size)
+{
+    radiance_input in = {.data = data, .size = size < 4096 ? size : 4096};
+    char line[LINE];
+    if (size >= 2 && memcmp(data, "#?", 2) == 0)
+        return 1;
+    while (header_line(&in, line) && line[0])
+        if (strncmp(line, "FORMAT=32-bit_rle_", 18) == 0)
+            return 1;
+    return 0;
+}
+
 /* ---- The resolution -------------------------------------------------------------------------- */
 
 static int positive(const char **text)
@@ -206,7 +219,7 @@ hnbrdf_result radiance_read_header(radiance_input *in, radiance_header *header)
     corrections applied = {1.0, {1.0, 1.0, 1.0}};
     char line[LINE];
     *header = (radiance_header){.primaries = radiance_primaries};
-    if (!header_line(in, line) || strncmp(line, "#?", 2) != 0)
+    if (!render_is_radiance(in->data, in->size))
         return radiance_bad(in, "no Radiance header: expected a first line that starts with '#?'");
     for (;;) {
         if (!header_line(in, line))
