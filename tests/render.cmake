@@ -17,6 +17,8 @@ hnbrdf_render_test(test_render_shared test_render_shared.c)
 # Meshes and scenes; what needs Embree is skipped without it.
 hnbrdf_render_test(test_scene test_scene.c scene_support.c)
 hnbrdf_render_test(test_mesh test_mesh.c)
+hnbrdf_render_test(test_obj test_obj.c)
+hnbrdf_render_test(test_polygon test_polygon.c)
 hnbrdf_render_test(test_scene_text test_scene_text.c)
 if(HNBRDF_WITH_OPENEXR)
   hnbrdf_render_test(test_render_exr test_render_exr.c)

@@ -57,6 +57,61 @@ run "$HNBRDF" render --mesh a.obj "$MODEL" --material vch_silk_blue --spp 2 --si
 expect_ok "render --mesh"
 run "$HNBRDF" render --mesh none.obj "$MODEL" --material vch_silk_blue --spp 2 -o m.png
 [ "$rc" -eq 1 ] && grep -q "none.obj: cannot be opened" err || fail "render --mesh none.obj: exit $rc"
+# Meshes as people have them: pictures are those of the plain mesh. mesh NAME: the file on stdin.
+mesh() {
+    cat > "$1.obj"
+    run "$HNBRDF" render --mesh "$1.obj" builtin:rough-clay --spp 2 --size 24 -o "$1.png"
+    [ "$rc" -eq 0 ] || fail "render --mesh $1.obj: exit $rc"
+}
+same() {
+    cmp -s "$1.png" "$2.png" || fail "$1.obj: not the picture of $2.obj"
+}
+printf 'v -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 1 2 3\n' | mesh plain
+[ -s err ] && fail "a plain mesh: $(cat err)"
+printf 'v 1e18 0 0\nv -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 2 3 4\n' | mesh stray
+same stray plain
+printf '\357\273\277v -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 1 2 3\n' | mesh bom
+same bom plain
+for size in 1099511627776 1152921504606846976 9.094947017729282379150390625e-13; do # 2^40, 2^60, 2^-40
+    printf 'v -%s -%s 0\nv %s -%s 0\nv 0 %s 0\nf 1 2 3\n' $size $size $size $size $size | mesh scaled
+    same scaled plain
+done
+printf 'v 4194303 -4194305 8\nv 4194305 -4194305 8\nv 4194304 -4194303 8\nf 1 2 3\n' | mesh far
+same far plain
+printf 'v -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 1//1 2//2 3//3\n' | mesh lacking
+same lacking plain
+[ "$(grep -c warning err)" -eq 1 ] && grep -q "warning: lacking.obj:4: normal '1'" err ||
+    fail "a mesh without its normals: $(cat err)"
+hole='v -3 -2 0\nv 3 -2 0\nv 0 3 0\nv -1 -1 0\nv 0 1 0\nv 1 -1 0\n'
+printf "${hole}f 1 2 6\nf 1 6 4\nf 2 3 5\nf 2 5 6\nf 3 1 4\nf 3 4 5\n" | mesh pieces
+printf "${hole}f 1 2 3 1 4 5 6 4\n" | mesh hole
+same hole pieces
+printf 'v 1 2 3\nf 1 1 1\n' > point.obj
+run "$HNBRDF" render --mesh point.obj builtin:rough-clay --spp 2 -o m.png
+[ "$rc" -eq 1 ] && grep -q "point.obj: none of its 1 face has an area" err || fail "a point: exit $rc, $(cat err)"
+
+# In a scene such a mesh is where it says; what cannot be drawn there is told.
+# look FILE PLACING: a scene with the mesh.
+look() {
+    printf 'camera from 0 0 5 to 0 0 0 fov 40\nsize 24 24\nenvironment sky\nmaterial a diffuse 0.5 0.5 0.5\n' > m.scene
+    echo "shape obj $1 $2 material a" >> m.scene
+    run "$HNBRDF" scene m.scene --spp 2 -o "$1.png"
+}
+look plain.obj ""
+expect_ok "scene: a mesh"
+look far.obj "move -1e6 1e6 -8 move -1e6 1e6 0 move -1e6 1e6 0 move -1e6 1e6 0 move -194304 194304 0"
+expect_ok "scene: a mesh far away"
+same far.obj plain.obj
+look scaled.obj "scale 524288 scale 524288 scale 4"
+expect_ok "scene: a small mesh made larger"
+same scaled.obj plain.obj
+look plain.obj "scale 1e6 scale 1e6"
+[ "$rc" -eq 1 ] && grep -q "m.scene:5: a shape that reaches to 1e+12: expected coordinates up to 1e9" err ||
+    fail "scene: a shape too large: exit $rc, $(cat err)"
+look plain.obj "scale 1e-6 move 1 0 0"
+[ "$rc" -eq 0 ] && grep -q "warning: m.scene:5: a shape of size 2.*e-06" err ||
+    fail "scene: a shape too small: exit $rc, $(cat err)"
+
 run "$HNBRDF" render "$MODEL" --material vch_silk_blue --bounces 3 --spp 2 -o m.png
 expect_usage "render --bounces without --mesh" "are for --mesh"
 

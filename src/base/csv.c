@@ -58,8 +58,10 @@ static int read_line(hnbrdf_csv_reader *reader, hnbrdf_error *error)
     if (strchr(reader->text, '\r'))
         return fail_line(
             reader, "found a CR inside a line, expected lines that end with LF or CRLF", error);
-    if (reader->line == 1 && strncmp(reader->text, "\xef\xbb\xbf", 3) == 0)
-        memmove(reader->text, reader->text + 3, length - 2);
+    if (reader->line == 1) {
+        const size_t mark = hnbrdf_byte_order_mark(reader->text, length);
+        memmove(reader->text, reader->text + mark, length + 1 - mark);
+    }
     return 1;
 }
 

@@ -66,8 +66,7 @@ static int is_index(const char *from, size_t size)
 const char *hnbrdf_foreign_file(const unsigned char *bytes, size_t size)
 {
     const char *start = (const char *)bytes, *text = start, *end = start + size;
-    if (size >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0)
-        text += 3;
+    text += hnbrdf_byte_order_mark(text, size);
     while (text < end && (*text == ' ' || (*text >= '\t' && *text <= '\r')))
         text++;
     for (size_t k = 0; k < sizeof BEGINNINGS / sizeof BEGINNINGS[0]; k++) {

@@ -303,6 +303,13 @@ size_t hnbrdf_utf8_length(const char *begin, const char *end)
 
 /* ---- Letters --------------------------------------------------------------------------------- */
 
+size_t hnbrdf_byte_order_mark(const void *text, size_t size)
+{
+    static const char mark[] = "\xef\xbb\xbf";
+    return size >= sizeof mark - 1 && memcmp(text, mark, sizeof mark - 1) == 0 ? sizeof mark - 1
+                                                                               : 0;
+}
+
 int hnbrdf_ends_with(const char *text, const char *ending)
 {
     const size_t length = strlen(text), count = strlen(ending);

@@ -25,6 +25,9 @@ const char *hnbrdf_parse_float(const char *begin, const char *end, float *value)
 /* Bytes of the well-formed UTF-8 sequence (RFC 3629) at begin, before end; 0 if there is none. */
 size_t hnbrdf_utf8_length(const char *begin, const char *end);
 
+/* Bytes of the UTF-8 byte-order mark with which some programs begin text: 3, or 0 without. */
+size_t hnbrdf_byte_order_mark(const void *text, size_t size);
+
 /* Capitals of ASCII as small letters, everything else as it is. */
 static inline char hnbrdf_lower(char c)
 {

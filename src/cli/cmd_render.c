@@ -171,7 +171,7 @@ static int check_options(render_command *c)
 int cmd_render(int argc, char **argv)
 {
     render_command c = {.still = {.spheres = {.size = 512, .light = PICTURE_DEFAULTS(64)},
-                                  .mesh = {.tilt = 15.0},
+                                  .mesh = {.tilt = 15.0, .notes = CLI_NOTES},
                                   .job = {.bounces = 1}}};
     report_still *still = &c.still;
     const cli_option options[] = {

@@ -1,6 +1,8 @@
 /* describe.c: read a scene as text, of any origin. The language is told in describe.h. */
 #include "scene/words.h"
 
+#include "base/text.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -226,7 +228,7 @@ hnbrdf_result render_description_parse(const void *data, size_t size, const char
     if (size > max_text)
         result = hnbrdf_fail(error, HNBRDF_ERROR_LIMIT, "%s: %zu bytes, expected at most %zu", name,
                              size, max_text);
-    for (size_t at = 0; at < size && result == HNBRDF_OK;) {
+    for (size_t at = hnbrdf_byte_order_mark(data, size); at < size && result == HNBRDF_OK;) {
         size_t length = copy_line(&in, (const char *)data + at, size - at);
         at += length;
         result = length ? words_split(&in) : HNBRDF_ERROR_FORMAT;
@@ -262,4 +264,12 @@ void render_description_free(render_description *description)
     free(description->materials);
     free(description->shapes);
     memset(description, 0, sizeof *description);
+}
+
+void render_description_path(const render_description *description, const char *file,
+                             char path[2 * RENDER_MAX_PATH])
+{
+    const char *slash = strrchr(description->name, '/');
+    int folder = slash && file[0] != '/' ? (int)(slash - description->name) + 1 : 0;
+    snprintf(path, (size_t)2 * RENDER_MAX_PATH, "%.*s%s", folder, description->name, file);
 }

@@ -156,9 +156,8 @@ void render_surface_at(const render_scene *scene, const float origin[3], const f
 
 void render_ray_start(const render_surface_point *point, float origin[3])
 {
-    /* Interpolated positions are off by a few 2^-24 of the largest coordinate. */
     float largest = fmaxf(fabsf(point->position[0]), fabsf(point->position[1]));
-    float off = 0x1p-18f * fmaxf(fmaxf(largest, fabsf(point->position[2])), 0x1p-6f);
+    float off = render_ray_step(fmaxf(largest, fabsf(point->position[2])));
     for (int k = 0; k < 3; k++)
         origin[k] = point->position[k] + off * point->geometric[k];
 }

@@ -1,41 +1,11 @@
 /* load.c: from a described scene to one that can be rendered: reads the files, fits guides,
  * builds. */
-#include "scene/describe.h"
-
-#include "base/error.h"
+#include "scene/loader.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
-
-typedef struct loader {
-    const render_description *d;
-    render_show show;
-    const char *folder;
-    render_reading reading;
-    render_loaded *out;
-    const char **model_files; /* of out->models */
-    hnbrdf_error *error;
-} loader;
-
-/* Puts "FILE:LINE: " before the message that there is. */
-static hnbrdf_result at_line(const loader *l, long line, hnbrdf_result result)
-{
-    if (result != HNBRDF_OK && l->error) {
-        hnbrdf_error cause = *l->error;
-        hnbrdf_fail(l->error, result, "%s:%ld: %s", l->d->name, line, cause.text);
-    }
-    return result;
-}
-
-void render_description_path(const render_description *description, const char *file,
-                             char path[2 * RENDER_MAX_PATH])
-{
-    const char *slash = strrchr(description->name, '/');
-    int folder = slash && file[0] != '/' ? (int)(slash - description->name) + 1 : 0;
-    snprintf(path, (size_t)2 * RENDER_MAX_PATH, "%.*s%s", folder, description->name, file);
-}
 
 /* ---- Materials ------------------------------------------------------------------------------- */
 
@@ -193,103 +163,10 @@ static hnbrdf_result load_materials(loader *l)
     hnbrdf_result result = render_guide_model(&l->out->models[0], l->error);
     l->out->model_count = result == HNBRDF_OK;
     for (int i = 0; i < d->material_count && result == HNBRDF_OK; i++) {
-        result = at_line(l, d->materials[i].line,
-                         load_material(l, &d->materials[i], &l->out->scene.surfaces[i].surface));
+        result = loader_at(l, d->materials[i].line,
+                           load_material(l, &d->materials[i], &l->out->scene.surfaces[i].surface));
         l->out->scene.surface_count += result == HNBRDF_OK;
     }
-    return result;
-}
-
-/* ---- Shapes ---------------------------------------------------------------------------------- */
-
-static hnbrdf_result place_sphere(const loader *l, const render_text_shape *t, render_shape *shape)
-{
-    double lengths[3], across = 0.0;
-    for (int j = 0; j < 3; j++) {
-        double sum = 0.0;
-        for (int i = 0; i < 3; i++) {
-            sum += t->place.m[i][j] * t->place.m[i][j];
-            across += t->place.m[i][j] * t->place.m[i][(j + 1) % 3];
-        }
-        lengths[j] = sqrt(sum);
-        shape->centre[j] = (float)t->place.m[j][3];
-    }
-    if (fabs(lengths[0] - lengths[1]) > 1e-6 * lengths[0] ||
-        fabs(lengths[0] - lengths[2]) > 1e-6 * lengths[0] ||
-        fabs(across) > 1e-5 * lengths[0] * lengths[0])
-        return hnbrdf_fail(l->error, HNBRDF_ERROR_ARGUMENT,
-                           "a stretched sphere: use superellipsoid, which is a mesh");
-    shape->radius = (float)lengths[0];
-    for (int j = 0; j < 3; j++)
-        for (int i = 0; i < 3; i++)
-            shape->axes[j][i] = (float)(t->place.m[i][j] / lengths[j]);
-    return HNBRDF_OK;
-}
-
-static hnbrdf_result read_mesh(const loader *l, const render_text_shape *t, render_mesh *mesh)
-{
-    char path[2 * RENDER_MAX_PATH];
-    render_description_path(l->d, t->file, path);
-    hnbrdf_result result = render_obj_read(path, NULL, mesh, l->error);
-    if (result == HNBRDF_OK && t->smooth && render_mesh_smooth(mesh))
-        result = hnbrdf_fail(l->error, HNBRDF_ERROR_MEMORY, "%s: no memory for its normals", path);
-    return result;
-}
-
-/* Materials of the parts. A name that no part has is a slip. */
-static hnbrdf_result bind_parts(const loader *l, const render_text_shape *t, render_shape *shape)
-{
-    size_t parts = shape->mesh.part_count ? shape->mesh.part_count : 1;
-    shape->surfaces = malloc(parts * sizeof *shape->surfaces);
-    if (!shape->surfaces)
-        return hnbrdf_fail(l->error, HNBRDF_ERROR_MEMORY, "no memory for %zu parts", parts);
-    for (size_t p = 0; p < parts; p++)
-        shape->surfaces[p] = t->material;
-    for (int u = 0; u < t->use_count; u++) {
-        size_t p = 0;
-        while (p < shape->mesh.part_count &&
-               strcmp(shape->mesh.parts[p].name, t->uses[u].part) != 0)
-            p++;
-        if (p == shape->mesh.part_count)
-            return hnbrdf_fail(l->error, HNBRDF_ERROR_ARGUMENT,
-                               "%s has no part '%s': parts are named by usemtl, or g and o",
-                               t->file, t->uses[u].part);
-        shape->surfaces[p] = t->uses[u].material;
-    }
-    return HNBRDF_OK;
-}
-
-static hnbrdf_result load_shape(const loader *l, const render_text_shape *t, render_shape *shape)
-{
-    hnbrdf_result result = HNBRDF_OK;
-    if (t->kind == RENDER_SPHERE) {
-        result = place_sphere(l, t, shape);
-    } else {
-        if (t->kind == RENDER_OBJ)
-            result = read_mesh(l, t, &shape->mesh);
-        else if (render_shape_mesh(t->kind, &t->options, &shape->mesh))
-            result = hnbrdf_fail(l->error, HNBRDF_ERROR_MEMORY, "no memory for this shape");
-        if (result == HNBRDF_OK && shape->mesh.triangle_count == 0)
-            result = hnbrdf_fail(l->error, HNBRDF_ERROR_ARGUMENT, "a shape without a surface");
-        if (result == HNBRDF_OK)
-            render_mesh_transform(&shape->mesh, &t->place);
-    }
-    memcpy(shape->emission, t->emission, sizeof shape->emission);
-    return result == HNBRDF_OK ? bind_parts(l, t, shape) : result;
-}
-
-static hnbrdf_result load_shapes(const loader *l)
-{
-    render_scene *scene = &l->out->scene;
-    scene->shapes = calloc((size_t)l->d->shape_count, sizeof *scene->shapes);
-    if (!scene->shapes)
-        return hnbrdf_fail(l->error, HNBRDF_ERROR_MEMORY, "%s: no memory for its shapes",
-                           l->d->name);
-    scene->shape_count = l->d->shape_count;
-    hnbrdf_result result = HNBRDF_OK;
-    for (int i = 0; i < l->d->shape_count && result == HNBRDF_OK; i++)
-        result =
-            at_line(l, l->d->shapes[i].line, load_shape(l, &l->d->shapes[i], &scene->shapes[i]));
     return result;
 }
 
@@ -314,7 +191,7 @@ static hnbrdf_result load_environment(const loader *l)
         render_environment_open(source, d->rotate * 3.14159265358979323846 / 180.0, &options,
                                 &l->out->environment, l->error);
     if (result != HNBRDF_OK)
-        return at_line(l, d->environment_line, result);
+        return loader_at(l, d->environment_line, result);
     render_environment_scale(&l->out->environment, d->gain);
     l->out->scene.environment = &l->out->environment;
     return HNBRDF_OK;
@@ -334,7 +211,7 @@ hnbrdf_result render_description_load(const render_description *description, ren
     hnbrdf_result result = load_materials(&l);
     free(l.model_files);
     if (result == HNBRDF_OK)
-        result = load_shapes(&l);
+        result = loader_shapes(&l);
     if (result == HNBRDF_OK)
         result = load_environment(&l);
     if (result == HNBRDF_OK) {

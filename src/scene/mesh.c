@@ -1,6 +1,8 @@
 /* mesh.c: build meshes, transform them, smooth their normals. */
 #include "scene/mesh.h"
 
+#include "base/hash.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -14,6 +16,7 @@ void render_mesh_free(render_mesh *mesh)
     free(mesh->uvs);
     free(mesh->triangles);
     free(mesh->parts);
+    free(mesh->part_slots);
     memset(mesh, 0, sizeof *mesh);
 }
 
@@ -74,19 +77,57 @@ uint32_t render_mesh_triangle(render_mesh *mesh, const render_triangle *triangle
     return (uint32_t)mesh->triangle_count++;
 }
 
+/* Where a part of that name stands in the slots, or would: open addressing, step by step. */
+static size_t find_slot(const render_mesh *mesh, const char *name, size_t length)
+{
+    size_t slot = (size_t)hnbrdf_hash(HNBRDF_HASH_START, name, length) % mesh->part_slot_count;
+    for (;; slot = (slot + 1) % mesh->part_slot_count) {
+        const uint32_t number = mesh->part_slots[slot];
+        if (!number)
+            return slot;
+        const char *other = mesh->parts[number - 1].name;
+        if (strncmp(other, name, length) == 0 && !other[length])
+            return slot;
+    }
+}
+
+/* Keeps half of the slots free. 0, or -1 when memory is out. */
+static int grow_slots(render_mesh *mesh)
+{
+    if (2 * (mesh->part_count + 1) <= mesh->part_slot_count)
+        return 0;
+    const size_t count = mesh->part_slot_count ? 2 * mesh->part_slot_count : 16;
+    uint32_t *slots = calloc(count, sizeof *slots);
+    if (!slots)
+        return -1;
+    free(mesh->part_slots);
+    mesh->part_slots = slots;
+    mesh->part_slot_count = count;
+    for (size_t i = 0; i < mesh->part_count; i++) {
+        const char *name = mesh->parts[i].name;
+        slots[find_slot(mesh, name, strlen(name))] = (uint32_t)i + 1;
+    }
+    return 0;
+}
+
 uint32_t render_mesh_part(render_mesh *mesh, const char *name, size_t length)
 {
     length = length < HNBRDF_MAX_NAME ? length : HNBRDF_MAX_NAME;
-    for (size_t i = 0; i < mesh->part_count; i++)
-        if (strncmp(mesh->parts[i].name, name, length) == 0 && !mesh->parts[i].name[length])
-            return (uint32_t)i;
+    const char *nul = memchr(name, '\0', length);
+    length = nul ? (size_t)(nul - name) : length;
+    if (grow_slots(mesh))
+        return RENDER_NONE;
+    const size_t slot = find_slot(mesh, name, length);
+    if (mesh->part_slots[slot])
+        return mesh->part_slots[slot] - 1;
     void *all = grown(mesh->parts, mesh->part_count, &mesh->part_room, sizeof *mesh->parts);
     if (!all)
         return RENDER_NONE;
     mesh->parts = all;
     memset(&mesh->parts[mesh->part_count], 0, sizeof *mesh->parts);
     memcpy(mesh->parts[mesh->part_count].name, name, length);
-    return (uint32_t)mesh->part_count++;
+    mesh->part_slots[slot] = (uint32_t)++mesh->part_count;
+    return (uint32_t)mesh->part_count - 1;
 }
 
 /* ---- Normals --------------------------------------------------------------------------------- */
@@ -208,16 +249,35 @@ static void mirror_corners(render_triangle *triangle)
     }
 }
 
+static void transform_point(const render_transform *transform, const float p[3], double to[3])
+{
+    double x = (double)p[0], y = (double)p[1], z = (double)p[2];
+    for (int k = 0; k < 3; k++)
+        to[k] = transform->m[k][0] * x + transform->m[k][1] * y + transform->m[k][2] * z +
+                transform->m[k][3];
+}
+
+double render_mesh_reach(const render_mesh *mesh, const render_transform *transform)
+{
+    double reach = 0.0, p[3];
+    for (size_t i = 0; i < mesh->position_count; i++) {
+        transform_point(transform, mesh->positions[i], p);
+        for (int k = 0; k < 3; k++)
+            if (!isnan(reach) && !(fabs(p[k]) <= reach))
+                reach = fabs(p[k]);
+    }
+    return reach;
+}
+
 void render_mesh_transform(render_mesh *mesh, const render_transform *transform)
 {
     double c[3][3], sign = render_transform_determinant(transform) < 0.0 ? -1.0 : 1.0;
     cofactors(transform, c);
     for (size_t i = 0; i < mesh->position_count; i++) {
-        float *p = mesh->positions[i];
-        double x = (double)p[0], y = (double)p[1], z = (double)p[2];
+        double p[3];
+        transform_point(transform, mesh->positions[i], p);
         for (int k = 0; k < 3; k++)
-            p[k] = (float)(transform->m[k][0] * x + transform->m[k][1] * y +
-                           transform->m[k][2] * z + transform->m[k][3]);
+            mesh->positions[i][k] = (float)p[k];
     }
     for (size_t i = 0; i < mesh->normal_count; i++)
         transform_normal(c, sign, mesh->normals[i]);

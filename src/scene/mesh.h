@@ -1,4 +1,4 @@
-/* mesh.h: triangles in memory: from Wavefront OBJ files and from formulas. */
+/* mesh.h: triangles in memory: from files and from formulas. */
 #ifndef HNBRDF_SCENE_MESH_H
 #define HNBRDF_SCENE_MESH_H
 
@@ -26,8 +26,11 @@ typedef struct render_mesh {
     render_triangle *triangles;
     render_part *parts;
     size_t position_count, normal_count, uv_count, triangle_count, part_count;
-    /* Room in each array; of the functions below. */
+    /* Of the functions below: room in each array; numbers of parts, from 1, by a hash of their
+     * names, and how many fit. */
     size_t position_room, normal_room, uv_room, triangle_room, part_room;
+    uint32_t *part_slots;
+    size_t part_slot_count;
 } render_mesh;
 
 void render_mesh_free(render_mesh *mesh);
@@ -55,32 +58,10 @@ extern const render_transform render_identity;
 render_transform render_transform_then(const render_transform *a, const render_transform *b);
 double render_transform_determinant(const render_transform *transform);
 void render_mesh_transform(render_mesh *mesh, const render_transform *transform);
+/* The largest coordinate of the mesh once transformed, as an absolute value; NaN if one is. */
+double render_mesh_reach(const render_mesh *mesh, const render_transform *transform);
 
 /* Smallest and largest coordinates; the mesh must not be empty. */
 void render_mesh_bounds(const render_mesh *mesh, float low[3], float high[3]);
-
-/* Splits the polygon of these corners, positions p[0..count), into count - 2 triangles of corner
- * numbers: a fan where it is convex, ears (Meisters 1975) where it is not. */
-enum { RENDER_MAX_CONCAVE = 256 };
-/* 0, or -1 for a concave polygon of more than RENDER_MAX_CONCAVE corners. */
-int render_polygon_split(const float (*p)[3], uint32_t count, uint32_t (*triangles)[3]);
-
-/* ---- Files ----------------------------------------------------------------------------------- */
-
-/* Zero-initialise for defaults, which are also the most. */
-typedef struct render_obj_limits {
-    size_t max_bytes;     /* of the file; 0 stands for 512 MiB */
-    size_t max_triangles; /* 0 stands for 2^25 */
-} render_obj_limits;
-
-/* v, vt, vn, f with any number of corners and negative indices, usemtl, g, o; lines may be
- * continued with a backslash. Other statements (s, mtllib, l, p, ...) are passed over. A w of v
- * and a third vt are ignored, as are numbers after xyz (colours). Without a single triangle it is
- * refused. Memory is at most some 40 times the file. */
-hnbrdf_result render_obj_decode(const void *data, size_t size, const char *name,
-                                const render_obj_limits *limits, render_mesh *mesh,
-                                hnbrdf_error *error);
-hnbrdf_result render_obj_read(const char *path, const render_obj_limits *limits, render_mesh *mesh,
-                              hnbrdf_error *error);
 
 #endif

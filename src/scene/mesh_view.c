@@ -2,6 +2,7 @@
 #include "scene/mesh_view.h"
 
 #include "base/error.h"
+#include "scene/obj.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -40,7 +41,8 @@ static hnbrdf_result build(const render_mesh_view *view, const render_surface *s
     scene->surfaces[0].surface = *surface;
     scene->surface_count = scene->shape_count = 1;
     render_mesh *mesh = &scene->shapes[0].mesh;
-    hnbrdf_result result = render_obj_read(view->path, NULL, mesh, error);
+    const render_obj_options options = {.notes = view->notes};
+    hnbrdf_result result = render_obj_read(view->path, &options, mesh, NULL, error);
     if (result != HNBRDF_OK)
         return result;
     scene->shapes[0].surfaces = calloc(mesh->part_count, sizeof *scene->shapes[0].surfaces);

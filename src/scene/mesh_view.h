@@ -7,7 +7,8 @@
 typedef struct render_mesh_view {
     const char *path; /* of the OBJ file */
     int smooth;
-    double turn, tilt; /* degrees: of the camera about the mesh, and up */
+    double turn, tilt;  /* degrees: of the camera about the mesh, and up */
+    hnbrdf_notes notes; /* told of what was left aside of the file */
 } render_mesh_view;
 
 /* A picture of size x size pixels of all of the mesh with this surface. */

@@ -1,319 +1,242 @@
-/* obj.c: read Wavefront OBJ files of any origin. */
-#include "scene/mesh.h"
+/* obj.c: read Wavefront OBJ files: its statements, and the mesh that they make. */
+#include "scene/obj_reader.h"
 
 #include "base/error.h"
-#include "base/text.h"
 #include "image/image.h"
+#include "scene/units.h"
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
-enum { MAX_CORNERS = 65536, MAX_PARTS = 1024 };
+/* ---- Vertices, normals, texture coordinates -------------------------------------------------- */
 
-typedef struct corner {
-    uint32_t position, uv, normal;
-} corner;
-
-typedef struct reader {
-    const char *at, *end; /* of the statement, blanks and a comment gone */
-    const char *next, *last;
-    const char *name;
-    long line, next_line;
-    size_t max_triangles;
-    render_mesh *mesh;
-    uint32_t part;
-    int has_usemtl;
-    corner *corners; /* of one polygon, with its positions and triangles: room for corner_room */
-    float (*positions)[3];
-    uint32_t (*triangles)[3];
-    uint32_t corner_room;
-    hnbrdf_error *error;
-} reader;
-
-static hnbrdf_result bad(const reader *in, hnbrdf_result result, const char *what)
+static hnbrdf_result read_vertex(obj_reader *r)
 {
-    return hnbrdf_fail(in->error, result, "%s:%ld: %s", in->name, in->line, what);
-}
-
-static hnbrdf_result no_memory(const reader *in)
-{
-    return bad(in, HNBRDF_ERROR_MEMORY, "no memory for what was read so far");
-}
-
-/* ---- Words ----------------------------------------------------------------------------------- */
-
-static int is_blank(char c)
-{
-    return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f' || c == '\\' || c == '\n';
-}
-
-/* Steps to the next line; a backslash before its end joins the one after it, both blanks then. 0
- * at the end of the file. */
-static int next_line(reader *in)
-{
-    if (in->next == in->last)
-        return 0;
-    in->line = in->next_line;
-    in->at = in->next;
-    for (;;) {
-        const char *end = memchr(in->next, '\n', (size_t)(in->last - in->next));
-        in->end = end ? end : in->last;
-        in->next = end ? end + 1 : in->last;
-        in->next_line++;
-        const char *before = in->end;
-        while (before > in->at && (before[-1] == '\r'))
-            before--;
-        if (before == in->at || before[-1] != '\\' || in->next == in->last)
-            break;
+    obj_lines *in = &r->in;
+    if (r->position_count == r->position_room) {
+        const size_t room = r->position_room + r->position_room / 2 + 64;
+        void *all = room < RENDER_NONE ? realloc(r->positions, room * sizeof *r->positions) : NULL;
+        if (!all)
+            return obj_no_memory(in);
+        r->positions = all;
+        r->position_room = room;
     }
-    /* "Material#1" is a name that some programs give */
-    for (const char *c = in->at; c < in->end; c++)
-        if (*c == '#' && (c == in->at || is_blank(c[-1])))
-            in->end = c;
-    return 1;
-}
-
-static void skip_blanks(reader *in)
-{
-    while (in->at < in->end && is_blank(*in->at))
-        in->at++;
-}
-
-/* The next word: its start, *length bytes; NULL at the end of the line. */
-static const char *word(reader *in, size_t *length)
-{
-    skip_blanks(in);
-    const char *start = in->at;
-    while (in->at < in->end && !is_blank(*in->at))
-        in->at++;
-    *length = (size_t)(in->at - start);
-    return *length ? start : NULL;
-}
-
-static int is_word(const char *start, size_t length, const char *expected)
-{
-    return length == strlen(expected) && memcmp(start, expected, length) == 0;
-}
-
-/* count finite numbers that floats can hold. */
-static hnbrdf_result numbers(reader *in, const char *what, int count, double *values)
-{
-    for (int k = 0; k < count; k++) {
-        skip_blanks(in);
-        const char *end = hnbrdf_parse_double(in->at, in->end, &values[k]);
-        if (!end || (end < in->end && !is_blank(*end)) || !(fabs(values[k]) <= 1e30))
-            return hnbrdf_fail(in->error, HNBRDF_ERROR_FORMAT,
-                               "%s:%ld: %s: found '%.*s', expected %d finite numbers up to 1e30",
-                               in->name, in->line, what,
-                               (int)(in->end - in->at < 40 ? in->end - in->at : 40), in->at, count);
-        in->at = end;
-    }
-    return HNBRDF_OK;
-}
-
-/* ---- Statements ------------------------------------------------------------------------------ */
-
-/* An index from 1, or from -1 backwards, to *value from 0. */
-static hnbrdf_result read_index(reader *in, size_t count, const char *what, uint32_t *value)
-{
-    int negative = in->at < in->end && *in->at == '-';
-    const char *digit = in->at + negative;
-    size_t number = 0;
-    while (digit < in->end && *digit >= '0' && *digit <= '9' && number <= UINT32_MAX)
-        number = 10 * number + (size_t)(*digit++ - '0');
-    if (number < 1 || number > count)
-        return hnbrdf_fail(
-            in->error, HNBRDF_ERROR_FORMAT,
-            "%s:%ld: %s '%.*s' of a face: expected 1 to %zu, or -1 to -%zu", in->name, in->line,
-            what, (int)(in->end - in->at < 24 ? in->end - in->at : 24), in->at, count, count);
-    *value = (uint32_t)(negative ? count - number : number - 1);
-    in->at = digit;
-    return HNBRDF_OK;
-}
-
-/* v, v/t, v//n or v/t/n. */
-static hnbrdf_result read_corner(reader *in, corner *c)
-{
-    c->uv = c->normal = RENDER_NONE;
-    hnbrdf_result result = read_index(in, in->mesh->position_count, "vertex", &c->position);
-    if (result == HNBRDF_OK && in->at < in->end && *in->at == '/') {
-        in->at++;
-        if (in->at < in->end && *in->at != '/' && !is_blank(*in->at))
-            result = read_index(in, in->mesh->uv_count, "texture coordinate", &c->uv);
-        if (result == HNBRDF_OK && in->at < in->end && *in->at == '/') {
-            in->at++;
-            if (in->at < in->end && !is_blank(*in->at)) /* "v/t/" has none, as some write it */
-                result = read_index(in, in->mesh->normal_count, "normal", &c->normal);
-        }
-    }
-    if (result == HNBRDF_OK && in->at < in->end && !is_blank(*in->at))
-        return bad(in, HNBRDF_ERROR_FORMAT, "a corner of a face is not v, v/t, v//n or v/t/n");
-    return result;
-}
-
-static hnbrdf_result more_corners(reader *in)
-{
-    uint32_t room = in->corner_room ? 2 * in->corner_room : 16;
-    corner *corners = realloc(in->corners, room * sizeof *corners);
-    in->corners = corners ? corners : in->corners;
-    float(*positions)[3] = realloc(in->positions, room * sizeof *positions);
-    in->positions = positions ? positions : in->positions;
-    uint32_t(*triangles)[3] = realloc(in->triangles, room * sizeof *triangles);
-    in->triangles = triangles ? triangles : in->triangles;
-    if (!corners || !positions || !triangles)
-        return no_memory(in);
-    in->corner_room = room;
-    return HNBRDF_OK;
-}
-
-static hnbrdf_result add_triangle(reader *in, const uint32_t which[3])
-{
-    render_triangle triangle = {.part = in->part};
-    int uvs = 1, normals = 1;
-    for (int k = 0; k < 3; k++) {
-        const corner *c = &in->corners[which[k]];
-        triangle.position[k] = c->position;
-        triangle.uv[k] = c->uv;
-        triangle.normal[k] = c->normal;
-        uvs &= c->uv != RENDER_NONE;
-        normals &= c->normal != RENDER_NONE;
-    }
-    for (int k = 0; k < 3; k++) {
-        triangle.uv[k] = uvs ? triangle.uv[k] : RENDER_NONE;
-        triangle.normal[k] = normals ? triangle.normal[k] : RENDER_NONE;
-    }
-    if (in->mesh->triangle_count == in->max_triangles)
-        return hnbrdf_fail(in->error, HNBRDF_ERROR_LIMIT, "%s:%ld: expected at most %zu triangles",
-                           in->name, in->line, in->max_triangles);
-    return render_mesh_triangle(in->mesh, &triangle) == RENDER_NONE ? no_memory(in) : HNBRDF_OK;
-}
-
-static hnbrdf_result read_face(reader *in)
-{
-    uint32_t count = 0;
-    for (skip_blanks(in); in->at < in->end; skip_blanks(in)) {
-        hnbrdf_result result = count == in->corner_room ? more_corners(in) : HNBRDF_OK;
-        if (result == HNBRDF_OK)
-            result = read_corner(in, &in->corners[count]);
-        if (result != HNBRDF_OK)
-            return result;
-        memcpy(in->positions[count], in->mesh->positions[in->corners[count].position],
-               sizeof *in->positions);
-        if (++count > MAX_CORNERS)
-            return bad(in, HNBRDF_ERROR_LIMIT, "a face of more than 65536 corners");
-    }
-    if (count < 3)
+    double *p = r->positions[r->position_count];
+    obj_skip_blanks(in);
+    const obj_lines before = *in;
+    hnbrdf_result result = obj_numbers(in, "v", 3, 3, p);
+    if (result == HNBRDF_OK && isnan(p[0] + p[1] + p[2]))
         return hnbrdf_fail(in->error, HNBRDF_ERROR_FORMAT,
-                           "%s:%ld: a face of %u corners: expected 3 or more", in->name, in->line,
-                           count);
-    if (render_polygon_split((const float(*)[3])in->positions, count, in->triangles))
-        return hnbrdf_fail(
-            in->error, HNBRDF_ERROR_LIMIT,
-            "%s:%ld: a concave face of %u corners: expected at most %d; triangulate it", in->name,
-            in->line, count, RENDER_MAX_CONCAVE);
-    hnbrdf_result result = HNBRDF_OK;
-    for (uint32_t i = 0; i + 2 < count && result == HNBRDF_OK; i++)
-        result = add_triangle(in, in->triangles[i]);
+                           "%s:%ld: v: found '%.*s', expected 3 finite numbers up to 1e30",
+                           in->name, in->line, obj_rest(&before), before.at);
+    r->position_count += result == HNBRDF_OK;
     return result;
 }
 
-/* The rest of the line names what follows. */
-static hnbrdf_result read_part(reader *in)
+static hnbrdf_result read_uv(obj_reader *r)
 {
-    skip_blanks(in);
-    while (in->end > in->at && is_blank(in->end[-1]))
-        in->end--;
-    in->part = render_mesh_part(in->mesh, in->at, (size_t)(in->end - in->at));
-    if (in->part == RENDER_NONE)
-        return no_memory(in);
-    return in->mesh->part_count > MAX_PARTS
-               ? bad(in, HNBRDF_ERROR_LIMIT, "more than 1024 materials or groups")
-               : HNBRDF_OK;
+    double uv[2];
+    obj_skip_blanks(&r->in);
+    const obj_lines before = r->in;
+    hnbrdf_result result = obj_numbers(&r->in, "vt", 1, 2, uv);
+    if (result != HNBRDF_OK)
+        return result;
+    if (isnan(uv[0] + uv[1])) {
+        uv[0] = (double)NAN;
+        obj_count(&r->tallies[OBJ_UV_UNUSABLE], &before, before.at, obj_rest(&before));
+    }
+    return render_mesh_uv(r->mesh, uv) == RENDER_NONE ? obj_no_memory(&r->in) : HNBRDF_OK;
 }
 
-static hnbrdf_result read_normal(reader *in)
+static hnbrdf_result read_normal(obj_reader *r)
 {
     double n[3];
-    hnbrdf_result result = numbers(in, "vn", 3, n);
+    obj_skip_blanks(&r->in);
+    const obj_lines before = r->in;
+    hnbrdf_result result = obj_numbers(&r->in, "vn", 3, 3, n);
     if (result != HNBRDF_OK)
         return result;
     double length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
     for (int k = 0; k < 3; k++)
-        n[k] = length > 0.0 ? n[k] / length : k == 2; /* some exporters write 0 0 0 */
-    return render_mesh_normal(in->mesh, n) == RENDER_NONE ? no_memory(in) : HNBRDF_OK;
+        n[k] = n[k] / length; /* NaN for 0 0 0, which some exporters write */
+    if (!(length > 0.0))
+        obj_count(&r->tallies[OBJ_NORMAL_UNUSABLE], &before, before.at, obj_rest(&before));
+    return render_mesh_normal(r->mesh, n) == RENDER_NONE ? obj_no_memory(&r->in) : HNBRDF_OK;
 }
 
-static hnbrdf_result read_statement(reader *in)
+/* ---- Statements ------------------------------------------------------------------------------ */
+
+/* The rest of the line names what follows. */
+static hnbrdf_result read_part(obj_reader *r)
 {
-    size_t length;
-    double values[3];
+    obj_lines *in = &r->in;
+    obj_skip_blanks(in);
+    while (in->end > in->at && obj_is_blank(in->end[-1]))
+        in->end--;
+    r->part = render_mesh_part(r->mesh, in->at, (size_t)(in->end - in->at));
+    return r->part == RENDER_NONE ? obj_no_memory(in) : HNBRDF_OK;
+}
+
+static int is_one_of(const char *start, size_t length, const char *const *words)
+{
+    while (*words && !obj_is_word(start, length, *words))
+        words++;
+    return *words != NULL;
+}
+
+/* Counts a statement that is not drawn though it might be missed. */
+static void pass_over(obj_reader *r, const char *start, size_t length)
+{
+    static const char *const lines[] = {"l", "p", NULL}, *const free_form[] = {"curv", "curv2",
+                                                                               "surf", "bzp",
+                                                                               "bsp",  "cdc",
+                                                                               "cdp",  "res",
+                                                                               NULL},
+                             *const harmless[] = {"s",      "mg",         "mtllib",    "usemap",
+                                                  "maplib", "bevel",      "c_interp",  "d_interp",
+                                                  "lod",    "shadow_obj", "trace_obj", "ctech",
+                                                  "stech",  "vp",         "cstype",    "deg",
+                                                  "bmat",   "step",       "parm",      "trim",
+                                                  "hole",   "scrv",       "sp",        "end",
+                                                  "con",    "call",       "csh",       NULL};
+    const int room = (int)(length < 40 ? length : 40);
+    if (is_one_of(start, length, lines))
+        obj_count(&r->tallies[OBJ_LINES], &r->in, start, room);
+    else if (is_one_of(start, length, free_form))
+        obj_count(&r->tallies[OBJ_FREE_FORM], &r->in, start, room);
+    else if (!is_one_of(start, length, harmless))
+        obj_count(&r->tallies[OBJ_UNKNOWN], &r->in, start, room);
+}
+
+/* Reads all that faces name. */
+static hnbrdf_result read_data(obj_reader *r)
+{
     hnbrdf_result result = HNBRDF_OK;
-    const char *start = word(in, &length);
-    if (!start)
-        return HNBRDF_OK;
-    if (is_word(start, length, "v")) {
-        result = numbers(in, "v", 3, values);
-        if (result == HNBRDF_OK && render_mesh_position(in->mesh, values) == RENDER_NONE)
-            result = no_memory(in);
-    } else if (is_word(start, length, "vt")) {
-        result = numbers(in, "vt", 2, values);
-        if (result == HNBRDF_OK && render_mesh_uv(in->mesh, values) == RENDER_NONE)
-            result = no_memory(in);
-    } else if (is_word(start, length, "vn")) {
-        result = read_normal(in);
-    } else if (is_word(start, length, "f")) {
-        result = read_face(in);
-    } else if (is_word(start, length, "usemtl")) {
-        in->has_usemtl = 1;
-        result = read_part(in);
-    } else if (!in->has_usemtl && (is_word(start, length, "g") || is_word(start, length, "o"))) {
-        result = read_part(in);
+    while (result == HNBRDF_OK && obj_next_line(&r->in)) {
+        size_t length;
+        const char *start = obj_word(&r->in, &length);
+        if (!start)
+            continue;
+        if (obj_is_word(start, length, "v"))
+            result = read_vertex(r);
+        else if (obj_is_word(start, length, "vt"))
+            result = read_uv(r);
+        else if (obj_is_word(start, length, "vn"))
+            result = read_normal(r);
     }
     return result;
 }
 
-hnbrdf_result render_obj_decode(const void *data, size_t size, const char *name,
-                                const render_obj_limits *limits, render_mesh *mesh,
-                                hnbrdf_error *error)
+/* A group names a part as long as no material does. */
+static hnbrdf_result read_statement(obj_reader *r, const char *start, size_t length)
 {
-    static const size_t most = (size_t)1 << 25;
-    size_t wanted = limits ? limits->max_triangles : 0;
-    render_mesh result_mesh = {0};
-    reader in = {.next = data,
-                 .last = (const char *)data + size,
-                 .name = name,
-                 .next_line = 1,
-                 .max_triangles = wanted && wanted < most ? wanted : most,
-                 .mesh = &result_mesh,
-                 .error = error};
-    in.part = render_mesh_part(&result_mesh, "", 0);
-    hnbrdf_result result = in.part == RENDER_NONE ? no_memory(&in) : HNBRDF_OK;
-    while (result == HNBRDF_OK && next_line(&in))
-        result = read_statement(&in);
-    free(in.corners);
-    free(in.positions);
-    free(in.triangles);
-    if (result == HNBRDF_OK && result_mesh.triangle_count == 0)
-        result = hnbrdf_fail(error, HNBRDF_ERROR_FORMAT,
-                             "%s: no face in %ld lines: expected an OBJ file", name, in.line);
-    if (result == HNBRDF_OK)
-        *mesh = result_mesh;
-    else
-        render_mesh_free(&result_mesh);
+    hnbrdf_result result = HNBRDF_OK;
+    if (obj_is_word(start, length, "v")) {
+        r->positions_above++;
+    } else if (obj_is_word(start, length, "vt")) {
+        r->uvs_above++;
+    } else if (obj_is_word(start, length, "vn")) {
+        r->normals_above++;
+    } else if (obj_is_word(start, length, "f") || obj_is_word(start, length, "fo")) {
+        result = obj_read_face(r);
+    } else if (obj_is_word(start, length, "usemtl")) {
+        r->has_usemtl = 1;
+        result = read_part(r);
+    } else if (obj_is_word(start, length, "g") || obj_is_word(start, length, "o")) {
+        result = r->has_usemtl ? HNBRDF_OK : read_part(r);
+    } else {
+        pass_over(r, start, length);
+    }
     return result;
 }
 
-hnbrdf_result render_obj_read(const char *path, const render_obj_limits *limits, render_mesh *mesh,
-                              hnbrdf_error *error)
+static hnbrdf_result read_faces(obj_reader *r)
+{
+    hnbrdf_result result = HNBRDF_OK;
+    while (result == HNBRDF_OK && obj_next_line(&r->in)) {
+        size_t length;
+        const char *start = obj_word(&r->in, &length);
+        if (start)
+            result = read_statement(r, start, length);
+    }
+    return result;
+}
+
+/* ---- The file -------------------------------------------------------------------------------- */
+
+/* Gives the mesh its vertices, or says why there is nothing to be drawn. */
+static hnbrdf_result finish(obj_reader *r, render_transform *place)
+{
+    if (r->faces == 0)
+        return hnbrdf_fail(r->in.error, HNBRDF_ERROR_FORMAT,
+                           "%s: no face%s in %ld lines: expected an OBJ file", r->in.name,
+                           r->tallies[OBJ_FACE_SHORT].count ? " of 3 corners or more" : "",
+                           r->in.line);
+    if (render_units_settle((const double(*)[3])r->positions, r->position_count, r->mesh, place))
+        return obj_no_memory(&r->in);
+    if (!render_units_resolve(r->mesh))
+        return hnbrdf_fail(r->in.error, HNBRDF_ERROR_FORMAT,
+                           "%s: none of its %zu face%s has an area, their corners lie in a line or "
+                           "a point: expected a surface",
+                           r->in.name, r->faces, r->faces == 1 ? "" : "s");
+    return HNBRDF_OK;
+}
+
+static void tell(obj_reader *r, const hnbrdf_notes *notes)
+{
+    if (!r->has_normals)
+        r->tallies[OBJ_NORMAL_WITHOUT].count = 0;
+    if (!r->has_uvs)
+        r->tallies[OBJ_UV_WITHOUT].count = 0;
+    obj_tell(r->tallies, r->in.name, notes);
+}
+
+hnbrdf_result render_obj_decode(const void *data, size_t size, const char *name,
+                                const render_obj_options *options, render_mesh *mesh,
+                                render_transform *place, hnbrdf_error *error)
+{
+    static const size_t most = (size_t)1 << 25;
+    const render_obj_options o = options ? *options : (render_obj_options){0};
+    render_mesh made = {0};
+    render_transform there = render_identity;
+    obj_reader r = {.mesh = &made,
+                    .max_triangles =
+                        o.max_triangles && o.max_triangles < most ? o.max_triangles : most};
+    obj_lines_begin(&r.in, data, size, name, error);
+    hnbrdf_result result = read_data(&r);
+    obj_lines_begin(&r.in, data, size, name, error);
+    if (result == HNBRDF_OK && (r.part = render_mesh_part(&made, "", 0)) == RENDER_NONE)
+        result = obj_no_memory(&r.in);
+    if (result == HNBRDF_OK)
+        result = read_faces(&r);
+    if (result == HNBRDF_OK)
+        tell(&r, &o.notes);
+    if (result == HNBRDF_OK)
+        result = finish(&r, &there);
+    free(r.positions);
+    free(r.corners);
+    free(r.outline);
+    free(r.triangles);
+    if (result != HNBRDF_OK) {
+        render_mesh_free(&made);
+        return result;
+    }
+    *mesh = made;
+    if (place)
+        *place = there;
+    return HNBRDF_OK;
+}
+
+hnbrdf_result render_obj_read(const char *path, const render_obj_options *options,
+                              render_mesh *mesh, render_transform *place, hnbrdf_error *error)
 {
     static const size_t most = (size_t)1 << 29;
-    size_t wanted = limits ? limits->max_bytes : 0;
+    size_t wanted = options ? options->max_bytes : 0;
     render_bytes bytes = {0};
     hnbrdf_result result =
         render_file_read(path, wanted && wanted < most ? wanted : most, &bytes, error);
     if (result == HNBRDF_OK)
-        result = render_obj_decode(bytes.data, bytes.size, path, limits, mesh, error);
+        result = render_obj_decode(bytes.data, bytes.size, path, options, mesh, place, error);
     free(bytes.data);
     return result;
 }

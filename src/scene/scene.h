@@ -41,6 +41,9 @@ enum {
     RENDER_MAX_PORTALS = 64
 };
 
+/* Largest coordinate: fourth powers of edges, of which lengths of normals are made, fit a float. */
+#define RENDER_FAR 1e9
+
 /* A surface of the scene, with its directional albedo at cosines (k + 0.5) / RENDER_ALBEDO_STEPS.
  * */
 typedef struct render_scene_surface {
@@ -115,7 +118,13 @@ typedef struct render_surface_point {
  * triangle gets no light whatever the shading normal says: nothing leaks through a surface. */
 void render_surface_at(const render_scene *scene, const float origin[3], const float direction[3],
                        const render_hit *hit, render_surface_point *point);
-/* The start of a ray that leaves the point, off the surface by a few roundings on the seen side. */
+/* How far off a surface rays start: a few roundings of its positions, which are off by a few 2^-24
+ * of the largest coordinate. */
+static inline float render_ray_step(float largest)
+{
+    return 0x1p-18f * (largest > 0x1p-6f ? largest : 0x1p-6f);
+}
+/* The start of a ray that leaves the point, on the seen side. */
 void render_ray_start(const render_surface_point *point, float origin[3]);
 
 /* ---- Lights ---------------------------------------------------------------------------------- */

@@ -2,7 +2,7 @@
  * finite coordinates and unit normals. */
 #include "fuzz.h"
 
-#include "scene/mesh.h"
+#include "scene/obj.h"
 
 static void check_corners(const uint32_t corners[3], size_t count, int may_lack)
 {
@@ -33,11 +33,13 @@ static void check_mesh(render_mesh *mesh)
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    static const render_obj_limits limits = {.max_triangles = 4096};
+    static const render_obj_options options = {.max_triangles = 4096};
     render_mesh mesh = {0};
+    render_transform place;
     hnbrdf_error error = {""};
     void *copy = fuzz_copy(data, size);
-    const hnbrdf_result result = render_obj_decode(copy, size, "mesh.obj", &limits, &mesh, &error);
+    const hnbrdf_result result =
+        render_obj_decode(copy, size, "mesh.obj", &options, &mesh, &place, &error);
     FUZZ_CHECK((result == HNBRDF_OK) == (mesh.triangles != NULL));
     if (result)
         fuzz_check_refusal(result, &error);
