@@ -23,13 +23,20 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
         }                                                                                   \
     } while (0)
 
-/* A refusal tells why, in one line without control characters. */
+/* Some words in one line without control characters. */
+static inline void fuzz_check_line(const char *line)
+{
+    FUZZ_CHECK(strlen(line) > 10);
+    for (const char *c = line; *c; c++)
+        FUZZ_CHECK((unsigned char)*c >= 0x20 && *c != 0x7f);
+}
+
+/* A refusal tells why, in a line. */
 static inline void fuzz_check_refusal(hnbrdf_result result, const hnbrdf_error *error)
 {
     FUZZ_CHECK(result > HNBRDF_OK && result <= HNBRDF_ERROR_CANCELLED);
-    FUZZ_CHECK(memchr(error->text, 0, sizeof error->text) != NULL && strlen(error->text) > 10);
-    for (const char *c = error->text; *c; c++)
-        FUZZ_CHECK((unsigned char)*c >= 0x20 && *c != 0x7f);
+    FUZZ_CHECK(memchr(error->text, 0, sizeof error->text) != NULL);
+    fuzz_check_line(error->text);
 }
 
 static inline void fuzz_check_value(const float f[3])

@@ -7,8 +7,15 @@
 
 #include "render/environment.h"
 
+static inline void fuzz_picture_note(void *user, const char *line)
+{
+    (void)user;
+    fuzz_check_line(line);
+}
+
 /* Small, so that a run is fast; the tests hold the defaults. */
-static const render_read_options fuzz_limits = {.max_bytes = 1 << 20, .max_pixels = 1 << 16};
+static const render_read_options fuzz_limits = {
+    .max_bytes = 1 << 20, .max_pixels = 1 << 16, .notes = {fuzz_picture_note, NULL}};
 
 static inline void fuzz_environment(hnbrdf_result result, render_image *image, hnbrdf_error *error)
 {

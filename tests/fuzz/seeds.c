@@ -330,8 +330,9 @@ static void write_checkpoint(void)
 
 static void write_scenes(void)
 {
-    /* As fuzz_film.c has it: 17 x 2 pixels, two tiles; after magic and fingerprint. */
-    unsigned char film[8 + 2 * 4 + 17 * 2 * 10 * 8] = {17, 0, 0, 0, 2, 0, 0, 0, 4, 0, 0, 0, 3};
+    /* As fuzz_film.c has it: fingerprint 7, 17 x 2 pixels, two tiles. */
+    unsigned char film[32 + 2 * 4 + 17 * 2 * 10 * 8] = "hnbrdf-render/1";
+    memcpy(film + 16, "\7\0\0\0\0\0\0\0\21\0\0\0\2\0\0\0\4\0\0\0\3", 21);
     target = "obj";
     put_text("corners",
              "# all forms\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvt 0 0\nvt 1 0\nvn 0 0 1\n"
