@@ -31,7 +31,7 @@ awk -F, 'NR == 2 && $3 > 0.1 && $6 == 128 { good = 1 } END { exit !good }' out |
 
 # ---- layers -------------------------------------------------------------------------------------------
 run "$HNBRDF" compare --images layers.exr layers.exr
-expect_failure "several layers" "layers.exr: several layers, 'a', 'b': choose one with --layer"
+expect_failure "several layers" "layers.exr: several layers, 'a', 'b': choose one: --layer NAME, or layer NAME in a scene"
 equal layers.exr layers.exr --layer b
 run "$HNBRDF" compare --images layers.exr layers.exr --layer c
 expect_failure "a layer that is not there" "no layer 'c': there are 'a', 'b'"
@@ -82,7 +82,7 @@ printf 'camera from 0 0 4 to 0 0 0 fov 40\nsize 8 8\nenvironment layers.exr laye
 if "$HNBRDF" scene a.scene --spp 1 -o scene.exr >out 2>err; then
     sed 's/ layer b//' a.scene >b.scene
     run "$HNBRDF" scene b.scene --spp 1 -o scene.exr
-    expect_failure "a scene with several layers" "several layers"
+    expect_failure "a scene with several layers" "choose one: --layer NAME, or layer NAME in a scene"
 else
     grep -q "without Embree" err || fail "a scene with a layer: $(cat err)"
 fi

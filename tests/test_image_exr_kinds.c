@@ -186,7 +186,8 @@ static void several_layers_are_named(void **state)
     (void)state;
     exr_part_description part = flat("glossy.B:h glossy.G:h glossy.R:h a.B:h a.G:h a.R:h soft.Y:h");
     expect_refused(&part, 1, NULL, HNBRDF_ERROR_ARGUMENT,
-                   "several layers, 'a', 'glossy', 'soft': choose one with --layer");
+                   "several layers, 'a', 'glossy', 'soft': choose one: --layer NAME, or layer NAME "
+                   "in a scene");
     expect_colour(&part, 1, "a", 6, 5, 4);
     expect_colour(&part, 1, "soft", 7, 7, 7);
     char many[4000] = "";

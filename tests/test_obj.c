@@ -279,6 +279,7 @@ static void refuses_with_file_and_line(void **state)
     static const char *const cases[][2] = {
         {"", "no face"},
         {"v 0 0 0\n", "a.obj: no face in 1 lines"},
+        {"\xff\xfev", "a.obj: found UTF-16, expected UTF-8"},
         {"v 0 0\n", "a.obj:1: v: found ''"},
         {"v 0 0 nan\n", "a.obj:1: v: found '0 0 nan', expected 3 finite numbers"},
         {"v 0 -Infinity 0\n", "a.obj:1: v: found '0 -Infinity 0'"},

@@ -18,14 +18,13 @@ for file in $(grep -lE '^ *\.recognise =' -r src/measured --include='*.c'); do
 done
 for target in $(grep -v '^[#-]' "$table" | cut -d ' ' -f 1); do
     [ -f "tests/fuzz/fuzz_$target.c" ] || complain "no tests/fuzz/fuzz_$target.c"
-    [ -f "tests/fuzz/generate_$target.c" ] || grep -q "^$target bytes-only" "$table" ||
-        complain "no tests/fuzz/generate_$target.c"
+    [ -f "tests/fuzz/generate_$target.c" ] || complain "no tests/fuzz/generate_$target.c"
 done
 for file in tests/fuzz/fuzz_*.c tests/fuzz/generate_*.c; do
     target=$(basename "$file" .c) target=${target#*_}
     grep -qE "^$target( |\$)" "$table" || complain "$file is not in $table"
 done
-for file in $(grep -vE '^#|bytes-only' "$table" | tr ' ' '\n' | grep '^src/'); do
+for file in $(grep -v '^#' "$table" | tr ' ' '\n' | grep '^src/'); do
     [ -f "$file" ] || complain "$file of $table does not exist"
 done
 exit $failed

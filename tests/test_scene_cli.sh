@@ -82,6 +82,8 @@ printf 'v -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 1//1 2//2 3//3\n' | mesh lacking
 same lacking plain
 [ "$(grep -c warning err)" -eq 1 ] && grep -q "warning: lacking.obj:4: normal '1'" err ||
     fail "a mesh without its normals: $(cat err)"
+printf 'v 0 -1 -1\nv 0 -1 1\nv 0 1 0\nf 1 2 3\n' | mesh edge
+grep -q "warning: edge.obj: a flat mesh, seen edge-on" err || fail "a mesh seen edge-on: $(cat err)"
 hole='v -3 -2 0\nv 3 -2 0\nv 0 3 0\nv -1 -1 0\nv 0 1 0\nv 1 -1 0\n'
 printf "${hole}f 1 2 6\nf 1 6 4\nf 2 3 5\nf 2 5 6\nf 3 1 4\nf 3 4 5\n" | mesh pieces
 printf "${hole}f 1 2 3 1 4 5 6 4\n" | mesh hole

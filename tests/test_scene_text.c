@@ -23,18 +23,18 @@ static render_description parse(const char *text)
 static void statements_mean_what_they_say(void **state)
 {
     (void)state;
-    render_description d =
-        parse("# a comment\n\ncamera from 1 2 3 to 4 5 6 fov 40 up 0 0 1 lens 0.1 focus 7\r\n"
-              "size 320 200\nexposure -1.5\nbounces 7\n"
-              "environment \"a map.exr\" rotate 90 gain 2 hidden layer \"a b\" repair\n"
-              "portal corner 1 2 3 edge 1 0 0 edge 0 1 0\n"
-              "material a model m.safetensors \"b c\" # named\n"
-              "material d ggx kd 0.1 0.2 0.3 eta 1.5 1.6 1.7 alpha 0.1 0.2\n"
-              "material e diffuse 0.5 0.6 0.7\nmaterial f builtin rough-clay\n"
-              "material g measured x.bsdf\n"
-              "shape obj a.obj material a use leg d smooth emit 1 2 3\n"
-              "shape lathe profile 0 0 1 0.5 0 1 detail 12 material e\n"
-              "shape knot turns 3 5 tube 0.2\n");
+    render_description d = parse(
+        "\xef\xbb\xbf# a comment\n\ncamera from 1 2 3 to 4 5 6 fov 40 up 0 0 1 lens 0.1 focus 7\r\n"
+        "size 320 200\nexposure -1.5\nbounces 7\n"
+        "environment \"a map.exr\" rotate 90 gain 2 hidden layer \"a b\" repair\n"
+        "portal corner 1 2 3 edge 1 0 0 edge 0 1 0\n"
+        "material a model m.safetensors \"b c\" # named\n"
+        "material d ggx kd 0.1 0.2 0.3 eta 1.5 1.6 1.7 alpha 0.1 0.2\n"
+        "material e diffuse 0.5 0.6 0.7\nmaterial f builtin rough-clay\n"
+        "material g measured x.bsdf\n"
+        "shape obj a.obj material a use leg d smooth emit 1 2 3\n"
+        "shape lathe profile 0 0 1 0.5 0 1 detail 12 material e\n"
+        "shape knot turns 3 5 tube 0.2\n");
     assert_true(d.camera.from[2] == 3.0f && d.camera.to[0] == 4.0f && d.camera.up[2] == 1.0f &&
                 d.camera.lens == 0.1f && d.camera.focus == 7.0f && d.camera.width == 320);
     assert_true(d.exposure == -1.5 && d.bounces == 7 && d.rotate == 90.0 && d.gain == 2.0 &&
@@ -79,6 +79,7 @@ static void refuses_with_file_and_line(void **state)
     (void)state;
     static const char *const cases[][2] = {
         {"", "no camera in 0 lines"},
+        {"\xfe\xff", "a.scene: found UTF-16, expected UTF-8"},
         {CAMERA, "no shape in 1 lines"},
         {"shape box\n", "no camera"},
         {"lamp 1\n", "a.scene:1: found 'lamp', expected camera, size"},

@@ -23,13 +23,6 @@ static int fail_line(const hnbrdf_csv_reader *reader, const char *what, hnbrdf_e
     return -1;
 }
 
-/* As spreadsheets write "Unicode text"; its first letter brings the first NUL byte. */
-static int is_utf16(const hnbrdf_csv_reader *reader, size_t length)
-{
-    return reader->line == 1 && length >= 2 &&
-           (memcmp(reader->text, "\xff\xfe", 2) == 0 || memcmp(reader->text, "\xfe\xff", 2) == 0);
-}
-
 /* One line into text, without its end: 1, 0 at the end of the file, -1 with *error filled. */
 static int read_line(hnbrdf_csv_reader *reader, hnbrdf_error *error)
 {
@@ -39,10 +32,11 @@ static int read_line(hnbrdf_csv_reader *reader, hnbrdf_error *error)
     if (c == EOF && !ferror(reader->file))
         return 0;
     for (; c != EOF && c != '\n'; c = getc(reader->file)) {
-        if (c == '\0')
+        if (c == '\0') /* in UTF-16, as spreadsheets write it, the first letter brings one */
             return fail_line(reader,
-                             is_utf16(reader, length) ? "found UTF-16, expected UTF-8"
-                                                      : "found a NUL byte, expected text",
+                             reader->line == 1 && hnbrdf_is_utf16(reader->text, length)
+                                 ? "found UTF-16, expected UTF-8"
+                                 : "found a NUL byte, expected text",
                              error);
         if (length == HNBRDF_CSV_LINE - 1)
             return fail_line(reader, "the line is longer than 8191 bytes", error);

@@ -310,6 +310,11 @@ size_t hnbrdf_byte_order_mark(const void *text, size_t size)
                                                                                : 0;
 }
 
+int hnbrdf_is_utf16(const void *text, size_t size)
+{
+    return size >= 2 && (memcmp(text, "\xff\xfe", 2) == 0 || memcmp(text, "\xfe\xff", 2) == 0);
+}
+
 int hnbrdf_ends_with(const char *text, const char *ending)
 {
     const size_t length = strlen(text), count = strlen(ending);

@@ -28,6 +28,9 @@ size_t hnbrdf_utf8_length(const char *begin, const char *end);
 /* Bytes of the UTF-8 byte-order mark with which some programs begin text: 3, or 0 without. */
 size_t hnbrdf_byte_order_mark(const void *text, size_t size);
 
+/* 1 where text begins with the byte-order mark of UTF-16, of either order. */
+int hnbrdf_is_utf16(const void *text, size_t size);
+
 /* Capitals of ASCII as small letters, everything else as it is. */
 static inline char hnbrdf_lower(char c)
 {

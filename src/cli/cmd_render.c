@@ -18,7 +18,10 @@ static const cli_command command = {
     "the\n"
     "same times 2^exposure, clamped to [0, 1] and through the sRGB curve. With -o FILE.png there "
     "is no EXR.\n"
-    "The camera looks along -z, y is up; the middle column of a map lies straight ahead of it.",
+    "The camera looks along -z, y is up; the middle column of a map lies straight ahead of it.\n"
+    "A mesh may have any size and place: the camera sees all of its faces. Lines, points and "
+    "curves are\n"
+    "not drawn, and what a file lacks is computed; a warning says so.",
     "hnbrdf render builtin:clear-coat-red -o red.exr\n"
     "hnbrdf render model.safetensors --material gold-two-lobe --spp 256 -o gold.exr\n"
     "hnbrdf render model.safetensors --material gold-two-lobe --analytic -o gold_ggx.png\n"

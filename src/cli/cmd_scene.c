@@ -31,7 +31,9 @@ static const cli_command command = {
     "[smooth]; detail N sets how finely they are cut. Placing, in the order given: scale S, "
     "stretch X "
     "Y Z,\n"
-    "turn DEG (about y, which is up), rotate X Y Z DEG (about that axis), move X Y Z.",
+    "turn DEG (about y, which is up), rotate X Y Z DEG (about that axis), move X Y Z. Shapes end "
+    "up within\n"
+    "1e9 of the origin; one too small for single precision where it is, is warned of.",
     "hnbrdf scene examples/room.scene -o room.exr\n"
     "hnbrdf scene room.scene --spp 4096 --time 600 -o room.exr     # ten minutes now,\n"
     "hnbrdf scene room.scene --spp 4096 --resume -o room.exr       # the rest later\n"

@@ -160,8 +160,10 @@ static hnbrdf_result choose(exr_layers *all)
     prefer_default_view(all);
     if (all->count > 1) {
         name_all(all, names, sizeof names);
-        return hnbrdf_fail(in->error, HNBRDF_ERROR_ARGUMENT,
-                           "%s: several layers, %s: choose one with --layer", in->name, names);
+        return hnbrdf_fail(
+            in->error, HNBRDF_ERROR_ARGUMENT,
+            "%s: several layers, %s: choose one: --layer NAME, or layer NAME in a scene", in->name,
+            names);
     }
     if (before > 1)
         hnbrdf_note(&in->options.notes, "%s: view '%s' taken, the first of %d", in->name,

@@ -37,7 +37,7 @@ hnbrdf_result render_image_check(const render_image *image, const char *name, hn
     return hnbrdf_fail(
         error, HNBRDF_ERROR_FORMAT,
         "%s: %zu pixel%s not finite, the first at column %zu, row %zu: (%s, %s, %s); "
-        "--repair fills them from their neighbours",
+        "--repair, or repair in a scene, fills them from their neighbours",
         name, bad, bad == 1 ? " is" : "s are", first % width, first / width, HNBRDF_NUMBER(rgb[0]),
         HNBRDF_NUMBER(rgb[1]), HNBRDF_NUMBER(rgb[2]));
 }

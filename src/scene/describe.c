@@ -8,7 +8,6 @@
 #include <string.h>
 
 enum { MAX_MATERIALS = RENDER_MAX_SURFACES };
-static const size_t max_text = (size_t)4 << 20;
 
 /* ---- Statements ------------------------------------------------------------------------------ */
 
@@ -148,7 +147,7 @@ static hnbrdf_result read_material(words *in)
         return BAD(in, "%s:%ld: more than %d materials", in->name, in->line, MAX_MATERIALS);
     void *all = describe_grown(out->materials, out->material_count, sizeof *out->materials);
     if (!all)
-        return describe_no_memory(in);
+        return words_no_memory(in);
     out->materials = all;
     render_text_material *material = &out->materials[out->material_count];
     memset(material, 0, sizeof *material);
@@ -225,9 +224,11 @@ hnbrdf_result render_description_parse(const void *data, size_t size, const char
     words in = {.name = name, .out = &out, .error = error};
     snprintf(out.name, sizeof out.name, "%s", name);
     hnbrdf_result result = HNBRDF_OK;
-    if (size > max_text)
+    if (size > RENDER_MAX_TEXT)
         result = hnbrdf_fail(error, HNBRDF_ERROR_LIMIT, "%s: %zu bytes, expected at most %zu", name,
-                             size, max_text);
+                             size, (size_t)RENDER_MAX_TEXT);
+    if (hnbrdf_is_utf16(data, size))
+        result = BAD(&in, "%s: found UTF-16, expected UTF-8", name);
     for (size_t at = hnbrdf_byte_order_mark(data, size); at < size && result == HNBRDF_OK;) {
         size_t length = copy_line(&in, (const char *)data + at, size - at);
         at += length;
@@ -245,31 +246,9 @@ hnbrdf_result render_description_parse(const void *data, size_t size, const char
     return result;
 }
 
-hnbrdf_result render_description_read(const char *path, render_description *description,
-                                      hnbrdf_error *error)
-{
-    render_bytes bytes = {0};
-    if (strlen(path) >= RENDER_MAX_PATH)
-        return hnbrdf_fail(error, HNBRDF_ERROR_LIMIT, "%s: a path of more than %d bytes", path,
-                           RENDER_MAX_PATH - 1);
-    hnbrdf_result result = render_file_read(path, max_text, &bytes, error);
-    if (result == HNBRDF_OK)
-        result = render_description_parse(bytes.data, bytes.size, path, description, error);
-    free(bytes.data);
-    return result;
-}
-
 void render_description_free(render_description *description)
 {
     free(description->materials);
     free(description->shapes);
     memset(description, 0, sizeof *description);
-}
-
-void render_description_path(const render_description *description, const char *file,
-                             char path[2 * RENDER_MAX_PATH])
-{
-    const char *slash = strrchr(description->name, '/');
-    int folder = slash && file[0] != '/' ? (int)(slash - description->name) + 1 : 0;
-    snprintf(path, (size_t)2 * RENDER_MAX_PATH, "%.*s%s", folder, description->name, file);
 }

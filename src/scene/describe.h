@@ -25,14 +25,15 @@
  *   sphere; quad; box; torus [tube R]; knot [turns P Q] [tube R]; superellipsoid [powers E1 E2];
  * teapot; lathe profile R Y R Y ...; obj FILE [use PART MATERIAL]... [smooth] Placing, in the order
  * given: scale S, stretch X Y Z, turn DEG (about y), rotate X Y Z DEG (about an axis), move X Y Z.
- * Files are looked for beside the scene. Both sides of a surface reflect; its outside emits. */
+ * Files are looked for beside the scene. Both sides of a surface reflect; its outside emits.
+ * Shapes end up within RENDER_FAR of the origin. UTF-8, perhaps behind a byte-order mark. */
 #ifndef HNBRDF_SCENE_DESCRIBE_H
 #define HNBRDF_SCENE_DESCRIBE_H
 
 #include "scene/scene.h"
 #include "scene/shapes.h"
 
-enum { RENDER_MAX_PATH = 1024, RENDER_MAX_USES = 32 };
+enum { RENDER_MAX_PATH = 1024, RENDER_MAX_USES = 32, RENDER_MAX_TEXT = 4 << 20 };
 
 typedef enum render_material_source {
     RENDER_FROM_MODEL,
@@ -115,7 +116,7 @@ typedef struct render_loaded {
 /* How the files of a scene are read. Zero-initialise for defaults. */
 typedef struct render_reading {
     const hnbrdf_measured_options *measured; /* NULL: the defaults */
-    hnbrdf_notes notes;                      /* told of what models and pictures needed */
+    hnbrdf_notes notes; /* told of what models, meshes and pictures needed, and shapes too small */
 } render_reading;
 
 /* Reads all files and builds the scene. `folder`: for RENDER_SHOW_MEASURED, holds each

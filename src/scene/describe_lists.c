@@ -1,8 +1,6 @@
 /* describe_lists.c: the lists of a scene's text: they grow, and materials are found by name. */
 #include "scene/words.h"
 
-#include "base/error.h"
-
 #include <stdlib.h>
 #include <string.h>
 
@@ -20,10 +18,4 @@ void *describe_grown(void *array, int count, size_t element)
     if (count & (count - 1))
         return array;
     return realloc(array, (count ? 2 * (size_t)count : 1) * element);
-}
-
-hnbrdf_result describe_no_memory(const words *in)
-{
-    return hnbrdf_fail(in->error, HNBRDF_ERROR_MEMORY, "%s:%ld: no memory for what was read so far",
-                       in->name, in->line);
 }

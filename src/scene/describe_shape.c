@@ -156,7 +156,7 @@ hnbrdf_result describe_shape(words *in)
         return BAD(in, "%s:%ld: more than %d shapes", in->name, in->line, RENDER_MAX_SHAPES);
     void *all = describe_grown(out->shapes, out->shape_count, sizeof *out->shapes);
     if (!all)
-        return describe_no_memory(in);
+        return words_no_memory(in);
     out->shapes = all;
     render_text_shape *shape = &out->shapes[out->shape_count];
     memset(shape, 0, sizeof *shape);

@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "scene/obj.h"
+#include "scene/vectors.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -31,6 +32,26 @@ static void aim(const render_mesh_view *view, const render_mesh *mesh, int size,
     camera->width = camera->height = size;
 }
 
+/* How much of the mesh's area faces the camera, from 0 to 1. */
+static double share_seen(const render_mesh *mesh, const render_camera *camera)
+{
+    double seen = 0.0, whole = 0.0;
+    for (size_t i = 0; i < mesh->triangle_count; i++) {
+        double e1[3], e2[3], n[3], to[3];
+        for (int k = 0; k < 3; k++) {
+            const uint32_t *corners = mesh->triangles[i].position;
+            const double p = (double)mesh->positions[corners[0]][k];
+            e1[k] = (double)mesh->positions[corners[1]][k] - p;
+            e2[k] = (double)mesh->positions[corners[2]][k] - p;
+            to[k] = (double)camera->from[k] - p;
+        }
+        const double area = cross(e1, e2, n);
+        seen += fabs(n[0] * to[0] + n[1] * to[1] + n[2] * to[2]);
+        whole += area * sqrt(to[0] * to[0] + to[1] * to[1] + to[2] * to[2]);
+    }
+    return seen / whole;
+}
+
 static hnbrdf_result build(const render_mesh_view *view, const render_surface *surface, int size,
                            render_scene *scene, hnbrdf_error *error)
 {
@@ -49,6 +70,9 @@ static hnbrdf_result build(const render_mesh_view *view, const render_surface *s
     if (!scene->shapes[0].surfaces || (view->smooth && render_mesh_smooth(mesh)))
         return hnbrdf_fail(error, HNBRDF_ERROR_MEMORY, "out of memory");
     aim(view, mesh, size, &scene->camera);
+    if (share_seen(mesh, &scene->camera) < 1e-5) /* single precision may leave 1e-6 */
+        hnbrdf_note(&view->notes, "%s: a flat mesh, seen edge-on: turn or tilt the camera",
+                    view->path);
     return render_scene_build(scene, error);
 }
 

@@ -2,7 +2,7 @@
 #include "scene/obj_reader.h"
 
 #include "base/error.h"
-#include "image/image.h"
+#include "base/text.h"
 #include "scene/units.h"
 
 #include <math.h>
@@ -203,7 +203,10 @@ hnbrdf_result render_obj_decode(const void *data, size_t size, const char *name,
                     .max_triangles =
                         o.max_triangles && o.max_triangles < most ? o.max_triangles : most};
     obj_lines_begin(&r.in, data, size, name, error);
-    hnbrdf_result result = read_data(&r);
+    hnbrdf_result result =
+        hnbrdf_is_utf16(data, size)
+            ? hnbrdf_fail(error, HNBRDF_ERROR_FORMAT, "%s: found UTF-16, expected UTF-8", name)
+            : read_data(&r);
     obj_lines_begin(&r.in, data, size, name, error);
     if (result == HNBRDF_OK && (r.part = render_mesh_part(&made, "", 0)) == RENDER_NONE)
         result = obj_no_memory(&r.in);
@@ -225,18 +228,4 @@ hnbrdf_result render_obj_decode(const void *data, size_t size, const char *name,
     if (place)
         *place = there;
     return HNBRDF_OK;
-}
-
-hnbrdf_result render_obj_read(const char *path, const render_obj_options *options,
-                              render_mesh *mesh, render_transform *place, hnbrdf_error *error)
-{
-    static const size_t most = (size_t)1 << 29;
-    size_t wanted = options ? options->max_bytes : 0;
-    render_bytes bytes = {0};
-    hnbrdf_result result =
-        render_file_read(path, wanted && wanted < most ? wanted : most, &bytes, error);
-    if (result == HNBRDF_OK)
-        result = render_obj_decode(bytes.data, bytes.size, path, options, mesh, place, error);
-    free(bytes.data);
-    return result;
 }

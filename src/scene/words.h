@@ -36,12 +36,16 @@ hnbrdf_result words_whole(words *in, const char *what, int low, int high, int *v
 hnbrdf_result words_text(words *in, const char *what, size_t room, char *to);
 /* Refuses the next word. */
 hnbrdf_result words_unknown(const words *in, const char *expected);
+static inline hnbrdf_result words_no_memory(const words *in)
+{
+    return hnbrdf_fail(in->error, HNBRDF_ERROR_MEMORY, "%s:%ld: no memory for what was read so far",
+                       in->name, in->line);
+}
 
 /* Number of the material of that name so far, or -1. */
 int describe_find_material(const render_description *out, const char *name);
 /* Room for one more element of an array that doubles at powers of two; NULL when memory is out. */
 void *describe_grown(void *array, int count, size_t element);
-hnbrdf_result describe_no_memory(const words *in);
 /* The rest of a line that begins with "shape". */
 hnbrdf_result describe_shape(words *in);
 

@@ -2,6 +2,7 @@
  * last, the call says HNBRDF_ERROR_MEMORY in one line, leaves its result alone and leaks nothing.
  */
 #include "failing_malloc.h"
+#include "base/error.h"
 #include "base/text.h"
 #include "measured_support.h"
 #include "nbrdf_support.h"
@@ -11,6 +12,8 @@
 #include "hnbrdf/metrics.h"
 #include "render/environment.h"
 #include "report/fit_log.h"
+#include "scene/describe.h"
+#include "scene/obj.h"
 #include "hnbrdf/glsl.h"
 
 #include <unistd.h>
@@ -410,6 +413,103 @@ static void pictures_survive(void **state)
     assert_int_equal(rmdir(directory), 0); /* nothing was left beside the files */
 }
 
+/* ---- Meshes and scenes ----------------------------------------------------------------------- */
+
+/* More vertices, normals, triangles and parts than fit the first blocks, a face with a hole, and
+ * one of more corners than fit the first block. */
+static const char *obj_text(void)
+{
+    static char text[1 << 14];
+    size_t at = 0;
+    for (int i = 0; i < 100; i++)
+        at += (size_t)sprintf(text + at, "v %d %d 0\nvn 0 0 1\nvt 0 0\ng part%d\nf -1 1 -1\n",
+                              i % 10, i / 10, i % 40);
+    at += (size_t)sprintf(text + at, "f 1 10 100 91 1 45 46 36 45\nf");
+    for (int i = 0; i < 40; i++)
+        at += (size_t)sprintf(text + at, " %d//1", 1 + (i < 20 ? 5 * i : 98 - 5 * (i - 20)));
+    for (int i = 0; i < 80; i++)
+        at += (size_t)sprintf(text + at, "\nf 1 2 %d", 20 + i);
+    assert_true(at < sizeof text);
+    return text;
+}
+
+static hnbrdf_result decode_obj(const void *with, hnbrdf_error *error)
+{
+    render_mesh mesh = {0};
+    hnbrdf_result result = render_obj_decode(with, strlen(with), "a.obj", NULL, &mesh, NULL, error);
+    assert_int_equal(result == HNBRDF_OK, mesh.triangles != NULL);
+    if (!result && render_mesh_smooth(&mesh))
+        result = hnbrdf_fail(error, HNBRDF_ERROR_MEMORY, "no memory to average normals");
+    render_mesh_free(&mesh);
+    return result;
+}
+
+static void meshes_survive(void **state)
+{
+    (void)state;
+    survive(decode_obj, obj_text(), 20);
+}
+
+static hnbrdf_result parse_scene(const void *with, hnbrdf_error *error)
+{
+    render_description d = {.bounces = -1};
+    const hnbrdf_result result = render_description_parse(with, strlen(with), "a.scene", &d, error);
+    assert_int_equal(result == HNBRDF_OK, d.bounces != -1);
+    if (!result)
+        render_description_free(&d);
+    return result;
+}
+
+/* Reads a scene with all its files and builds it. */
+static hnbrdf_result load_scene(const void *with, hnbrdf_error *error)
+{
+    render_description d;
+    render_loaded loaded;
+    hnbrdf_result result = render_description_read(with, &d, error);
+    if (result)
+        return result;
+    result = render_description_load(&d, RENDER_SHOW_MODEL, NULL, NULL, &loaded, error);
+    if (!result)
+        render_loaded_free(&loaded);
+    render_description_free(&d);
+    return result;
+}
+
+static void write_text(const char *path, const char *text)
+{
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    assert_true(fputs(text, file) >= 0);
+    assert_int_equal(fclose(file), 0);
+}
+
+static void scenes_survive(void **state)
+{
+    static const char text[] = "camera from 0 0 5 to 0 0 0 fov 40\nsize 4 4\n"
+                               "environment furnace\n"
+                               "portal corner 0 0 3 edge 1 0 0 edge 0 1 0\n"
+                               "material a diffuse 1 1 1\nmaterial b diffuse 0 0 0\n"
+                               "material c model %s vch_silk_blue\n"
+                               "shape obj a.obj use part1 a smooth material b\n"
+                               "shape sphere material c emit 1 1 1\nshape box material a\n"
+                               "shape lathe profile 0 0 1 1 0 2 material a\n";
+    char directory[] = "/tmp/hnbrdf_allocation_XXXXXX", mesh[64], scene[64], all[2048];
+    (void)state;
+    snprintf(all, sizeof all, text, MODEL);
+    survive(parse_scene, all, 4);
+    if (!render_has_embree())
+        return;
+    assert_non_null(mkdtemp(directory));
+    snprintf(mesh, sizeof mesh, "%s/a.obj", directory);
+    snprintf(scene, sizeof scene, "%s/a.scene", directory);
+    write_text(mesh, obj_text());
+    write_text(scene, all);
+    survive(load_scene, scene, 40);
+    remove(mesh);
+    remove(scene);
+    assert_int_equal(rmdir(directory), 0);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -423,6 +523,8 @@ int main(void)
         cmocka_unit_test(fits_survive),
         cmocka_unit_test(logs_survive),
         cmocka_unit_test(pictures_survive),
+        cmocka_unit_test(meshes_survive),
+        cmocka_unit_test(scenes_survive),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
