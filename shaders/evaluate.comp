@@ -21,7 +21,8 @@ vec4 read4(uint at)
     return vec4(inputs[at], inputs[at + 1], inputs[at + 2], inputs[at + 3]);
 }
 
-// hnbrdf_material read_material(uint at): wi, wo, kd, eta, alpha, cosine and sine, latent, lobes, then u: 44 numbers.
+// hnbrdf_material read_material(uint at): wi, wo, kd, eta, alpha, cosine and sine, latent, lobes, then u, then what it
+// was fitted with: 52 numbers.
 #include "material.glsl"
 
 void main()
@@ -29,7 +30,7 @@ void main()
     uint k = gl_GlobalInvocationID.x;
     if (k >= count)
         return;
-    uint at = 44 * k, to = 8 * k;
+    uint at = 52 * k, to = 8 * k;
     hnbrdf_material m = read_material(at);
     vec3 wi = read3(at), wo = read3(at + 3), f = vec3(0.0);
     if (WHAT == 0)

@@ -310,8 +310,9 @@ void hnbrdf_encode_half_difference(hnbrdf_pair p, out vec3 x0, out vec3 x1)
     HNBRDF_PRECISE float y = sqrt(sqrt(r2 / p.length2));
     HNBRDF_PRECISE float z = sqrt((0.25 * d2) / (1.0 + p.c));
     HNBRDF_PRECISE float product = p.wi.z * p.wo.z;
+    HNBRDF_PRECISE float sum = p.wi.z + p.wo.z;
     x0 = vec3(x, y, p.c);
-    x1 = vec3(z, product, p.s.z);
+    x1 = vec3(z, product, sum);
 }
 
 // What the encodings by angles share; the cosines of incidence are a and b:
@@ -386,6 +387,139 @@ vec3 hnbrdf_compose_hybrid(vec3 exponent, vec3 g, vec3 analytic, float b)
 vec3 hnbrdf_compose_neural(vec3 exponent, float b)
 {
     HNBRDF_PRECISE vec3 f = hnbrdf_correction(exponent) - b;
+    return hnbrdf_finish(f);
+}
+
+// ---- Edits ---------------------------------------------------------------------------------------------
+
+// What a material was fitted with; where it differs from what the material is, the network's correction is carried
+// along with f_a: the network sees the half vector that had its place before, and its correction less the floor
+// changes as f_a does. Unedited, every ratio is x/x.
+struct hnbrdf_fitted {
+    vec3 kd, eta;
+    vec2 alpha;
+};
+
+// What of an edit depends on the material alone. carried and added: of kd/pi, what carries the correction along,
+// up to 4 times the fitted one, and the rest. The fitted eta is raised until the reflectance at normal incidence is
+// at most 16 times its own.
+struct hnbrdf_edit {
+    vec2 warp, alpha;
+    float area;
+    vec3 diffuse, e, carried, added;
+};
+
+float hnbrdf_carried_kd(float kd, float fitted_kd)
+{
+    HNBRDF_PRECISE float most = 4.0 * abs(fitted_kd);
+    return kd > most ? most : kd;
+}
+
+HNBRDF_PRECISE float hnbrdf_added_kd(float kd, float fitted_kd)
+{
+    HNBRDF_PRECISE float most = 4.0 * abs(fitted_kd);
+    HNBRDF_PRECISE float added = kd - most;
+    return kd > most ? added : 0.0;
+}
+
+HNBRDF_PRECISE float hnbrdf_carried_eta(float eta, float fitted_eta)
+{
+    HNBRDF_PRECISE float r = ((eta - 1.0) / (eta + 1.0)) / 4.0;
+    HNBRDF_PRECISE float raised = (1.0 + r) / (1.0 - r);
+    return eta > fitted_eta && raised > fitted_eta ? raised : fitted_eta;
+}
+
+HNBRDF_PRECISE float hnbrdf_warp_factor(float alpha, float fitted_alpha)
+{
+    HNBRDF_PRECISE float factor = fitted_alpha / alpha;
+    return alpha != fitted_alpha ? factor : 1.0;
+}
+
+HNBRDF_PRECISE hnbrdf_edit hnbrdf_edit_make(vec3 kd, vec3 eta, vec2 alpha, hnbrdf_fitted fitted)
+{
+    HNBRDF_PRECISE hnbrdf_edit m;
+    vec3 eta0 = vec3(hnbrdf_carried_eta(eta.x, fitted.eta.x), hnbrdf_carried_eta(eta.y, fitted.eta.y),
+                     hnbrdf_carried_eta(eta.z, fitted.eta.z));
+    vec3 carried = vec3(hnbrdf_carried_kd(kd.x, fitted.kd.x), hnbrdf_carried_kd(kd.y, fitted.kd.y),
+                        hnbrdf_carried_kd(kd.z, fitted.kd.z));
+    vec3 added = vec3(hnbrdf_added_kd(kd.x, fitted.kd.x), hnbrdf_added_kd(kd.y, fitted.kd.y),
+                      hnbrdf_added_kd(kd.z, fitted.kd.z));
+    m.warp = vec2(hnbrdf_warp_factor(alpha.x, fitted.alpha.x), hnbrdf_warp_factor(alpha.y, fitted.alpha.y));
+    m.alpha = fitted.alpha;
+    m.area = hnbrdf_ggx_area(fitted.alpha);
+    m.diffuse = fitted.kd * HNBRDF_INV_PI;
+    m.e = hnbrdf_fresnel_e(eta0);
+    m.carried = carried * HNBRDF_INV_PI;
+    m.added = added * HNBRDF_INV_PI;
+    return m;
+}
+
+// s' of the same length as s, its tangents times those of `warp`. It comes no nearer to the horizon than s is, or
+// than 45 degrees where s is higher.
+HNBRDF_PRECISE vec3 hnbrdf_warp(hnbrdf_pair p, vec2 warp)
+{
+    HNBRDF_PRECISE float r2 = p.s.x * p.s.x + p.s.y * p.s.y;
+    HNBRDF_PRECISE float z2 = p.s.z * p.s.z;
+    float most = r2 > z2 ? r2 : z2;
+    HNBRDF_PRECISE vec2 w = p.s.xy * warp;
+    HNBRDF_PRECISE float w2 = w.x * w.x + w.y * w.y;
+    HNBRDF_PRECISE float shrink = sqrt(w2 > most ? most / w2 : 1.0);
+    w = w * shrink;
+    HNBRDF_PRECISE float length2 = hnbrdf_dot3(vec3(w, p.s.z));
+    HNBRDF_PRECISE float stretch = sqrt(length2 != p.length2 ? p.length2 / length2 : 1.0);
+    return vec3(w, p.s.z) * stretch;
+}
+
+// The pair that the network sees: that of s', its angles of incidence and difference as they are.
+hnbrdf_pair hnbrdf_warped(hnbrdf_pair p, vec2 warp)
+{
+    p.s = hnbrdf_warp(p, warp);
+    return p;
+}
+
+// For encodings that see the directions themselves: both turned with s to s', the shortest way. Where s' is s, both
+// stay as they are.
+HNBRDF_PRECISE hnbrdf_pair hnbrdf_turn_pair(hnbrdf_pair p, hnbrdf_pair q)
+{
+    HNBRDF_PRECISE vec3 d = p.wi - p.wo;
+    HNBRDF_PRECISE float along = (d.x * q.s.x + d.y * q.s.y) + d.z * q.s.z;
+    HNBRDF_PRECISE float both = p.length2 + ((p.s.x * q.s.x + p.s.y * q.s.y) + p.s.z * q.s.z);
+    HNBRDF_PRECISE float k = along / both;
+    HNBRDF_PRECISE vec3 s = p.s + q.s;
+    HNBRDF_PRECISE vec3 turned = d - k * s;
+    if (q.s == p.s)
+        return q;
+    q.wi = 0.5 * (q.s + turned);
+    q.wo = 0.5 * (q.s - turned);
+    return q;
+}
+
+// f_a of the edited material, and of the fitted one at s' with masking at the directions as they are.
+HNBRDF_PRECISE vec3 hnbrdf_microfacet_fitted(hnbrdf_pair p, hnbrdf_pair seen, hnbrdf_edit m)
+{
+    HNBRDF_PRECISE float specular = hnbrdf_ggx_d_of_area(seen.s, p.length2, m.alpha, m.area) *
+                                    (hnbrdf_smith_v(p.wi, m.alpha) * hnbrdf_smith_v(p.wo, m.alpha));
+    return hnbrdf_microfacet_of(m.diffuse, m.e, p.c, specular);
+}
+
+// f_a of the edited material over that of the fitted one, in [0, HNBRDF_MAX_VALUE].
+HNBRDF_PRECISE float hnbrdf_carried_ratio(float edited, float fitted)
+{
+    HNBRDF_PRECISE float ratio = edited / fitted;
+    return edited != fitted ? hnbrdf_clamp(ratio, 0.0, HNBRDF_MAX_VALUE) : 1.0;
+}
+
+// max(0, ratio (exp(s c + m) - b) + sigmoid(g) f_a + added); a ratio of 1 gives the bits of hnbrdf_compose_hybrid().
+vec3 hnbrdf_compose_edited(vec3 exponent, vec3 g, vec3 edited, vec3 fitted, vec3 added, float b)
+{
+    vec3 ratio = vec3(hnbrdf_carried_ratio(edited.x, fitted.x), hnbrdf_carried_ratio(edited.y, fitted.y),
+                      hnbrdf_carried_ratio(edited.z, fitted.z));
+    vec3 c = hnbrdf_correction(exponent);
+    HNBRDF_PRECISE vec3 gated = hnbrdf_gate(g) * edited;
+    HNBRDF_PRECISE vec3 carried = ratio * (c - b) + gated;
+    HNBRDF_PRECISE vec3 plain = (c + gated) - b;
+    HNBRDF_PRECISE vec3 f = vec3(ratio.x != 1.0 ? carried.x : plain.x, ratio.y != 1.0 ? carried.y : plain.y,
+                                 ratio.z != 1.0 ? carried.z : plain.z) + added;
     return hnbrdf_finish(f);
 }
 

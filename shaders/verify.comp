@@ -43,7 +43,11 @@ void main()
 #ifndef HNBRDF_SCENE_GGX
     else if (STAGE == STAGE_ENCODING) {
         vec3 x0, x1;
-        HNBRDF_SCENE_ENCODE(hnbrdf_scene_pair(m, wi, wo), x0, x1);
+        hnbrdf_pair p = hnbrdf_scene_pair(m, wi, wo);
+#ifdef HNBRDF_SCENE_EDITED
+        p = hnbrdf_scene_seen(hnbrdf_scene_edit(m), p);
+#endif
+        HNBRDF_SCENE_ENCODE(p, x0, x1);
         store3(at, x0);
         store3(at + 3, x1);
     } else {

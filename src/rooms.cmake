@@ -41,7 +41,7 @@ hnbrdf_room(fit
   kernel_avx2.c kernel_avx512.c adam.c checkpoint.c fit.c ggx.c gradient.c judge.c kernel.c
   kernel_double.c pool.c stage.c train.c)
 hnbrdf_room(check
-  backends.c bounds.c cases.c half.c maps.c oracle.c pairs.c reference.c rounding.c
+  backends.c bounds.c bounds_edit.c cases.c half.c maps.c oracle.c pairs.c reference.c rounding.c
   rules.c run.c)
 hnbrdf_room(image
   colour_space.c cube.c difference.c draw.c exr_choose.c exr_colour.c exr_layers.c exr_memory.c

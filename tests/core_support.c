@@ -100,6 +100,13 @@ hnbrdf_material random_material(rng *r, int isotropic)
     return m;
 }
 
+hnbrdf_material edited_from(rng *r, hnbrdf_material m)
+{
+    const hnbrdf_material other = random_material(r, m.alpha[0] == m.alpha[1]);
+    m.fitted = as_fitted(other).fitted;
+    return m;
+}
+
 void random_lobes(rng *r, hnbrdf_lobes *lobes)
 {
     for (int k = 0; k < HNBRDF_LOBES; k++) {

@@ -3,6 +3,7 @@
 #ifndef HNBRDF_TESTS_CORE_SUPPORT_H
 #define HNBRDF_TESTS_CORE_SUPPORT_H
 
+#include "fitted_support.h"
 #include "hnbrdf/hnbrdf.h"
 
 #include <stdint.h>
@@ -38,6 +39,9 @@ hnbrdf_material random_material(rng *r, int isotropic);
  * the test on failure; free it with hnbrdf_model_free(). */
 /* Two lobes, one in four of all normals; legal. */
 void random_lobes(rng *r, hnbrdf_lobes *lobes);
+/* The same material, fitted with other kd, eta and alpha: now it is edited. */
+hnbrdf_material edited_from(rng *r, hnbrdf_material material);
+
 hnbrdf_model *random_model(rng *r, hnbrdf_kind kind, hnbrdf_encoding encoding, int hidden,
                            int layers, int latent);
 

@@ -329,7 +329,7 @@ static void materials_out_of_range_are_refused(void **state)
     hnbrdf_material good, m;
     hnbrdf_material_init(&good);
     assert_int_equal(hnbrdf_material_check(&good, NULL), HNBRDF_OK);
-    assert_int_equal(sizeof good, 35 * sizeof(float));
+    assert_int_equal(sizeof good, 43 * sizeof(float));
     static const struct {
         size_t field;
         float bad[4];
@@ -353,11 +353,16 @@ static void materials_out_of_range_are_refused(void **state)
          {-1e-6f, 1.0001f, INFINITY, NAN},
          "lobes.share[1][0]"},
         {offsetof(hnbrdf_material, latent[15]), {INFINITY, -INFINITY, NAN, NAN}, "latent[15]"},
+        {offsetof(hnbrdf_material, fitted.kd[1]), {-1e-6f, 1.0001f, INFINITY, NAN}, "fitted.kd[1]"},
+        {offsetof(hnbrdf_material, fitted.eta[2]), {1.0f, 0.5f, 1001.0f, NAN}, "fitted.eta[2]"},
+        {offsetof(hnbrdf_material, fitted.alpha[0]),
+         {0.0f, 9.9e-5f, 1.0001f, NAN},
+         "fitted.alpha[0]"},
     };
     for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++)
         for (int b = 0; b < 4; b++) {
             hnbrdf_error error = {""};
-            m = good;
+            m = as_fitted(good);
             memcpy((char *)&m + cases[k].field, &cases[k].bad[b], sizeof(float));
             assert_int_equal(hnbrdf_material_check(&m, &error), HNBRDF_ERROR_ARGUMENT);
             assert_memory_equal(error.text, cases[k].name, strlen(cases[k].name));

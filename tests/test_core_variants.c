@@ -3,6 +3,7 @@
  * Tolerance: none. All is made of operations that IEEE 754 rounds in one way only. A plain program
  * without cmocka: it is also compiled for other machines and run in an emulator. Prints one line a
  * variant with a checksum of all values, which has to be the same on every machine. */
+#include "fitted_support.h"
 #include "core/compose.h"
 #include "core/encoding.h"
 #include "core/frame.h"
@@ -47,6 +48,23 @@ static void same(const char *call, const scene *s, int pair, const float *found,
                 (double)expected[count > 1 ? 2 : 0]);
 }
 
+/* Channel c of an edited material, likewise. */
+static float edited_by_definition(const hnbrdf_model_desc *desc, const hnbrdf_material *m,
+                                  const hnbrdf_pair *pair, const hnbrdf_pair *seen, int c,
+                                  const float *out, float specular)
+{
+    const hnbrdf_fitted *fitted = &m->fitted;
+    float then = hnbrdf_fitted_specular(pair, seen, fitted->alpha[0], fitted->alpha[1],
+                                        hnbrdf_ggx_area(fitted->alpha[0], fitted->alpha[1]));
+    float eta = hnbrdf_carried_eta(m->eta[c], fitted->eta[c]);
+    float now =
+        hnbrdf_microfacet(hnbrdf_carried_kd(m->kd[c], fitted->kd[c]), m->eta[c], pair->c, specular);
+    return hnbrdf_compose_edited(out[c], out[c + 3], now,
+                                 hnbrdf_microfacet(fitted->kd[c], eta, pair->c, then),
+                                 hnbrdf_added_kd(m->kd[c], fitted->kd[c]) * HNBRDF_INV_PI,
+                                 desc->scale, desc->shift, desc->floor);
+}
+
 /* f and f_a term by term, as the headers of src/core define them. */
 static void by_definition(const hnbrdf_model *model, const hnbrdf_material *m, const float wi[3],
                           const float wo[3], float f[3], float f_a[3])
@@ -60,18 +78,25 @@ static void by_definition(const hnbrdf_model *model, const hnbrdf_material *m, c
     hnbrdf_to_tangent(hnbrdf_frame_of(m), wi, i);
     hnbrdf_to_tangent(hnbrdf_frame_of(m), wo, o);
     hnbrdf_pair pair = hnbrdf_pair_make(i, o);
+    const int edited = desc->kind == HNBRDF_KIND_HYBRID && hnbrdf_material_is_edited(m);
+    hnbrdf_pair seen = pair;
+    if (edited)
+        seen =
+            hnbrdf_seen(desc->encoding, &pair, hnbrdf_warp_factor(m->alpha[0], m->fitted.alpha[0]),
+                        hnbrdf_warp_factor(m->alpha[1], m->fitted.alpha[1]));
     float specular = hnbrdf_specular(&pair, m->alpha[0], m->alpha[1]);
     for (int c = 0; c < 3; c++)
         f_a[c] = hnbrdf_microfacet(m->kd[c], m->eta[c], pair.c, specular);
     if (desc->kind != HNBRDF_KIND_GGX) {
-        hnbrdf_encode(desc->encoding, &pair, x);
+        hnbrdf_encode(desc->encoding, &seen, x);
         hnbrdf_network(desc, m->latent, x, out);
     }
     for (int c = 0; c < 3; c++)
         switch (desc->kind) {
         case HNBRDF_KIND_HYBRID:
-            f[c] = hnbrdf_compose_hybrid(out[c], out[c + 3], f_a[c], desc->scale, desc->shift,
-                                         desc->floor);
+            f[c] = edited ? edited_by_definition(desc, m, &pair, &seen, c, out, specular)
+                          : hnbrdf_compose_hybrid(out[c], out[c + 3], f_a[c], desc->scale,
+                                                  desc->shift, desc->floor);
             break;
         case HNBRDF_KIND_NEURAL:
             f[c] = hnbrdf_compose_neural(out[c], desc->scale, desc->shift, desc->floor);
@@ -172,6 +197,8 @@ static void fill_scene(sweep *s, scene *made)
         for (int i = 0; i < 2; i++)
             made->u[k][i] = sweep_unit(s);
         sweep_material(s, k >= MATERIALS, &made->materials[k]);
+        if (k % 2) /* every second one is edited, from what the one before is */
+            made->materials[k].fitted = as_fitted(made->materials[k - 1]).fitted;
         /* some runs, some disorder */
         made->index[k] = k % 3 ? (int)(sweep_u32(s) % MATERIALS) : k / 8;
     }

@@ -1,6 +1,7 @@
 /* test_edit_materials.c: hnbrdf_model_with_materials() makes the changes it is told and no other,
  * and leaves nothing behind where it refuses; hnbrdf_material_set() likewise. */
 #include "hnbrdf/edit.h"
+#include "fitted_support.h"
 #include "model_support.h"
 
 #include <setjmp.h>
@@ -27,7 +28,7 @@ static hnbrdf_material other_material(void)
     m.kd[1] = 0.125f;
     m.lobes.scale[0] = 2.0f;
     m.lobes.share[0][1] = 0.5f;
-    return m;
+    return as_fitted(m);
 }
 
 static hnbrdf_model *with(const hnbrdf_model *model, const hnbrdf_material_change *changes,

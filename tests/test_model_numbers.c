@@ -123,6 +123,7 @@ static bytes coarse_file(void)
         materials[k] = desc.materials[k];
         for (int c = 0; c < 3; c++)
             materials[k].eta[c] = 1.25f + 0.5f * (float)c; /* not rounded to 1 */
+        memset(&materials[k].fitted, 0, sizeof materials[k].fitted);
     }
     desc.materials = materials;
     assert_int_equal(hnbrdf_model_create(&desc, NULL, &firm, NULL), HNBRDF_OK);

@@ -25,6 +25,7 @@ static hnbrdf_packing full_packing(hnbrdf_texel_format format)
                               .analytic = 1,
                               .anisotropic = 1,
                               .rotated = 1,
+                              .edited = 1,
                               .latent = HNBRDF_MAX_LATENT,
                               .kd = {0.0f, 1.0f},
                               .eta = {1.0f, HNBRDF_MAX_ETA},
@@ -46,6 +47,11 @@ static hnbrdf_material any_material(rng *r)
     material.rotation = rng_range(r, -3.1f, 3.1f);
     for (int i = 0; i < HNBRDF_MAX_LATENT; i++)
         material.latent[i] = rng_range(r, -3.0f, 5.0f);
+    if (rng_u32(r) % 4) {
+        material = edited_from(r, material);
+        for (int c = 0; c < 3; c++)
+            material.fitted.eta[c] = 1.0f + rng_log_range(r, 2e-4f, 900.0f);
+    }
     return material;
 }
 
@@ -78,6 +84,18 @@ static double turn_between(float a, float b)
     return fabs(remainder((double)a - (double)b, 2.0 * 3.14159265358979324));
 }
 
+/* What a material was fitted with, in the fields of what it is: stored by the same rules. A material
+ * without is stored as it is. */
+static hnbrdf_material fitted_fields(hnbrdf_material m)
+{
+    if (m.fitted.alpha[0] == 0.0f)
+        return m;
+    memcpy(m.kd, m.fitted.kd, sizeof m.kd);
+    memcpy(m.eta, m.fitted.eta, sizeof m.eta);
+    memcpy(m.alpha, m.fitted.alpha, sizeof m.alpha);
+    return m;
+}
+
 /* ---- The stated errors ----------------------------------------------------------------------- */
 
 static void half_floats_keep_every_field_within_what_the_header_states(void **state)
@@ -87,6 +105,12 @@ static void half_floats_keep_every_field_within_what_the_header_states(void **st
     rng r = rng_make(1);
     for (int k = 0; k < TRIALS; k++) {
         hnbrdf_material m = any_material(&r), b = round_trip(&packing, &m);
+        if (m.fitted.alpha[0] == 0.0f)
+            assert_false(hnbrdf_material_is_edited(&b));
+        if (k % 2) { /* then of what it was fitted with */
+            m = fitted_fields(m);
+            b = fitted_fields(b);
+        }
         for (int c = 0; c < 3; c++) {
             double a = fmax(fmin(amplitude(m.eta[c]), 0.998), 1e-4);
             assert_near("kd", m.kd[c], b.kd[c], fabs((double)m.kd[c] - (double)b.kd[c]), 0x1p-12);
@@ -115,6 +139,12 @@ static void bytes_keep_every_field_within_what_the_header_states(void **state)
     const double root_r = sqrt(0.998) - sqrt(1e-4), log_alpha = log(1e4);
     for (int k = 0; k < TRIALS; k++) {
         hnbrdf_material m = any_material(&r), b = round_trip(&packing, &m);
+        if (m.fitted.alpha[0] == 0.0f)
+            assert_false(hnbrdf_material_is_edited(&b));
+        if (k % 2) { /* then of what it was fitted with */
+            m = fitted_fields(m);
+            b = fitted_fields(b);
+        }
         for (int c = 0; c < 3; c++) {
             double a = fmax(fmin(amplitude(m.eta[c]), 0.998), 1e-4);
             assert_near("kd", m.kd[c], b.kd[c], fabs(sqrt((double)m.kd[c]) - sqrt((double)b.kd[c])),
@@ -253,22 +283,26 @@ static void filtered_texels_lie_between(void **state)
 
 /* ---- Layout ---------------------------------------------------------------------------------- */
 
-static int texels_of(int analytic, int anisotropic, int rotated, int latent)
+static int texels_of(int analytic, int anisotropic, int rotated, int edited, int latent)
 {
-    const hnbrdf_packing packing = {
-        .analytic = analytic, .anisotropic = anisotropic, .rotated = rotated, .latent = latent};
+    const hnbrdf_packing packing = {.analytic = analytic,
+                                    .anisotropic = anisotropic,
+                                    .rotated = rotated,
+                                    .edited = edited,
+                                    .latent = latent};
     return hnbrdf_packing_texels(&packing);
 }
 
 static void a_material_takes_no_more_texels_than_its_channels(void **state)
 {
     (void)state;
-    assert_int_equal(texels_of(1, 0, 0, 0), 2);  /* GGX: 7 channels */
-    assert_int_equal(texels_of(1, 0, 0, 4), 3);  /* 11 */
-    assert_int_equal(texels_of(1, 1, 0, 4), 3);  /* 12 */
-    assert_int_equal(texels_of(1, 1, 1, 4), 4);  /* 14 */
-    assert_int_equal(texels_of(0, 0, 0, 12), 3); /* neural */
-    assert_int_equal(texels_of(1, 1, 1, 16), HNBRDF_MAX_TEXELS);
+    assert_int_equal(texels_of(1, 0, 0, 0, 0), 2);  /* GGX: 7 channels */
+    assert_int_equal(texels_of(1, 0, 0, 0, 4), 3);  /* 11 */
+    assert_int_equal(texels_of(1, 1, 0, 0, 4), 3);  /* 12 */
+    assert_int_equal(texels_of(1, 1, 1, 0, 4), 4);  /* 14 */
+    assert_int_equal(texels_of(1, 0, 0, 1, 4), 5);  /* 18 */
+    assert_int_equal(texels_of(0, 0, 0, 0, 12), 3); /* neural */
+    assert_int_equal(texels_of(1, 1, 1, 1, 16), HNBRDF_MAX_TEXELS);
 }
 
 static void channels_lie_where_the_header_says(void **state)
@@ -284,13 +318,17 @@ static void channels_lie_where_the_header_says(void **state)
         m.latent[i] = (float)(i + 1);
     m.eta[0] = 3.0f;
     m.alpha[0] = 0.25f;
+    m.fitted = as_fitted(m).fitted;
+    m.fitted.kd[0] = 0.75f;
+    m.fitted.alpha[1] = 0.125f;
     hnbrdf_material_pack(&packing, &m, texels);
-    const int places[] = {0, 2, 3, 6, 7, 8, 9, 10, 25};
-    const float values[] = {0.125f, 0.375f, 0.5f, 0.25f, 0.5f, 1.0f, 0.0f, 1.0f, 16.0f};
-    for (int k = 0; k < 9; k++)
-        assert_true(hnbrdf_float_of_half(texels[places[k]]) == values[k]);
-    assert_int_equal(texels[26], 0);
-    assert_int_equal(texels[27], 0);
+    const int places[] = {0, 2, 3, 6, 7, 8, 9, 10, 12, 13, 16, 17, 18, 33};
+    const float expected[] = {0.125f, 0.375f, 0.5f, 0.25f, 0.5f,   1.0f, 0.0f,
+                              0.75f,  0.375f, 0.5f, 0.25f, 0.125f, 1.0f, 16.0f};
+    for (int k = 0; k < 14; k++)
+        assert_true(hnbrdf_float_of_half(texels[places[k]]) == expected[k]);
+    assert_int_equal(texels[34], 0);
+    assert_int_equal(texels[35], 0);
 }
 
 static void a_packing_of_a_model_holds_its_materials(void **state)

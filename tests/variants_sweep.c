@@ -73,13 +73,14 @@ void sweep_material(sweep *s, int wild, hnbrdf_material *material)
     for (int i = 0; i < HNBRDF_MAX_LATENT; i++)
         material->latent[i] = sweep_range(s, -1.5f, 1.5f);
     memset(&material->lobes, 0, sizeof material->lobes);
+    memset(&material->fitted, 0, sizeof material->fitted);
     for (int k = 0; k < HNBRDF_LOBES && sweep_u32(s) % 2; k++) {
         material->lobes.scale[k] = (sweep_u32(s) % 4 ? 1.0f : -1.0f) * sweep_range(s, 0.01f, 3.0f);
         for (int j = 0; j < HNBRDF_LOBE_KNOTS; j++)
             material->lobes.share[k][j] = sweep_range(s, 0.0f, 1.0f - material->lobes.share[0][j]);
     }
     if (wild && sweep_u32(s) % 4 == 0)
-        ((float *)material)[sweep_u32(s) % (sizeof *material / sizeof(float))] =
+        ((float *)material)[sweep_u32(s) % (offsetof(hnbrdf_material, fitted) / sizeof(float))] =
             odd[sweep_u32(s) % 8];
 }
 

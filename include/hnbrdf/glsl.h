@@ -76,6 +76,11 @@ typedef struct hnbrdf_glsl_options {
      * where that is above 1 (hnbrdf_physics_of() in metrics.h): the shader then gives off no more
      * light than it gets. C does not do that. Not together with packing. */
     const float *energy;
+    /* 1: hnbrdf_material of a hybrid holds what it was fitted with, m.fitted, and a shader that
+     * changes m.kd, m.eta or m.alpha edits the whole material, as C does. Always so where an
+     * exported material is edited, or a packing says so; a fixed scene has it for those alone. 0:
+     * such a change moves f_a alone */
+    int editable;
 } hnbrdf_glsl_options;
 
 /* Write one GLSL include with the network, the chosen materials, and the functions

@@ -138,7 +138,17 @@ typedef struct hnbrdf_lobes {
     float share[HNBRDF_LOBES][HNBRDF_LOBE_KNOTS]; /* [0, 1]; at each knot they sum to at most 1 */
 } hnbrdf_lobes;
 
-/* One material. Plain data that the caller owns, copies and edits; 35 floats.
+/* What kd, eta and alpha of a material were when the network was fitted to it. Where they differ
+ * from what they are, the material is edited: the network's correction is carried along with f_a,
+ * as src/core/carry.h says. All zeros: they were what they are. hnbrdf_model_create() fills that in
+ * in a hybrid model, so that whoever copies a material of a model and changes its kd, eta or alpha
+ * edits the whole of it, and whoever changes them back has the fitted bits again. Other kinds of
+ * model do not look at it. 32 bytes. */
+typedef struct hnbrdf_fitted {
+    float kd[3], eta[3], alpha[2]; /* all 0, or each in the range of its namesake */
+} hnbrdf_fitted;
+
+/* One material. Plain data that the caller owns, copies and edits; 43 floats.
  * Evaluation trusts these ranges: call hnbrdf_material_check() after an edit. Out of range it still
  * returns finite values, without a promise which. */
 typedef struct hnbrdf_material {
@@ -148,9 +158,10 @@ typedef struct hnbrdf_material {
     float rotation; /* of the tangent frame about n, radians counter-clockwise; finite */
     float latent[HNBRDF_MAX_LATENT]; /* latent code z; the model uses the first l floats */
     hnbrdf_lobes lobes;              /* for sampling alone */
+    hnbrdf_fitted fitted;            /* an edit leaves it as it is */
 } hnbrdf_material;
 
-/* kd 0.5, eta 1.5, alpha 0.5, no rotation, latent 0, lobes 0. */
+/* kd 0.5, eta 1.5, alpha 0.5, no rotation, latent 0, lobes 0, fitted 0. */
 HNBRDF_API void hnbrdf_material_init(hnbrdf_material *material);
 
 /* HNBRDF_OK if every field is finite and in its range; else HNBRDF_ERROR_ARGUMENT and a message
@@ -158,13 +169,17 @@ HNBRDF_API void hnbrdf_material_init(hnbrdf_material *material);
 HNBRDF_API hnbrdf_result hnbrdf_material_check(const hnbrdf_material *material,
                                                hnbrdf_error *error);
 
+/* 1 if kd, eta or alpha are not what they were fitted with, 0 where that is unknown. */
+HNBRDF_API int hnbrdf_material_is_edited(const hnbrdf_material *material);
+
 /* The material between a and b: at t <= 0 (or NaN) *a and at t >= 1 *b, bit by bit. Each kd, the
  * latent code and the reflectance at normal incidence ((eta - 1)/(eta + 1))^2 go linearly: eta
  * itself would turn to metal within the first steps. alpha goes linearly in its logarithm;
  * rotation the short way modulo pi, a half turn being the same GGX lobe, and all at once where
  * one end is isotropic and has none to speak of. Lobes go like alpha, their shares linearly;
- * where only one end has such a lobe, all are 0: fit them again. Every field stays between its
- * two ends, so two legal materials give a legal one. out may be a or b. */
+ * where only one end has such a lobe, all are 0: fit them again. fitted goes like kd, eta and
+ * alpha, an end without it counting as unedited. Every field stays between its two ends, so two
+ * legal materials give a legal one. out may be a or b. */
 HNBRDF_API void hnbrdf_material_mix(const hnbrdf_material *a, const hnbrdf_material *b, float t,
                                     hnbrdf_material *out);
 
@@ -408,6 +423,13 @@ HNBRDF_EXPERIMENTAL void hnbrdf_lobes_paper(hnbrdf_lobes *lobes);
  * For renderers that shade one hit at a time: what depends on the material alone is worked out
  * once. The functions below give the bits of their namesakes above, and are as pure. */
 
+/* Of an edited material: what it was fitted with, as hnbrdf_prepared has what it is. */
+typedef struct hnbrdf_prepared_edit {
+    float warp[2]; /* fitted alpha over alpha */
+    float alpha[2], area, diffuse[4], e[4];
+    float carried[4], added[4]; /* of kd / pi: what carries the correction along, and the rest */
+} hnbrdf_prepared_edit;
+
 /* Plain data that the caller owns; copy it freely. It holds what it needs of the material, and
  * stays valid as long as the model. The fields are the library's business and may change. */
 typedef struct hnbrdf_prepared {
@@ -421,6 +443,8 @@ typedef struct hnbrdf_prepared {
     float diffuse[4];               /* kd / pi; [3] repeats [2] */
     float e[4];                     /* eta^2 - 1; [3] repeats [2] */
     float first[HNBRDF_MAX_HIDDEN]; /* bias of the first layer with the latent code folded in */
+    int edited;                     /* 1: `edit` is set, and wanted */
+    hnbrdf_prepared_edit edit;
 } hnbrdf_prepared;
 
 HNBRDF_API void hnbrdf_prepare(const hnbrdf_model *model, const hnbrdf_material *material,
@@ -468,8 +492,9 @@ HNBRDF_API void hnbrdf_pdf_many(const hnbrdf_model *model, const hnbrdf_material
  * exported shader unpacks to the same material.
  *
  * Channels follow each other through the texels without gaps: kd (3), eta (3), alpha (1, or 2 if
- * anisotropic), rotation (2, if rotated), latent (l). An isotropic material with l = 4 takes 11
- * channels: 3 texels. Numbers outside of a field's range are clamped to it.
+ * anisotropic), rotation (2, if rotated), fitted kd, eta and alpha (if edited: as before), latent
+ * (l). An isotropic material with l = 4 takes 11 channels: 3 texels. Numbers outside of a field's
+ * range are clamped to it.
  *
  *               RGBA16F                             RGBA8 (UNORM, linear, never sRGB)
  *   stored      the number itself                   its place in the range of the field
@@ -490,13 +515,15 @@ typedef enum hnbrdf_texel_format {
     HNBRDF_TEXEL_RGBA8        /* 4 bytes a texel */
 } hnbrdf_texel_format;
 
-#define HNBRDF_MAX_TEXELS 7 /* of one material: 3 + 3 + 2 + 2 + HNBRDF_MAX_LATENT channels */
+/* Of one material: 3 + 3 + 2 + 2 + 8 + HNBRDF_MAX_LATENT channels. */
+#define HNBRDF_MAX_TEXELS 9
 
 typedef struct hnbrdf_packing {
     hnbrdf_texel_format format;
     int analytic;    /* 1: kd, eta and alpha are stored; 0 for a neural model */
     int anisotropic; /* 1: alpha_x and alpha_y; 0: one for both, alpha_x */
     int rotated;     /* 1: rotation is stored */
+    int edited;      /* 1: fitted is stored; one of a material that has none is what it is */
     int latent;      /* l numbers of the latent code */
     /* Smallest and largest of each field, equal where all are. RGBA16F needs and looks at none. */
     float kd[2], eta[2], alpha[2], latent_range[HNBRDF_MAX_LATENT][2];

@@ -103,6 +103,35 @@ static void great_latent(hnbrdf_rng *rng, int number, hnbrdf_material *m)
         m->latent[i] *= factor;
 }
 
+/* As an artist does. */
+static void other_alpha(hnbrdf_rng *rng, int number, hnbrdf_material *m)
+{
+    for (int k = 0; k < 2; k++)
+        m->alpha[k] =
+            fminf(fmaxf(m->alpha[k] * power(rng, -0.6f, 0.6f), HNBRDF_MIN_ALPHA), HNBRDF_MAX_ALPHA);
+    if (number % 2)
+        m->alpha[1] = m->alpha[0];
+}
+
+/* From one end to the other: what was fitted is at the other end, or where it was. */
+static void far_edit(hnbrdf_rng *rng, int number, hnbrdf_material *m)
+{
+    const float low = HNBRDF_MIN_ALPHA, high = HNBRDF_MAX_ALPHA;
+    const float kd = (float)(number % 2), eta = number / 2 % 2 ? HNBRDF_MAX_ETA : 1.0001f;
+    for (int k = 0; k < 2; k++)
+        m->alpha[k] = pick(rng, 2) ? low : high;
+    for (int c = 0; c < 3; c++) {
+        m->kd[c] = kd;
+        m->eta[c] = eta;
+        if (number % 3 == 0) {
+            m->fitted.kd[c] = 1.0f - kd;
+            m->fitted.eta[c] = 2.5f - kd;
+        }
+    }
+    if (number % 3 == 0)
+        m->fitted.alpha[0] = m->fitted.alpha[1] = m->alpha[0] > 0.5f ? low : high;
+}
+
 /* Any lobes that are allowed: narrow and wide, all normals or visible ones; at some views all
  * samples or none. */
 static void any_lobes(hnbrdf_rng *rng, int number, hnbrdf_material *m)
@@ -394,6 +423,17 @@ const stability_case stability_cases[] = {
     {"mirror-grazing",
      "alpha 1e-4 to 1e-3, mirror image at cosines 1e-7 to 0.01, and within an ulp", NULL,
      STABILITY_ACCURATE, STABILITY_ACCURATE, .change = near_mirror, .pair = grazing_mirror},
+    {"edited", "kd, eta and alpha edited to anything, any directions", NULL, STABILITY_ACCURATE,
+     STABILITY_ACCURATE, .change = any_material, .pair = any_pair, .edited = 1},
+    {"edited-alpha", "alpha edited by up to 4 times, half vectors over the lobe", NULL,
+     STABILITY_ACCURATE, STABILITY_ACCURATE, .change = other_alpha, .pair = lobe_pair, .edited = 1},
+    {"edited-far",
+     "alpha edited to 1e-4 and to 1, eta and kd to their ends, half vectors over the "
+     "lobe",
+     NULL, STABILITY_ACCURATE, STABILITY_ACCURATE, .change = far_edit, .pair = lobe_pair,
+     .edited = 1},
+    {"edited-grazing", "edited to anything, one or both cosines 1e-7 to 0.1", NULL,
+     STABILITY_ACCURATE, STABILITY_ACCURATE, .change = any_material, .pair = grazing, .edited = 1},
     {"lobes", "lobes for sampling 1e-4 to 1e4 times as wide as alpha, shares 0 to 1", NULL,
      STABILITY_ACCURATE, STABILITY_ACCURATE, .change = any_lobes, .pair = lobe_pair},
     {"eta", "eta 1 + 2^-23 to 1000, channels far apart; kd 0 and 1", NULL, STABILITY_ACCURATE,
@@ -442,6 +482,8 @@ void stability_block_make(const stability_case *what, int number, const hnbrdf_m
     hnbrdf_rng rng;
     hnbrdf_rng_seed(&rng, hash_of(what->name), (uint64_t)number);
     block->material = *material;
+    if (!what->edited)
+        memset(&block->material.fitted, 0, sizeof block->material.fitted);
     what->change(&rng, number, &block->material);
     for (int k = 0; k < STABILITY_BLOCK; k++) {
         what->pair(&rng, k, &block->material, block->pairs[k], block->pairs[k] + 3);

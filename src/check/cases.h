@@ -36,6 +36,7 @@ typedef struct stability_case {
     /* 0 unless the case asks for it: */
     float weight_factor;  /* on the network's weights and biases */
     float largest_weight; /* the factor that makes this the largest of them */
+    int edited;           /* 1: the material keeps what it was fitted with; 0: it is what it is */
     int not_a_number;     /* 1: some arguments are NaN or infinite; there is no true value */
     /* 1: every second of the random numbers for sampling too, or outside of [0, 1) */
     int broken_u;

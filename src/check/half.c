@@ -7,8 +7,7 @@
 
 #include "core/compose.h"
 #include "core/encoding.h"
-#include "core/frame.h"
-#include "core/microfacet.h"
+#include "core/prepared.h"
 #include "glsl/half.h"
 
 typedef check_tracked num;
@@ -137,19 +136,23 @@ void check_half_eval(const hnbrdf_model *model, const hnbrdf_material *material,
         hnbrdf_eval(model, material, wi, wo, f);
         return;
     }
-    hnbrdf_frame frame = hnbrdf_frame_of(material);
-    float i[3], o[3], x[HNBRDF_ENCODING_SIZE], out[HNBRDF_MAX_OUTPUTS];
-    hnbrdf_to_tangent(frame, wi, i);
-    hnbrdf_to_tangent(frame, wo, o);
-    hnbrdf_pair pair = hnbrdf_pair_make(i, o);
-    hnbrdf_encode(desc->encoding, &pair, x);
+    hnbrdf_prepared prepared;
+    float x[HNBRDF_ENCODING_SIZE], out[HNBRDF_MAX_OUTPUTS], f_a[4], fitted[4];
+    hnbrdf_prepare_analytic(model, material, &prepared);
+    hnbrdf_pair pair = hnbrdf_pair_in_frame(&prepared, wi, wo);
+    hnbrdf_pair seen = hnbrdf_prepared_seen(&prepared, &pair);
+    hnbrdf_encode(desc->encoding, &seen, x);
     check_half_network(desc, material->latent, x, out);
-    float specular = hnbrdf_specular(&pair, material->alpha[0], material->alpha[1]);
+    if (prepared.edited)
+        hnbrdf_prepared_edited(&prepared, &pair, &seen, f_a, fitted);
+    else
+        hnbrdf_prepared_analytic(&prepared, &pair, f_a);
     for (int c = 0; c < 3; c++)
         f[c] = desc->kind == HNBRDF_KIND_NEURAL
                    ? hnbrdf_compose_neural(out[c], desc->scale, desc->shift, desc->floor)
-                   : hnbrdf_compose_hybrid(
-                         out[c], out[3 + c],
-                         hnbrdf_microfacet(material->kd[c], material->eta[c], pair.c, specular),
-                         desc->scale, desc->shift, desc->floor);
+               : prepared.edited ? hnbrdf_compose_edited(out[c], out[3 + c], f_a[c], fitted[c],
+                                                         prepared.edit.added[c], desc->scale,
+                                                         desc->shift, desc->floor)
+                                 : hnbrdf_compose_hybrid(out[c], out[3 + c], f_a[c], desc->scale,
+                                                         desc->shift, desc->floor);
 }

@@ -207,6 +207,75 @@ double oracle_pdf(hnbrdf_kind kind, const hnbrdf_material *material, const float
     return (double)limited(sum + limited(rest, 0, 1) * i.z / pi(), 0, HNBRDF_MAX_VALUE);
 }
 
+/* ---- Edits ----------------------------------------------------------------------------------- */
+
+/* h with its tangents times the ratios of fitted to present roughness, no nearer to the horizon
+ * than h itself or 45 degrees. */
+static vec fitted_half(const hnbrdf_material *m, vec h)
+{
+    vec q = {h.x * m->fitted.alpha[0] / m->alpha[0], h.y * m->fitted.alpha[1] / m->alpha[1], h.z};
+    real tan2 = (q.x * q.x + q.y * q.y) / (h.z * h.z), of_h = (h.x * h.x + h.y * h.y) / (h.z * h.z);
+    real most = of_h > 1 ? of_h : 1, shrink = tan2 > most ? real_sqrt(most / tan2) : 1;
+    q.x *= shrink;
+    q.y *= shrink;
+    real length = real_sqrt(dot(q, q));
+    return (vec){q.x / length, q.y / length, q.z / length};
+}
+
+/* wi and wo turned with s to s', of the same length: d = wi - wo is turned by the rotation that
+ * takes one to the other the shortest way. */
+static void turn(vec *i, vec *o, vec s, vec to)
+{
+    vec d = minus(*i, *o), both = sum(s, to);
+    real k = dot(d, to) / (dot(s, s) + dot(s, to));
+    d = (vec){d.x - k * both.x, d.y - k * both.y, d.z - k * both.z};
+    *i = (vec){(to.x + d.x) / 2, (to.y + d.y) / 2, (to.z + d.z) / 2};
+    *o = (vec){(to.x - d.x) / 2, (to.y - d.y) / 2, (to.z - d.z) / 2};
+}
+
+/* What the network sees of an edited material in place of i and o, and of their angles. */
+static void warp(const hnbrdf_model_desc *desc, const hnbrdf_material *m, vec *i, vec *o, angles *a)
+{
+    vec s = sum(*i, *o), h = fitted_half(m, a->h);
+    real length = real_sqrt(dot(s, s));
+    a->h = h;
+    a->sine = real_sqrt(h.x * h.x + h.y * h.y);
+    a->tan2 = (h.x * h.x + h.y * h.y) / (h.z * h.z);
+    if (desc->encoding == HNBRDF_ENCODING_DIRECTIONS)
+        turn(i, o, s, (vec){h.x * length, h.y * length, h.z * length});
+}
+
+/* eta0, raised until the reflectance at normal incidence of eta is at most 16 times its own. */
+static real fitted_eta(const hnbrdf_material *m, int k)
+{
+    real r = ((real)m->eta[k] - 1) / ((real)m->eta[k] + 1) / 4, raised = (1 + r) / (1 - r);
+    return raised > m->fitted.eta[k] ? raised : m->fitted.eta[k];
+}
+
+static int is_edited(const hnbrdf_model_desc *desc, const hnbrdf_material *m)
+{
+    return desc->kind == HNBRDF_KIND_HYBRID && m->fitted.alpha[0] != 0.0f &&
+           (memcmp(m->kd, m->fitted.kd, sizeof m->kd) != 0 ||
+            memcmp(m->eta, m->fitted.eta, sizeof m->eta) != 0 ||
+            memcmp(m->alpha, m->fitted.alpha, sizeof m->alpha) != 0);
+}
+
+/* Both parts of one channel of an edited material: what the correction less the floor is
+ * multiplied by, and kd above 4 times the fitted one, over pi; *f_a with kd up to that. specular: D
+ * G G over 4 wi.z wo.z of the material, fitted_specular: of the fitted one at the warped h. */
+typedef struct edit {
+    real ratio, added;
+} edit;
+
+static edit edit_of(const hnbrdf_material *m, int k, real c, real specular, real fitted_specular,
+                    real *f_a)
+{
+    real kd0 = m->fitted.kd[k], kd = m->kd[k] < 4 * kd0 ? (real)m->kd[k] : 4 * kd0;
+    real fitted = kd0 / pi() + F(fitted_eta(m, k), c) * fitted_specular;
+    *f_a = kd / pi() + F(m->eta[k], c) * specular;
+    return (edit){limited(*f_a / fitted, 0, HNBRDF_MAX_VALUE), (m->kd[k] - kd) / pi()};
+}
+
 void oracle_evaluate(const hnbrdf_model_desc *desc, const hnbrdf_material *material,
                      const float wi[3], const float wo[3], oracle_point *point)
 {
@@ -220,26 +289,39 @@ void oracle_evaluate(const hnbrdf_model_desc *desc, const hnbrdf_material *mater
     point->pdf = oracle_pdf(desc->kind, material, wi, wo);
 
     real x[6] = {0}, out[6] = {0};
+    const int edited = is_edited(desc, material);
+    angles seen = a;
     if (desc->kind != HNBRDF_KIND_GGX) {
-        encode(desc->encoding, i, o, &a, x);
+        vec seen_i = i, seen_o = o;
+        if (edited)
+            warp(desc, material, &seen_i, &seen_o, &seen);
+        encode(desc->encoding, seen_i, seen_o, &seen, x);
         network(desc, material->latent, x, out);
     }
     for (int k = 0; k < 6; k++) {
         point->encoded[k] = (double)x[k];
         point->outputs[k] = (double)out[k];
     }
-    real gg = G1(i, ax, ay) * G1(o, ax, ay) / (4 * i.z * o.z), d = D(a.h, ax, ay);
+    real gg = G1(i, ax, ay) * G1(o, ax, ay) / (4 * i.z * o.z), d = D(a.h, ax, ay), before = 0;
+    if (edited) {
+        real bx = material->fitted.alpha[0], by = material->fitted.alpha[1];
+        before = D(seen.h, bx, by) * G1(i, bx, by) * G1(o, bx, by) / (4 * i.z * o.z);
+    }
     for (int k = 0; k < 3; k++) {
         real f_a = neural ? 0 : (real)material->kd[k] / pi() + F(material->eta[k], a.c) * d * gg;
         real f = f_a;
+        edit change = {1, 0};
+        point->analytic[k] = (double)limited(f_a, 0, HNBRDF_MAX_VALUE);
+        if (edited)
+            change = edit_of(material, k, a.c, d * gg, before, &f_a);
         if (hybrid || neural) {
             real scale = desc->scale == 0.0f ? 1 : (real)desc->scale;
-            f = real_exp(limited(scale * out[k] + desc->shift, -limit, limit));
+            f = change.ratio * real_exp(limited(scale * out[k] + desc->shift, -limit, limit));
             if (hybrid)
-                f += f_a / (1 + real_exp(limited(-out[3 + k], -limit, limit)));
+                f += f_a / (1 + real_exp(limited(-out[3 + k], -limit, limit))) + change.added;
         }
-        real floor = hybrid || neural ? (real)desc->floor : 0;
-        point->analytic[k] = (double)limited(f_a, 0, HNBRDF_MAX_VALUE);
+        point->ratio[k] = (double)change.ratio;
+        real floor = hybrid || neural ? change.ratio * (real)desc->floor : 0;
         point->scale[k] = (double)limited(f, 0, HNBRDF_MAX_VALUE);
         point->value[k] = (double)limited(f - floor, 0, HNBRDF_MAX_VALUE);
     }

@@ -21,9 +21,11 @@ typedef struct oracle_point {
     double encoded[6];  /* what the network sees; 0 for HNBRDF_KIND_GGX */
     double outputs[6];  /* of the network: c, g */
     double analytic[3]; /* f_a; 0 for HNBRDF_KIND_NEURAL */
+    double ratio[3];    /* what an edit multiplies the correction less the floor by; else 1 */
     double value[3];    /* f */
-    /* exp(s c + m) + sigmoid(g) f_a, or f_a for ggx: what the floor is taken from, hence    what
-     * errors of f are to be compared with where little is left of it */
+    /* exp(s c + m) + sigmoid(g) f_a, or f_a for ggx, edited materials' as they carry it along: what
+     * the floor is taken from, hence what errors of f are to be compared with where little is left
+     * of it */
     double scale[3];
     double pdf; /* oracle_pdf() */
 } oracle_point;

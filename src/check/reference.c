@@ -3,7 +3,7 @@
 
 #include "core/encoding.h"
 #include "base/error.h"
-#include "core/frame.h"
+#include "core/prepared.h"
 #include "check/half.h"
 
 #include <stdlib.h>
@@ -64,14 +64,11 @@ void check_reference_close(check_reference *reference)
     memset(reference, 0, sizeof *reference);
 }
 
-static void encode(const hnbrdf_model_desc *desc, hnbrdf_frame frame, const float pair[6],
-                   float x[6])
+static void encode(const hnbrdf_prepared *prepared, const float pair[6], float x[6])
 {
-    float i[3], o[3];
-    hnbrdf_to_tangent(frame, pair, i);
-    hnbrdf_to_tangent(frame, pair + 3, o);
-    hnbrdf_pair p = hnbrdf_pair_make(i, o);
-    hnbrdf_encode(desc->encoding, &p, x);
+    hnbrdf_pair p = hnbrdf_pair_in_frame(prepared, pair, pair + 3);
+    hnbrdf_pair seen = hnbrdf_prepared_seen(prepared, &p);
+    hnbrdf_encode(prepared->model->desc.encoding, &seen, x);
 }
 
 void check_reference_fill(const hnbrdf_model *model, const hnbrdf_material *material,
@@ -82,14 +79,15 @@ void check_reference_fill(const hnbrdf_model *model, const hnbrdf_material *mate
         half ? check_half_network : hnbrdf_network;
     void (*eval)(const hnbrdf_model *, const hnbrdf_material *, const float *, const float *,
                  float *) = half ? check_half_eval : hnbrdf_eval;
-    hnbrdf_frame frame = hnbrdf_frame_of(material);
+    hnbrdf_prepared prepared;
+    hnbrdf_prepare_analytic(model, material, &prepared);
     float pair[6] = {0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 1.0f};
     for (size_t k = 0; k < reference->count; k++) {
         reference->classes[k] = check_pair_draw(rng, k, pair);
         memcpy(reference->pairs + 6 * k, pair, sizeof pair);
         if (model->desc.kind != HNBRDF_KIND_GGX) {
             float *encoded = reference->stages[CHECK_STAGE_ENCODING] + 6 * k;
-            encode(&model->desc, frame, pair, encoded);
+            encode(&prepared, pair, encoded);
             network(&model->desc, material->latent, encoded,
                     reference->stages[CHECK_STAGE_NETWORK] + 6 * k);
         }

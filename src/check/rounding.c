@@ -79,8 +79,9 @@ static void slopes_of_outputs(const hnbrdf_model_desc *desc, const oracle_point 
     double exponent = scale * point->outputs[channel] + (double)desc->shift;
     double size = fmax(point->scale[channel], 1e-38);
     memset(slopes, 0, WIDEST * sizeof *slopes);
-    slopes[channel] =
-        fabs(exponent) < (double)HNBRDF_MAX_EXPONENT ? scale * exp(exponent) / size : 0.0;
+    slopes[channel] = fabs(exponent) < (double)HNBRDF_MAX_EXPONENT
+                          ? scale * point->ratio[channel] * exp(exponent) / size
+                          : 0.0;
     if (desc->kind == HNBRDF_KIND_HYBRID) {
         double gate = 1.0 / (1.0 + exp(-point->outputs[3 + channel]));
         slopes[3 + channel] = gate * (1.0 - gate) * point->analytic[channel] / size;

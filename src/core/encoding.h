@@ -4,7 +4,7 @@
 #ifndef HNBRDF_CORE_ENCODING_H
 #define HNBRDF_CORE_ENCODING_H
 
-#include "core/microfacet.h"
+#include "core/carry.h"
 #include "hnbrdf/hnbrdf.h"
 
 /* The table of encodings, one row each. What depends on which encodings there are is made from it:
@@ -51,7 +51,7 @@ static inline void hnbrdf_encode_half_difference(const hnbrdf_pair *p, float x[6
     x[2] = p->c;
     x[3] = sqrtf((0.25f * d2) / (1.0f + p->c));
     x[4] = p->wi[2] * p->wo[2];
-    x[5] = p->sz;
+    x[5] = p->wi[2] + p->wo[2];
 }
 
 /* 1 - c of the difference angle from |wi - wo|^2 = 4 (1 - c^2). */
@@ -98,6 +98,17 @@ static inline void hnbrdf_encode_angles_anisotropic(const hnbrdf_pair *p, float 
     float length = sqrtf(p->length2);
     x[1] = fabsf(p->sx) / length;
     x[3] = fabsf(p->sy) / length;
+}
+
+/* The pair of an edited material as its network sees it, the tangents of s times x and y: the
+ * angles of incidence and difference stay, but for what sees the directions themselves. */
+static inline hnbrdf_pair hnbrdf_seen(hnbrdf_encoding encoding, const hnbrdf_pair *p, float x,
+                                      float y)
+{
+    hnbrdf_pair q = hnbrdf_warped(p, x, y);
+    if (encoding == HNBRDF_ENCODING_DIRECTIONS)
+        hnbrdf_turn_pair(p, &q);
+    return q;
 }
 
 /* An encoding that is none of these leaves x alone; no model has one. */

@@ -10,6 +10,23 @@
 
 /* ---- One pair -------------------------------------------------------------------------------- */
 
+/* The same of an edited material; only a hybrid has those. */
+KERNEL_APART void edited_single(const hnbrdf_prepared *prepared, const float wi[3],
+                                const float wo[3], float f[3])
+{
+    const hnbrdf_model_desc *desc = &prepared->model->desc;
+    float edited[4], fitted[4], out[HNBRDF_MAX_HIDDEN], x[HNBRDF_ENCODING_SIZE];
+    hnbrdf_pair pair = hnbrdf_pair_in_frame(prepared, wi, wo);
+    hnbrdf_pair seen = hnbrdf_prepared_seen(prepared, &pair);
+    hnbrdf_encode(desc->encoding, &seen, x);
+    network_single(prepared, x, out);
+    hnbrdf_prepared_edited(prepared, &pair, &seen, edited, fitted);
+    for (int c = 0; c < 3; c++)
+        f[c] =
+            hnbrdf_compose_edited(out[c], out[c + 3], edited[c], fitted[c], prepared->edit.added[c],
+                                  desc->scale, desc->shift, desc->floor);
+}
+
 /* The network first: its sums are one long wait, and f_a is worked out in its shadow. */
 static void kernel_single(const hnbrdf_prepared *prepared, const float wi[3], const float wo[3],
                           float f[3])
@@ -17,6 +34,10 @@ static void kernel_single(const hnbrdf_prepared *prepared, const float wi[3], co
     const hnbrdf_model_desc *desc = &prepared->model->desc;
     const float scale = desc->scale, shift = desc->shift, lowest = desc->floor;
     float f_a[4], value[4], out[HNBRDF_MAX_HIDDEN]; /* the fourth channel is filling */
+    if (prepared->edited) {
+        edited_single(prepared, wi, wo, f);
+        return;
+    }
     hnbrdf_pair pair = hnbrdf_pair_in_frame(prepared, wi, wo);
     if (desc->kind != HNBRDF_KIND_GGX) {
         float x[HNBRDF_ENCODING_SIZE];
@@ -76,9 +97,19 @@ typedef struct block_materials {
     const hnbrdf_material *held;   /* what `prepared` was made from, or NULL */
     hnbrdf_prepared prepared;
     lane_materials by_lane;
+    lane_edits edits;
     lane_lobes lobes;
     int sampled; /* 1: the lobes are wanted */
+    int edited;  /* 1: some lane is, and `edits` is set */
 } block_materials;
+
+/* That of lane l. */
+static void take_material(block_materials *m, int l, const hnbrdf_prepared *prepared)
+{
+    put_material(prepared, l, &m->by_lane);
+    if (m->sampled)
+        put_lobes(prepared, l, &m->lobes);
+}
 
 static void begin_materials(const hnbrdf_materials *of, int sampled, block_materials *m)
 {
@@ -86,11 +117,15 @@ static void begin_materials(const hnbrdf_materials *of, int sampled, block_mater
     m->held = NULL;
     m->sampled = sampled;
     m->shared = of->prepared;
+    m->edited = 0;
     if (!m->shared)
         return;
-    spread_material(m->shared, &m->by_lane);
-    for (int l = 0; l < LANES && sampled; l++)
-        put_lobes(m->shared, l, &m->lobes);
+    m->edited = m->shared->edited;
+    for (int l = 0; l < LANES; l++) {
+        take_material(m, l, m->shared);
+        if (m->edited)
+            put_edit(m->shared, l, &m->edits);
+    }
 }
 
 /* Those of items first to first + count of the batch. Where all lanes have the same one, that is
@@ -112,6 +147,10 @@ static void take_materials(block_materials *m, size_t first, size_t count, lane_
     if (same && m->held == own[0])
         return;
     m->held = same ? own[0] : NULL;
+    m->edited = 0;
+    for (int l = 0; l < LANES; l++)
+        m->edited |=
+            of->model->desc.kind == HNBRDF_KIND_HYBRID && hnbrdf_material_is_edited(own[l]);
     for (int l = 0; l < LANES; l++) {
         if (l == 0 && same)
             hnbrdf_prepare(of->model, own[0], &m->prepared);
@@ -120,12 +159,55 @@ static void take_materials(block_materials *m, size_t first, size_t count, lane_
             if (m->sampled)
                 hnbrdf_prepare_lobes(of->model, own[l], &m->prepared);
         }
-        put_material(&m->prepared, l, &m->by_lane);
-        if (m->sampled)
-            put_lobes(&m->prepared, l, &m->lobes);
+        take_material(m, l, &m->prepared);
+        if (m->edited)
+            put_edit(&m->prepared, l, &m->edits);
         for (int i = 0; i < of->model->desc.latent && !same; i++)
             b->x[i][l] = own[l]->latent[i];
     }
+}
+
+/* b->out of what is encoded in b->x behind the latent codes. */
+static void block_network(const hnbrdf_model *model, const block_materials *m, lane_pairs *b)
+{
+    const int latent = model->desc.latent;
+    if (m->shared)
+        network_folded(m->shared, b->x + latent, b->out);
+    else
+        network_lanes(model, model->packed[0], latent + HNBRDF_ENCODING_SIZE, b->x,
+                      model->packed_biases[0], b->out);
+}
+
+KERNEL_APART void evaluate_edited_lanes(const hnbrdf_model *model, const block_materials *m,
+                                        lane_pairs *b)
+{
+    const hnbrdf_model_desc *desc = &model->desc;
+    lane_pairs seen;
+    seen_lanes(desc->encoding, &m->edits, b, &seen);
+    edited_lanes(&m->by_lane, &m->edits, b, &seen);
+    encode_lanes(desc->encoding, &seen, b->x + desc->latent);
+    block_network(model, m, b);
+    compose_edited_lanes(desc, &m->edits, &seen, b);
+}
+
+/* Everything between gather and scatter. */
+KERNEL_APART void evaluate_lanes(const hnbrdf_model *model, const block_materials *m, lane_pairs *b)
+{
+    const hnbrdf_model_desc *desc = &model->desc;
+    make_pairs(&m->by_lane, b);
+    if (m->edited) {
+        evaluate_edited_lanes(model, m, b);
+        return;
+    }
+    if (desc->kind != HNBRDF_KIND_NEURAL)
+        analytic_lanes(&m->by_lane, b);
+    if (desc->kind == HNBRDF_KIND_GGX) {
+        finish_lanes(b);
+        return;
+    }
+    encode_lanes(desc->encoding, b, b->x + desc->latent);
+    block_network(model, m, b);
+    compose_lanes(desc, b);
 }
 
 static void kernel_eval(const hnbrdf_materials *of, const hnbrdf_pairs *pairs)
@@ -137,7 +219,7 @@ static void kernel_eval(const hnbrdf_materials *of, const hnbrdf_pairs *pairs)
         size_t count = smaller(LANES, pairs->count - k);
         take_materials(&materials, k, count, &block);
         gather(pairs, k, count, &block);
-        evaluate_lanes(of->model, materials.shared, &materials.by_lane, &block);
+        evaluate_lanes(of->model, &materials, &block);
         scatter(pairs, k, count, &block);
     }
 }
@@ -182,7 +264,7 @@ static void kernel_sample(const hnbrdf_materials *of, const hnbrdf_draws *draws)
             block.above[l] &= pdf[l] > 0.0f;
         memcpy(block.wi, wi, sizeof wi);
         memcpy(block.wo, wo, sizeof wo);
-        evaluate_lanes(of->model, materials.shared, &materials.by_lane, &block);
+        evaluate_lanes(of->model, &materials, &block);
         for (size_t l = 0; l < count; l++) {
             hnbrdf_sample_result *to =
                 (hnbrdf_sample_result *)(void *)((char *)draws->results +

@@ -31,6 +31,28 @@ static void put_material(const hnbrdf_prepared *prepared, int l, lane_materials 
     }
 }
 
+/* What edits add to the materials of a block of which some are edited; the others have numbers that
+ * change no bit. */
+typedef struct lane_edits {
+    lane x, y, ax, ay, area, diffuse[3], e[3], carried[3], added[3];
+} lane_edits;
+
+static void put_edit(const hnbrdf_prepared *prepared, int l, lane_edits *m)
+{
+    const hnbrdf_prepared_edit edit = hnbrdf_edit_of(prepared);
+    m->x[l] = edit.warp[0];
+    m->y[l] = edit.warp[1];
+    m->ax[l] = edit.alpha[0];
+    m->ay[l] = edit.alpha[1];
+    m->area[l] = edit.area;
+    for (int c = 0; c < 3; c++) {
+        m->diffuse[c][l] = edit.diffuse[c];
+        m->e[c][l] = edit.e[c];
+        m->carried[c][l] = edit.carried[c];
+        m->added[c][l] = edit.added[c];
+    }
+}
+
 /* The sampling lobes of a block. */
 typedef struct lane_lobes {
     lane ax[HNBRDF_LOBES], ay[HNBRDF_LOBES], area[HNBRDF_LOBES], scale[HNBRDF_LOBES];
@@ -244,6 +266,56 @@ static void encode_lanes(hnbrdf_encoding encoding, lane_pairs *restrict b, lane 
 #undef ENCODE_CASE
 }
 
+/* seen: the pairs as the networks of edited materials see them. */
+KERNEL_APART void seen_lanes(hnbrdf_encoding encoding, const lane_edits *restrict m,
+                             const lane_pairs *restrict b, lane_pairs *restrict seen)
+{
+    memcpy(seen, b, offsetof(lane_pairs, f));
+    for (int l = 0; l < LANES; l++) {
+        const hnbrdf_pair p = pair_of(b, l), q = hnbrdf_warped(&p, m->x[l], m->y[l]);
+        seen->sx[l] = q.sx;
+        seen->sy[l] = q.sy;
+        seen->sz[l] = q.sz;
+    }
+    if (encoding != HNBRDF_ENCODING_DIRECTIONS)
+        return;
+    for (int l = 0; l < LANES; l++) {
+        const hnbrdf_pair p = pair_of(b, l);
+        hnbrdf_pair q = pair_of(seen, l);
+        hnbrdf_turn_pair(&p, &q);
+        for (int k = 0; k < 3; k++) {
+            seen->wi[k][l] = q.wi[k];
+            seen->wo[k][l] = q.wo[k];
+        }
+    }
+}
+
+/* As hnbrdf_prepared_edited(): b->f and seen->f. */
+KERNEL_APART void edited_lanes(const lane_materials *restrict m, const lane_edits *restrict edits,
+                               lane_pairs *restrict b, lane_pairs *restrict seen)
+{
+    for (int l = 0; l < LANES; l++) {
+        const hnbrdf_pair p = pair_of(b, l), q = pair_of(seen, l);
+        float now = hnbrdf_specular_of_area(&p, m->ax[l], m->ay[l], m->area[l]);
+        float before = hnbrdf_fitted_specular(&p, &q, edits->ax[l], edits->ay[l], edits->area[l]);
+        for (int c = 0; c < 3; c++) {
+            b->f[c][l] = hnbrdf_microfacet_of(edits->carried[c][l], m->e[c][l], p.c, now);
+            seen->f[c][l] = hnbrdf_microfacet_of(edits->diffuse[c][l], edits->e[c][l], p.c, before);
+        }
+    }
+}
+
+static void compose_edited_lanes(const hnbrdf_model_desc *desc, const lane_edits *edits,
+                                 const lane_pairs *seen, lane_pairs *b)
+{
+    const float scale = desc->scale, shift = desc->shift, lowest = desc->floor;
+    for (int c = 0; c < 3; c++)
+        for (int l = 0; l < LANES; l++)
+            b->f[c][l] =
+                hnbrdf_compose_edited(b->out[c][l], b->out[c + 3][l], b->f[c][l], seen->f[c][l],
+                                      edits->added[c][l], scale, shift, lowest);
+}
+
 static void compose_lanes(const hnbrdf_model_desc *desc, lane_pairs *b)
 {
     const float scale = desc->scale, shift = desc->shift, lowest = desc->floor;
@@ -256,27 +328,4 @@ static void compose_lanes(const hnbrdf_model_desc *desc, lane_pairs *b)
         for (int c = 0; c < 3; c++)
             for (int l = 0; l < LANES; l++)
                 b->f[c][l] = hnbrdf_compose_neural(b->out[c][l], scale, shift, lowest);
-}
-
-/* Everything between gather and scatter. shared: the one material of all lanes, or NULL, then b->x
- * begins with the latent codes. */
-KERNEL_APART void evaluate_lanes(const hnbrdf_model *model, const hnbrdf_prepared *shared,
-                                 const lane_materials *m, lane_pairs *b)
-{
-    const hnbrdf_model_desc *desc = &model->desc;
-    lane *encoded = b->x + desc->latent;
-    make_pairs(m, b);
-    if (desc->kind != HNBRDF_KIND_NEURAL)
-        analytic_lanes(m, b);
-    if (desc->kind == HNBRDF_KIND_GGX) {
-        finish_lanes(b);
-        return;
-    }
-    encode_lanes(desc->encoding, b, encoded);
-    if (shared)
-        network_folded(shared, encoded, b->out);
-    else
-        network_lanes(model, model->packed[0], desc->latent + HNBRDF_ENCODING_SIZE, b->x,
-                      model->packed_biases[0], b->out);
-    compose_lanes(desc, b);
 }

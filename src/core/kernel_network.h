@@ -3,6 +3,7 @@
 #include "core/kernel.h"
 
 #include <stdint.h>
+#include <stddef.h>
 #include <string.h>
 
 enum { LANES = HNBRDF_LANES };

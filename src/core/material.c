@@ -43,21 +43,44 @@ static hnbrdf_result check_lobes(const hnbrdf_lobes *lobes, hnbrdf_error *error)
     return HNBRDF_OK;
 }
 
-hnbrdf_result hnbrdf_material_check(const hnbrdf_material *material, hnbrdf_error *error)
+/* names: of the three fields. */
+static hnbrdf_result check_analytic(const char *const names[3], const float kd[3],
+                                    const float eta[3], const float alpha[2], hnbrdf_error *error)
 {
     hnbrdf_result result;
     for (int c = 0; c < 3; c++)
-        if ((result = range("kd", c, material->kd[c], 0.0f, 1.0f, error)))
+        if ((result = range(names[0], c, kd[c], 0.0f, 1.0f, error)))
             return result;
     for (int c = 0; c < 3; c++)
-        if (!(material->eta[c] > 1.0f && material->eta[c] <= HNBRDF_MAX_ETA))
+        if (!(eta[c] > 1.0f && eta[c] <= HNBRDF_MAX_ETA))
             return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT,
-                               "eta[%d] is %s, expected above 1, at most %s", c,
-                               HNBRDF_NUMBER(material->eta[c]), HNBRDF_NUMBER(HNBRDF_MAX_ETA));
+                               "%s[%d] is %s, expected above 1, at most %s", names[1], c,
+                               HNBRDF_NUMBER(eta[c]), HNBRDF_NUMBER(HNBRDF_MAX_ETA));
     for (int c = 0; c < 2; c++)
-        if ((result =
-                 range("alpha", c, material->alpha[c], HNBRDF_MIN_ALPHA, HNBRDF_MAX_ALPHA, error)))
+        if ((result = range(names[2], c, alpha[c], HNBRDF_MIN_ALPHA, HNBRDF_MAX_ALPHA, error)))
             return result;
+    return HNBRDF_OK;
+}
+
+static int is_zero(const hnbrdf_fitted *fitted)
+{
+    float sum = 0.0f;
+    for (int c = 0; c < 3; c++)
+        sum += fabsf(fitted->kd[c]) + fabsf(fitted->eta[c]);
+    return sum + (fabsf(fitted->alpha[0]) + fabsf(fitted->alpha[1])) == 0.0f;
+}
+
+hnbrdf_result hnbrdf_material_check(const hnbrdf_material *material, hnbrdf_error *error)
+{
+    static const char *const names[3] = {"kd", "eta", "alpha"};
+    static const char *const fitted_names[3] = {"fitted.kd", "fitted.eta", "fitted.alpha"};
+    const hnbrdf_fitted *fitted = &material->fitted;
+    hnbrdf_result result =
+        check_analytic(names, material->kd, material->eta, material->alpha, error);
+    if (!result && !is_zero(fitted))
+        result = check_analytic(fitted_names, fitted->kd, fitted->eta, fitted->alpha, error);
+    if (result)
+        return result;
     if (!isfinite(material->rotation))
         return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT, "rotation is %s, expected a finite angle",
                            HNBRDF_NUMBER(material->rotation));
@@ -67,6 +90,17 @@ hnbrdf_result hnbrdf_material_check(const hnbrdf_material *material, hnbrdf_erro
                                "latent[%d] is %s, expected a finite number", i,
                                HNBRDF_NUMBER(material->latent[i]));
     return check_lobes(&material->lobes, error);
+}
+
+int hnbrdf_material_is_edited(const hnbrdf_material *material)
+{
+    const hnbrdf_fitted *fitted = &material->fitted;
+    int differ = 0;
+    for (int c = 0; c < 3; c++)
+        differ |= material->kd[c] != fitted->kd[c] || material->eta[c] != fitted->eta[c];
+    for (int c = 0; c < 2; c++)
+        differ |= material->alpha[c] != fitted->alpha[c];
+    return differ && fitted->alpha[0] != 0.0f;
 }
 
 /* Never outside its two ends, whatever rounding does; a where both are equal. */
@@ -129,6 +163,29 @@ static void mix_lobes(const hnbrdf_lobes *a, const hnbrdf_lobes *b, float t, hnb
         out->share[1][j] = hnbrdf_clamp(out->share[1][j], 0.0f, 1.0f - out->share[0][j]);
 }
 
+static void mix_analytic(const hnbrdf_fitted *a, const hnbrdf_fitted *b, float t,
+                         hnbrdf_fitted *out)
+{
+    for (int c = 0; c < 3; c++) {
+        out->kd[c] = mix_linear(a->kd[c], b->kd[c], t);
+        out->eta[c] = mix_eta(a->eta[c], b->eta[c], t);
+    }
+    for (int c = 0; c < 2; c++)
+        out->alpha[c] = mix_log(a->alpha[c], b->alpha[c], t);
+}
+
+static hnbrdf_fitted now_of(const hnbrdf_material *m)
+{
+    return (hnbrdf_fitted){{m->kd[0], m->kd[1], m->kd[2]},
+                           {m->eta[0], m->eta[1], m->eta[2]},
+                           {m->alpha[0], m->alpha[1]}};
+}
+
+static hnbrdf_fitted fitted_of(const hnbrdf_material *m)
+{
+    return m->fitted.alpha[0] != 0.0f ? m->fitted : now_of(m);
+}
+
 void hnbrdf_material_mix(const hnbrdf_material *a, const hnbrdf_material *b, float t,
                          hnbrdf_material *out)
 {
@@ -137,12 +194,15 @@ void hnbrdf_material_mix(const hnbrdf_material *a, const hnbrdf_material *b, flo
         *out = t >= 1.0f ? *b : *a;
         return;
     }
-    for (int c = 0; c < 3; c++) {
-        mixed.kd[c] = mix_linear(a->kd[c], b->kd[c], t);
-        mixed.eta[c] = mix_eta(a->eta[c], b->eta[c], t);
-    }
-    for (int c = 0; c < 2; c++)
-        mixed.alpha[c] = mix_log(a->alpha[c], b->alpha[c], t);
+    const hnbrdf_fitted now[2] = {now_of(a), now_of(b)}, then[2] = {fitted_of(a), fitted_of(b)};
+    hnbrdf_fitted made;
+    mix_analytic(&now[0], &now[1], t, &made);
+    memcpy(mixed.kd, made.kd, sizeof mixed.kd);
+    memcpy(mixed.eta, made.eta, sizeof mixed.eta);
+    memcpy(mixed.alpha, made.alpha, sizeof mixed.alpha);
+    memset(&mixed.fitted, 0, sizeof mixed.fitted);
+    if (a->fitted.alpha[0] != 0.0f || b->fitted.alpha[0] != 0.0f)
+        mix_analytic(&then[0], &then[1], t, &mixed.fitted);
     mixed.rotation = mix_rotation(a, b, t);
     for (int i = 0; i < HNBRDF_MAX_LATENT; i++)
         mixed.latent[i] = mix_linear(a->latent[i], b->latent[i], t);

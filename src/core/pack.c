@@ -29,17 +29,37 @@ static void widen(float range[2], float value)
     range[1] = value > range[1] ? value : range[1];
 }
 
-static void widen_by(hnbrdf_packing *packing, const hnbrdf_material *material)
+static void widen_analytic(hnbrdf_packing *packing, const float kd[3], const float eta[3],
+                           const float alpha[2])
 {
     for (int c = 0; c < 3; c++) {
-        widen(packing->kd, material->kd[c]);
-        widen(packing->eta, material->eta[c]);
+        widen(packing->kd, kd[c]);
+        widen(packing->eta, eta[c]);
     }
     for (int c = 0; c < 2; c++)
-        widen(packing->alpha, material->alpha[c]);
+        widen(packing->alpha, alpha[c]);
+    packing->anisotropic |= packing->analytic && alpha[0] != alpha[1];
+}
+
+static int any_edited(const hnbrdf_model *model, const int *materials, int count)
+{
+    int edited = 0;
+    for (int k = 0; k < count; k++) {
+        const hnbrdf_material *material =
+            hnbrdf_model_material(model, materials ? materials[k] : k);
+        edited |= material && hnbrdf_material_is_edited(material);
+    }
+    return edited;
+}
+
+static void widen_by(hnbrdf_packing *packing, const hnbrdf_material *material)
+{
+    const hnbrdf_fitted *fitted = &material->fitted;
+    widen_analytic(packing, material->kd, material->eta, material->alpha);
+    if (packing->edited && fitted->alpha[0] != 0.0f)
+        widen_analytic(packing, fitted->kd, fitted->eta, fitted->alpha);
     for (int i = 0; i < packing->latent; i++)
         widen(packing->latent_range[i], material->latent[i]);
-    packing->anisotropic |= packing->analytic && material->alpha[0] != material->alpha[1];
     packing->rotated |= material->rotation != 0.0f;
 }
 
@@ -52,6 +72,8 @@ hnbrdf_result hnbrdf_packing_init(const hnbrdf_model *model, const int *material
     int count = materials ? material_count : desc.material_count;
     hnbrdf_packing made = {.format = format,
                            .analytic = desc.kind != HNBRDF_KIND_NEURAL,
+                           .edited = desc.kind == HNBRDF_KIND_HYBRID &&
+                                     any_edited(model, materials, count),
                            .latent = desc.kind == HNBRDF_KIND_GGX ? 0 : desc.latent};
     if (count < 1)
         return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT,
@@ -167,6 +189,15 @@ void hnbrdf_texel_layout_make(const hnbrdf_packing *packing, hnbrdf_texel_layout
                                       255.0f - (float)ROTATION_ZERO, -unit, unit);
         layout->shortest2 = 1e-4f * (unit * unit);
     }
+    if (packing->analytic && packing->edited) {
+        const hnbrdf_field *fields[] = {&layout->kd, &layout->r, &layout->alpha};
+        hnbrdf_field *fitted[] = {&layout->fitted_kd, &layout->fitted_r, &layout->fitted_alpha};
+        for (int k = 0; k < 3; k++) {
+            *fitted[k] = *fields[k];
+            fitted[k]->first = next;
+            next += fitted[k]->count;
+        }
+    }
     for (int i = 0; i < packing->latent; i++)
         layout->latent[i] =
             make_field(packing, &next, 1, HNBRDF_CURVE_LINEAR, packing->latent_range[i][0],
@@ -176,8 +207,9 @@ void hnbrdf_texel_layout_make(const hnbrdf_packing *packing, hnbrdf_texel_layout
 
 int hnbrdf_packing_texels(const hnbrdf_packing *packing)
 {
-    int channels = (packing->analytic ? (packing->anisotropic ? 8 : 7) : 0) +
-                   (packing->rotated ? 2 : 0) + packing->latent;
+    int analytic = packing->analytic ? (packing->anisotropic ? 8 : 7) : 0;
+    int channels =
+        analytic * (packing->edited ? 2 : 1) + (packing->rotated ? 2 : 0) + packing->latent;
     return (channels + 3) / 4;
 }
 
@@ -199,18 +231,43 @@ static void store(const hnbrdf_packing *packing, void *texels, int channel,
     bytes[channel] = (unsigned char)(hnbrdf_clamp(code, 0.0f, 1.0f) * 255.0f + 0.5f);
 }
 
+/* kd, eta and alpha of a material or of what it was fitted with. */
+typedef struct stored_fields {
+    const hnbrdf_field *kd, *r, *alpha;
+} stored_fields;
+
+static stored_fields fields_of(const hnbrdf_texel_layout *layout, int fitted)
+{
+    return fitted ? (stored_fields){&layout->fitted_kd, &layout->fitted_r, &layout->fitted_alpha}
+                  : (stored_fields){&layout->kd, &layout->r, &layout->alpha};
+}
+
+static void store_analytic(const hnbrdf_packing *packing, void *texels, stored_fields fields,
+                           const float kd[3], const float eta[3], const float alpha[2])
+{
+    for (int c = 0; c < fields.kd->count; c++)
+        store(packing, texels, fields.kd->first + c, fields.kd, kd[c]);
+    for (int c = 0; c < fields.r->count; c++)
+        store(packing, texels, fields.r->first + c, fields.r, amplitude(eta[c]));
+    for (int c = 0; c < fields.alpha->count; c++)
+        store(packing, texels, fields.alpha->first + c, fields.alpha, alpha[c]);
+}
+
 void hnbrdf_material_pack(const hnbrdf_packing *packing, const hnbrdf_material *material,
                           void *texels)
 {
     hnbrdf_texel_layout layout;
     hnbrdf_texel_layout_make(packing, &layout);
     memset(texels, 0, (size_t)hnbrdf_packing_texels(packing) * hnbrdf_texel_bytes(packing->format));
-    for (int c = 0; c < layout.kd.count; c++)
-        store(packing, texels, layout.kd.first + c, &layout.kd, material->kd[c]);
-    for (int c = 0; c < layout.r.count; c++)
-        store(packing, texels, layout.r.first + c, &layout.r, amplitude(material->eta[c]));
-    for (int c = 0; c < layout.alpha.count; c++)
-        store(packing, texels, layout.alpha.first + c, &layout.alpha, material->alpha[c]);
+    const hnbrdf_fitted *fitted = &material->fitted;
+    store_analytic(packing, texels, fields_of(&layout, 0), material->kd, material->eta,
+                   material->alpha);
+    if (fitted->alpha[0] != 0.0f)
+        store_analytic(packing, texels, fields_of(&layout, 1), fitted->kd, fitted->eta,
+                       fitted->alpha);
+    else
+        store_analytic(packing, texels, fields_of(&layout, 1), material->kd, material->eta,
+                       material->alpha);
     if (layout.rotation.count > 0) {
         const hnbrdf_field *field = &layout.rotation;
         double angle = isfinite(material->rotation) ? (double)material->rotation : 0.0;
@@ -229,22 +286,30 @@ static float decode(const hnbrdf_field *field, float code)
     return hnbrdf_clamp(from_curve(field->curve, value), field->low, field->high);
 }
 
+static void decode_analytic(const float *channels, stored_fields fields, float kd[3], float eta[3],
+                            float alpha[2])
+{
+    for (int c = 0; c < fields.kd->count; c++)
+        kd[c] = decode(fields.kd, channels[fields.kd->first + c]);
+    for (int c = 0; c < fields.r->count; c++) {
+        float r = decode(fields.r, channels[fields.r->first + c]);
+        eta[c] = (1.0f + r) / (1.0f - r);
+    }
+    for (int c = 0; c < fields.alpha->count; c++)
+        alpha[c] = decode(fields.alpha, channels[fields.alpha->first + c]);
+    if (fields.alpha->count == 1)
+        alpha[1] = alpha[0];
+}
+
 void hnbrdf_material_unpack_channels(const hnbrdf_packing *packing, const float *channels,
                                      hnbrdf_material *material)
 {
     hnbrdf_texel_layout layout;
     hnbrdf_texel_layout_make(packing, &layout);
     hnbrdf_material_init(material);
-    for (int c = 0; c < layout.kd.count; c++)
-        material->kd[c] = decode(&layout.kd, channels[layout.kd.first + c]);
-    for (int c = 0; c < layout.r.count; c++) {
-        float r = decode(&layout.r, channels[layout.r.first + c]);
-        material->eta[c] = (1.0f + r) / (1.0f - r);
-    }
-    for (int c = 0; c < layout.alpha.count; c++)
-        material->alpha[c] = decode(&layout.alpha, channels[layout.alpha.first + c]);
-    if (layout.alpha.count == 1)
-        material->alpha[1] = material->alpha[0];
+    hnbrdf_fitted *fitted = &material->fitted;
+    decode_analytic(channels, fields_of(&layout, 0), material->kd, material->eta, material->alpha);
+    decode_analytic(channels, fields_of(&layout, 1), fitted->kd, fitted->eta, fitted->alpha);
     if (layout.rotation.count > 0) {
         float cosine = decode(&layout.rotation, channels[layout.rotation.first]);
         float sine = decode(&layout.rotation, channels[layout.rotation.first + 1]);

@@ -24,6 +24,7 @@ typedef struct hnbrdf_field {
 typedef struct hnbrdf_texel_layout {
     /* r is the amplitude (eta - 1)/(eta + 1); the rotation is a multiple of (cosine, sine). */
     hnbrdf_field kd, r, alpha, rotation, latent[HNBRDF_MAX_LATENT];
+    hnbrdf_field fitted_kd, fitted_r, fitted_alpha;
     float shortest2; /* a squared (cosine, sine) below this has no angle and stands for none */
     int channels;
 } hnbrdf_texel_layout;

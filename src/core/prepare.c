@@ -1,6 +1,6 @@
 /* prepare.c: what is computed once a material, so that evaluation, sampling and the density need
  * not. */
-#include "core/compose.h"
+#include "core/carry.h"
 #include "core/kernel.h"
 #include "core/prepared.h"
 
@@ -18,6 +18,27 @@ float hnbrdf_specular_share(const hnbrdf_model *model, const hnbrdf_material *ma
     return hnbrdf_clamp(specular / (specular + diffuse), 0.2f, 0.9f);
 }
 
+static hnbrdf_prepared_edit prepare_edit(const hnbrdf_material *material)
+{
+    const hnbrdf_fitted *fitted = &material->fitted;
+    hnbrdf_prepared_edit edit;
+    for (int k = 0; k < 2; k++) {
+        edit.alpha[k] = fitted->alpha[k];
+        edit.warp[k] = hnbrdf_warp_factor(material->alpha[k], fitted->alpha[k]);
+    }
+    edit.area = hnbrdf_ggx_area(fitted->alpha[0], fitted->alpha[1]);
+    for (int c = 0; c < 4; c++) {
+        int channel = c < 3 ? c : 2;
+        float kd = material->kd[channel], fitted_kd = fitted->kd[channel];
+        edit.diffuse[c] = fitted_kd * HNBRDF_INV_PI;
+        edit.carried[c] = hnbrdf_carried_kd(kd, fitted_kd) * HNBRDF_INV_PI;
+        edit.added[c] = hnbrdf_added_kd(kd, fitted_kd) * HNBRDF_INV_PI;
+        edit.e[c] =
+            hnbrdf_fresnel_e(hnbrdf_carried_eta(material->eta[channel], fitted->eta[channel]));
+    }
+    return edit;
+}
+
 void hnbrdf_prepare_analytic(const hnbrdf_model *model, const hnbrdf_material *material,
                              hnbrdf_prepared *prepared)
 {
@@ -33,6 +54,10 @@ void hnbrdf_prepare_analytic(const hnbrdf_model *model, const hnbrdf_material *m
         prepared->diffuse[c] = material->kd[channel] * HNBRDF_INV_PI;
         prepared->e[c] = hnbrdf_fresnel_e(material->eta[channel]);
     }
+    prepared->edited =
+        model->desc.kind == HNBRDF_KIND_HYBRID && hnbrdf_material_is_edited(material);
+    if (prepared->edited)
+        prepared->edit = prepare_edit(material);
 }
 
 void hnbrdf_prepare_lobes(const hnbrdf_model *model, const hnbrdf_material *material,

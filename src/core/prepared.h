@@ -3,6 +3,7 @@
 #ifndef HNBRDF_CORE_PREPARED_H
 #define HNBRDF_CORE_PREPARED_H
 
+#include "core/encoding.h"
 #include "core/frame.h"
 #include "core/microfacet.h"
 #include "core/model.h"
@@ -40,6 +41,47 @@ static inline hnbrdf_pair hnbrdf_pair_in_frame(const hnbrdf_prepared *prepared, 
     hnbrdf_to_tangent(frame, wi, i);
     hnbrdf_to_tangent(frame, wo, o);
     return hnbrdf_pair_make(i, o);
+}
+
+/* The pair that the network sees: as it is, but of an edited material. */
+static inline hnbrdf_pair hnbrdf_prepared_seen(const hnbrdf_prepared *prepared,
+                                               const hnbrdf_pair *pair)
+{
+    const float *warp = prepared->edit.warp;
+    return prepared->edited ? hnbrdf_seen(prepared->model->desc.encoding, pair, warp[0], warp[1])
+                            : *pair;
+}
+
+/* f_a of the three channels, kd only as far as it carries the correction along; and f_a of the
+ * fitted material at the warped pair, the angles of incidence being those of `pair`. */
+static inline void hnbrdf_prepared_edited(const hnbrdf_prepared *prepared, const hnbrdf_pair *pair,
+                                          const hnbrdf_pair *warped, float edited[4],
+                                          float fitted[4])
+{
+    const hnbrdf_prepared_edit *edit = &prepared->edit;
+    float now =
+        hnbrdf_specular_of_area(pair, prepared->alpha[0], prepared->alpha[1], prepared->area);
+    float before = hnbrdf_fitted_specular(pair, warped, edit->alpha[0], edit->alpha[1], edit->area);
+    for (int c = 0; c < 4; c++) {
+        edited[c] = hnbrdf_microfacet_of(edit->carried[c], prepared->e[c], pair->c, now);
+        fitted[c] = hnbrdf_microfacet_of(edit->diffuse[c], edit->e[c], pair->c, before);
+    }
+}
+
+/* The edit of a material, or of an unedited one what changes no bit: for where both kinds are
+ * evaluated together. */
+static inline hnbrdf_prepared_edit hnbrdf_edit_of(const hnbrdf_prepared *prepared)
+{
+    hnbrdf_prepared_edit edit = {.warp = {1.0f, 1.0f},
+                                 .alpha = {prepared->alpha[0], prepared->alpha[1]},
+                                 .area = prepared->area};
+    if (prepared->edited)
+        return prepared->edit;
+    for (int c = 0; c < 4; c++) {
+        edit.diffuse[c] = edit.carried[c] = prepared->diffuse[c];
+        edit.e[c] = prepared->e[c];
+    }
+    return edit;
 }
 
 /* f_a of the three channels; the fourth fills a vector and repeats the third. */

@@ -16,7 +16,8 @@ enum {
     HNBRDF_TENSOR_ALPHA,
     HNBRDF_TENSOR_ROTATION,
     HNBRDF_TENSOR_LATENT,
-    HNBRDF_TENSOR_LOBES, /* scales, then the shares lobe by lobe */
+    HNBRDF_TENSOR_LOBES,  /* scales, then the shares lobe by lobe */
+    HNBRDF_TENSOR_FITTED, /* kd, eta, alpha */
     HNBRDF_TENSOR_COUNT
 };
 extern const char *const hnbrdf_tensor_names[HNBRDF_TENSOR_COUNT];

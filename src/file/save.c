@@ -123,13 +123,17 @@ static void put_metadata(sink *s, const hnbrdf_model_desc *desc)
     put_text(s, "}");
 }
 
-/* Lobes that no material has are left out. */
+/* Lobes that no material has are left out, and what materials were fitted with if none is
+ * edited. */
 static int is_written(const hnbrdf_model_desc *desc, int tensor)
 {
-    int fitted = 0;
-    for (int i = 0; i < desc->material_count && tensor == HNBRDF_TENSOR_LOBES; ++i)
-        fitted |= desc->materials[i].lobes.scale[0] != 0.0f;
-    return tensor != HNBRDF_TENSOR_LOBES || fitted;
+    int wanted = tensor != HNBRDF_TENSOR_LOBES && tensor != HNBRDF_TENSOR_FITTED;
+    for (int i = 0; i < desc->material_count && !wanted; ++i) {
+        const hnbrdf_material *material = &desc->materials[i];
+        wanted = tensor == HNBRDF_TENSOR_LOBES ? material->lobes.scale[0] != 0.0f
+                                               : hnbrdf_material_is_edited(material);
+    }
+    return wanted;
 }
 
 /* Returns the bytes of the tensor. */

@@ -66,6 +66,35 @@ static void put_eval_analytic(hnbrdf_printer *out, const hnbrdf_scene *s)
         hnbrdf_put(out, "    return vec3(0.0);\n}\n\n");
 }
 
+/* What an edit of a material comes to, and the pair that its network then sees. */
+static void put_edits(hnbrdf_printer *out, const hnbrdf_scene *s)
+{
+    hnbrdf_put(out, "hnbrdf_edit hnbrdf_scene_edit(hnbrdf_material m)\n{\n    return ");
+    hnbrdf_put(out, s->fixed ? "m.edit;\n}\n\n"
+                    : s->anisotropic
+                        ? "hnbrdf_edit_make(m.kd, m.eta, m.alpha, m.fitted);\n}\n\n"
+                        : "hnbrdf_edit_make(m.kd, m.eta, vec2(m.alpha), m.fitted);\n}\n\n");
+    hnbrdf_put(out,
+               "hnbrdf_pair hnbrdf_scene_seen(hnbrdf_edit edit, hnbrdf_pair p)\n{\n    return ");
+    hnbrdf_put(out, s->desc->encoding == HNBRDF_ENCODING_DIRECTIONS
+                        ? "hnbrdf_turn_pair(p, hnbrdf_warped(p, edit.warp));\n}\n\n"
+                        : "hnbrdf_warped(p, edit.warp);\n}\n\n");
+}
+
+/* In hnbrdf_eval(): f_a of what the material is and of what it was fitted with. */
+static void put_edited(hnbrdf_printer *out, const hnbrdf_scene *s)
+{
+    hnbrdf_put(out, "    hnbrdf_edit edit = hnbrdf_scene_edit(m);\n"
+                    "    hnbrdf_pair seen = hnbrdf_scene_seen(edit, p);\n");
+    hnbrdf_put(out, s->fixed ? "    float specular = hnbrdf_specular_of_area(p, m.alpha, m.area);\n"
+                               "    vec3 edited = hnbrdf_microfacet_of(edit.carried, m.e, p.c, "
+                               "specular);\n"
+                             : "    float specular = hnbrdf_specular(p, m.alpha);\n"
+                               "    vec3 edited = hnbrdf_microfacet_of(edit.carried, "
+                               "hnbrdf_fresnel_e(m.eta), p.c, specular);\n");
+    hnbrdf_put(out, "    vec3 fitted = hnbrdf_microfacet_fitted(p, seen, edit);\n");
+}
+
 static void put_eval(hnbrdf_printer *out, const hnbrdf_scene *s)
 {
     hnbrdf_put(out, "// f(wi, wo) in 1/sr without the cosine; 0 below the horizon.\n");
@@ -75,13 +104,16 @@ static void put_eval(hnbrdf_printer *out, const hnbrdf_scene *s)
         return;
     }
     int hybrid = s->desc->kind == HNBRDF_KIND_HYBRID;
+    if (s->edited)
+        put_edited(out, s);
     hnbrdf_put(out, "    vec3 x0, x1, c%s;\n", hybrid ? ", g" : "");
-    hnbrdf_put(out, "    HNBRDF_SCENE_ENCODE(p, x0, x1);\n");
+    hnbrdf_put(out, "    HNBRDF_SCENE_ENCODE(%s, x0, x1);\n", s->edited ? "seen" : "p");
     hnbrdf_put(out, "    hnbrdf_network(m, x0, x1, c%s);\n", hybrid ? ", g" : "");
     put_exponent(out, s);
     hnbrdf_put(out, "    return %s%s", factor(s),
-               hybrid ? "hnbrdf_compose_hybrid(exponent, g, hnbrdf_analytic(m, p), "
-                      : "hnbrdf_compose_neural(exponent, ");
+               s->edited ? "hnbrdf_compose_edited(exponent, g, edited, fitted, edit.added, "
+               : hybrid  ? "hnbrdf_compose_hybrid(exponent, g, hnbrdf_analytic(m, p), "
+                         : "hnbrdf_compose_neural(exponent, ");
     hnbrdf_put_constant(out, s, 2);
     hnbrdf_put(out, ");\n}\n");
 }
@@ -160,6 +192,8 @@ void hnbrdf_put_evaluate(hnbrdf_printer *out, const hnbrdf_scene *s)
         put_analytic(out, s);
     if (s->only == HNBRDF_GLSL_EVERYTHING)
         put_eval_analytic(out, s);
+    if (s->edited)
+        put_edits(out, s);
     put_eval(out, s);
     if (hnbrdf_scene_has_sampling(s)) {
         put_pdf(out, s);

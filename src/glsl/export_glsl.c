@@ -84,8 +84,9 @@ static void put_heading(hnbrdf_printer *out, const hnbrdf_scene *s)
                                                     : "single");
         hnbrdf_put(out, "//   cost       %zu multiplications per evaluation\n", s->multiplications);
     }
-    hnbrdf_put(out, "//   materials  %d%s%s\n", s->count,
-               s->anisotropic ? ", anisotropic" : ", isotropic", s->rotated ? ", rotated" : "");
+    hnbrdf_put(out, "//   materials  %d%s%s%s\n", s->count,
+               s->anisotropic ? ", anisotropic" : ", isotropic", s->rotated ? ", rotated" : "",
+               s->edited ? ", edited with their corrections" : "");
     if (s->packing)
         hnbrdf_put_texel_summary(out, s->packing);
     put_contents(out, s);
@@ -104,6 +105,8 @@ static void put_switches(hnbrdf_printer *out, const hnbrdf_scene *s)
 {
     static const char *const kinds[] = {"HYBRID", "NEURAL", "GGX"};
     hnbrdf_put(out, "#define HNBRDF_SCENE_%s\n", kinds[s->desc->kind]);
+    if (s->edited)
+        hnbrdf_put(out, "#define HNBRDF_SCENE_EDITED\n");
     if (hnbrdf_scene_has_network(s)) {
         char function[32];
         snprintf(function, sizeof function, "%s", hnbrdf_encoding_name(s->desc->encoding));

@@ -134,11 +134,25 @@ static int is_heading(const piece *p)
     return p->size > 7 && memcmp(p->text, "// ----", 7) == 0 && p->name_size == 0;
 }
 
+/* All of it, but for the section on edits where nothing is edited. */
+static void put_whole(hnbrdf_printer *out, int edited)
+{
+    const char *text = hnbrdf_hybrid_brdf_glsl, *end = text + strlen(text);
+    const char *edits = strstr(text, "// ---- Edits ");
+    const char *after = edits ? strstr(edits + 1, "\n// ---- ") : NULL;
+    if (edited || !after) {
+        hnbrdf_put_bytes(out, text, (size_t)(end - text));
+        return;
+    }
+    hnbrdf_put_bytes(out, text, (size_t)(edits - text));
+    hnbrdf_put_bytes(out, after + 1, (size_t)(end - after - 1));
+}
+
 void hnbrdf_put_library(hnbrdf_printer *out, const hnbrdf_scene *s, hnbrdf_put_scene_fn put_scene)
 {
     library lib;
     if (s->only == HNBRDF_GLSL_EVERYTHING && !s->fixed) {
-        hnbrdf_put_bytes(out, hnbrdf_hybrid_brdf_glsl, strlen(hnbrdf_hybrid_brdf_glsl));
+        put_whole(out, s->edited);
         return;
     }
     take_apart(&lib);

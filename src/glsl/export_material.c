@@ -2,6 +2,8 @@
  * constants. */
 #include "glsl/export_material.h"
 
+#include "core/prepared.h"
+
 void hnbrdf_put_material_struct(hnbrdf_printer *out, const hnbrdf_scene *s)
 {
     hnbrdf_put(out, "struct hnbrdf_material {\n");
@@ -15,6 +17,9 @@ void hnbrdf_put_material_struct(hnbrdf_printer *out, const hnbrdf_scene *s)
                             : "    float alpha;   // GGX roughness, at least 1e-4\n");
         if (s->fixed)
             hnbrdf_put(out, "    float area;    // pi alpha alpha\n");
+        if (s->edited)
+            hnbrdf_put(out, s->fixed ? "    hnbrdf_edit edit;\n"
+                                     : "    hnbrdf_fitted fitted; // an edit leaves it as it is\n");
     }
     if (hnbrdf_scene_has_rotation(s))
         hnbrdf_put(out, "    vec2 rotation; // cosine and sine of the tangent frame's angle\n");
@@ -39,6 +44,34 @@ static void put_next(hnbrdf_printer *out, int *fields)
         hnbrdf_put(out, ", ");
 }
 
+static void put_edit(hnbrdf_printer *out, const hnbrdf_prepared *prepared)
+{
+    const hnbrdf_prepared_edit edit = hnbrdf_edit_of(prepared);
+    const float *const vectors[] = {edit.diffuse, edit.e, edit.carried, edit.added};
+    hnbrdf_put(out, "hnbrdf_edit(");
+    hnbrdf_put_vector(out, 2, edit.warp, 2);
+    hnbrdf_put(out, ", ");
+    hnbrdf_put_vector(out, 2, edit.alpha, 2);
+    hnbrdf_put(out, ", ");
+    hnbrdf_put_float(out, edit.area);
+    for (int k = 0; k < 4; k++) {
+        hnbrdf_put(out, ", ");
+        hnbrdf_put_vector(out, 3, vectors[k], 3);
+    }
+    hnbrdf_put(out, ")");
+}
+
+static void put_fitted(hnbrdf_printer *out, const hnbrdf_fitted *fitted)
+{
+    hnbrdf_put(out, "hnbrdf_fitted(");
+    hnbrdf_put_vector(out, 3, fitted->kd, 3);
+    hnbrdf_put(out, ", ");
+    hnbrdf_put_vector(out, 3, fitted->eta, 3);
+    hnbrdf_put(out, ", ");
+    hnbrdf_put_vector(out, 2, fitted->alpha, 2);
+    hnbrdf_put(out, ")");
+}
+
 static void put_analytic_fields(hnbrdf_printer *out, const hnbrdf_scene *s,
                                 const hnbrdf_material *material, const hnbrdf_prepared *prepared,
                                 int *fields)
@@ -55,6 +88,13 @@ static void put_analytic_fields(hnbrdf_printer *out, const hnbrdf_scene *s,
     if (s->fixed) {
         put_next(out, fields);
         hnbrdf_put_float(out, prepared->area);
+    }
+    if (s->edited) {
+        put_next(out, fields);
+        if (s->fixed)
+            put_edit(out, prepared);
+        else
+            put_fitted(out, &material->fitted);
     }
 }
 

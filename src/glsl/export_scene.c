@@ -61,6 +61,7 @@ static hnbrdf_result use_packing(hnbrdf_scene *s, const hnbrdf_packing *packing,
             packing->latent, packing->analytic ? "an" : "no", latent,
             hnbrdf_scene_has_analytic(s) ? "one" : "none");
     s->packing = packing;
+    s->edited = packing->edited && s->desc->kind == HNBRDF_KIND_HYBRID;
     s->anisotropic = packing->anisotropic;
     s->rotated = packing->rotated;
     return hnbrdf_packing_check(packing, error);
@@ -102,6 +103,8 @@ hnbrdf_result hnbrdf_scene_make(const hnbrdf_model *model, const hnbrdf_glsl_opt
     hnbrdf_result result = use_packing(s, options ? options->packing : NULL, error);
     if (result)
         return result;
+    const int hybrid = s->desc->kind == HNBRDF_KIND_HYBRID;
+    s->edited |= hybrid && options && options->editable && !s->fixed;
     s->indices = options ? options->materials : NULL;
     s->count = s->indices ? options->material_count : s->desc->material_count;
     if (s->count < 1 || s->count > HNBRDF_MAX_MATERIALS)
@@ -116,6 +119,7 @@ hnbrdf_result hnbrdf_scene_make(const hnbrdf_model *model, const hnbrdf_glsl_opt
         const hnbrdf_material *material = hnbrdf_scene_material(s, k);
         s->anisotropic |= material->alpha[0] != material->alpha[1];
         s->rotated |= material->rotation != 0.0f;
+        s->edited |= hybrid && hnbrdf_material_is_edited(material);
     }
     s->energy = options ? options->energy : NULL;
     if (s->energy && s->packing)

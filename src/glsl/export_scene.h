@@ -17,6 +17,7 @@ typedef struct hnbrdf_scene {
     const int *indices;            /* NULL: all materials in order */
     const float *energy;           /* NULL, or a factor on the values of each */
     int count;
+    int edited;                     /* 1: corrections are carried along by edits */
     int anisotropic, rotated;       /* 1 if any of these materials is, or the packing stores it */
     float first[HNBRDF_MAX_HIDDEN]; /* bias of the first layer; of a single material: folded */
     size_t weights, multiplications;

@@ -63,31 +63,66 @@ static void put_clamped(hnbrdf_printer *out, const char *expression, const hnbrd
     hnbrdf_put(out, ")");
 }
 
-static void put_analytic_fields(hnbrdf_printer *out, const hnbrdf_texel_layout *layout, int vector)
+/* kd, eta and alpha of a material, or of what it was fitted with. */
+typedef struct unpacked {
+    const char *to;     /* "m." */
+    const char *prefix; /* of the variables they are decoded in */
+    const hnbrdf_field *kd, *r, *alpha;
+    int vector; /* alpha is a vec2 */
+} unpacked;
+
+/* alpha, exponential where the format says so, clamped. */
+static void put_alpha(hnbrdf_printer *out, const unpacked *u)
 {
-    int isotropic = layout->alpha.count == 1;
-    put_decoded(out, "kd", &layout->kd);
-    hnbrdf_put(out, "    m.kd = ");
-    put_clamped(out, "kd", &layout->kd);
-    hnbrdf_put(out, ";\n");
-    put_decoded(out, "r", &layout->r); /* the amplitude (eta - 1)/(eta + 1) */
-    hnbrdf_put(out, "    r = ");
-    put_clamped(out, "r", &layout->r);
-    hnbrdf_put(out, ";\n    HNBRDF_PRECISE vec3 eta = (1.0 + r) / (1.0 - r);\n    m.eta = eta;\n");
-    put_decoded(out, "alpha", &layout->alpha);
-    if (layout->alpha.curve == HNBRDF_CURVE_EXP) {
-        hnbrdf_put(
-            out,
-            "    alpha = HNBRDF_EXP(hnbrdf_clamp(vec3(alpha%s), -HNBRDF_MAX_EXPONENT, 0.0)).%s;\n",
-            isotropic ? "" : ", 0.0", isotropic ? "x" : "xy");
+    int isotropic = u->alpha->count == 1;
+    char name[32], part[40];
+    snprintf(name, sizeof name, "%salpha", u->prefix);
+    put_decoded(out, name, u->alpha);
+    if (u->alpha->curve == HNBRDF_CURVE_EXP) {
+        hnbrdf_put(out,
+                   "    %s = HNBRDF_EXP(hnbrdf_clamp(vec3(%s%s), -HNBRDF_MAX_EXPONENT, 0.0)).%s;\n",
+                   name, name, isotropic ? "" : ", 0.0", isotropic ? "x" : "xy");
     }
-    hnbrdf_put(out, vector ? "    m.alpha = vec2(" : "    m.alpha = ");
-    put_clamped(out, isotropic ? "alpha" : "alpha.x", &layout->alpha);
+    hnbrdf_put(out, u->vector ? "    %salpha = vec2(" : "    %salpha = ", u->to);
+    snprintf(part, sizeof part, isotropic ? "%s" : "%s.x", name);
+    put_clamped(out, part, u->alpha);
     if (!isotropic) {
+        snprintf(part, sizeof part, "%s.y", name);
         hnbrdf_put(out, ", ");
-        put_clamped(out, "alpha.y", &layout->alpha);
+        put_clamped(out, part, u->alpha);
     }
-    hnbrdf_put(out, vector ? ");\n" : ";\n");
+    hnbrdf_put(out, u->vector ? ");\n" : ";\n");
+}
+
+static void put_analytic_fields(hnbrdf_printer *out, const unpacked *u)
+{
+    char kd[32], r[32];
+    snprintf(kd, sizeof kd, "%skd", u->prefix);
+    snprintf(r, sizeof r, "%sr", u->prefix); /* the amplitude (eta - 1)/(eta + 1) */
+    put_decoded(out, kd, u->kd);
+    hnbrdf_put(out, "    %skd = ", u->to);
+    put_clamped(out, kd, u->kd);
+    hnbrdf_put(out, ";\n");
+    put_decoded(out, r, u->r);
+    hnbrdf_put(out, "    %s = ", r);
+    put_clamped(out, r, u->r);
+    hnbrdf_put(out,
+               ";\n    HNBRDF_PRECISE vec3 %seta = (1.0 + %s) / (1.0 - %s);\n    %seta = "
+               "%seta;\n",
+               u->prefix, r, r, u->to, u->prefix);
+    put_alpha(out, u);
+}
+
+static void put_fitted(hnbrdf_printer *out, const hnbrdf_scene *s,
+                       const hnbrdf_texel_layout *layout)
+{
+    if (s->packing->edited) {
+        put_analytic_fields(out, &(unpacked){"m.fitted.", "fitted_", &layout->fitted_kd,
+                                             &layout->fitted_r, &layout->fitted_alpha, 1});
+    } else { /* others of the scene are edited */
+        hnbrdf_put(out, "    m.fitted = hnbrdf_fitted(m.kd, m.eta, %s);\n",
+                   s->anisotropic ? "m.alpha" : "vec2(m.alpha)");
+    }
 }
 
 static void put_rotation(hnbrdf_printer *out, const hnbrdf_texel_layout *layout)
@@ -147,7 +182,10 @@ void hnbrdf_put_unpack(hnbrdf_printer *out, const hnbrdf_scene *s)
         hnbrdf_put(out, "%svec4 t%d", t > 0 ? ", " : "", t);
     hnbrdf_put(out, ")\n{\n    hnbrdf_material m;\n");
     if (packing->analytic)
-        put_analytic_fields(out, &layout, s->anisotropic);
+        put_analytic_fields(
+            out, &(unpacked){"m.", "", &layout.kd, &layout.r, &layout.alpha, s->anisotropic});
+    if (s->edited)
+        put_fitted(out, s, &layout);
     if (packing->rotated)
         put_rotation(out, &layout);
     else if (hnbrdf_scene_has_rotation(s))

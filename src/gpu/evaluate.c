@@ -13,7 +13,7 @@
 extern const char hnbrdf_evaluate_comp[], hnbrdf_hybrid_brdf_glsl[];
 
 /* Floats of one evaluation: wi, wo, kd, eta, alpha, cosine and sine of the rotation, latent,
- * scales and shares of the lobes, u. */
+ * scales and shares of the lobes, u, fitted kd, eta and alpha. */
 enum {
     AT_KD = 6,
     AT_ETA = 9,
@@ -23,10 +23,12 @@ enum {
     AT_SCALE = 32,
     AT_SHARE = 34,
     AT_U = 42,
-    INPUTS = 44
+    AT_FITTED = 44,
+    INPUTS = 52
 };
 
-/* The fields that the exporter gives to the struct of a scene that is anisotropic and turned. */
+/* The fields that the exporter gives to the struct of a scene that is anisotropic, turned and
+ * editable. */
 static void write_reader(const hnbrdf_model_desc *desc, char text[1024])
 {
     int vectors = desc->kind == HNBRDF_KIND_GGX ? 0 : (desc->latent + 3) / 4;
@@ -37,6 +39,11 @@ static void write_reader(const hnbrdf_model_desc *desc, char text[1024])
                            "    m.kd = read3(at + %d);\n    m.eta = read3(at + %d);\n    m.alpha = "
                            "read4(at + %d).xy;\n",
                            AT_KD, AT_ETA, AT_ALPHA);
+    if (desc->kind == HNBRDF_KIND_HYBRID)
+        length += snprintf(text + length, 1024 - (size_t)length,
+                           "    m.fitted = hnbrdf_fitted(read3(at + %d), read3(at + %d), "
+                           "vec2(inputs[at + %d], inputs[at + %d]));\n",
+                           AT_FITTED, AT_FITTED + 3, AT_FITTED + 6, AT_FITTED + 7);
     length += snprintf(text + length, 1024 - (size_t)length,
                        "    m.rotation = read4(at + %d).xy;\n", AT_ROTATION);
     for (int v = 0; v < vectors; v++)
@@ -68,7 +75,8 @@ static hnbrdf_result general_model(const hnbrdf_model *model, hnbrdf_model **gen
 static hnbrdf_result export_scene(const hnbrdf_model *general, const gpu_style *style,
                                   gpu_text *scene, gpu_text *weights, hnbrdf_error *error)
 {
-    const hnbrdf_glsl_options options = {.weights = style->weights, .precision = style->precision};
+    const hnbrdf_glsl_options options = {
+        .weights = style->weights, .precision = style->precision, .editable = 1};
     hnbrdf_result result = hnbrdf_export_glsl(general, &options, gpu_text_append, scene, error);
     if (!result && style->weights == HNBRDF_GLSL_UNIFORM && hnbrdf_weights_size(general) > 0)
         result = hnbrdf_export_weights(general, &options, gpu_text_append, weights, error);
@@ -151,6 +159,18 @@ void gpu_evaluator_close(gpu_evaluator *e)
     memset(e, 0, sizeof *e);
 }
 
+/* One that does not know what it was fitted with is unedited. */
+static hnbrdf_fitted fitted_of(const hnbrdf_material *m)
+{
+    hnbrdf_fitted fitted = m->fitted;
+    if (!hnbrdf_material_is_edited(m)) {
+        memcpy(fitted.kd, m->kd, sizeof fitted.kd);
+        memcpy(fitted.eta, m->eta, sizeof fitted.eta);
+        memcpy(fitted.alpha, m->alpha, sizeof fitted.alpha);
+    }
+    return fitted;
+}
+
 hnbrdf_result gpu_evaluator_run(gpu_evaluator *e, gpu_evaluation what,
                                 const hnbrdf_material *material, const float *pairs, const float *u,
                                 size_t count, float (*values)[GPU_EVALUATION_NUMBERS],
@@ -163,6 +183,7 @@ hnbrdf_result gpu_evaluator_run(gpu_evaluator *e, gpu_evaluation what,
                            count, e->capacity);
     hnbrdf_prepare(e->model, material,
                    &prepared); /* the lobes that are guessed, as the exporter writes them */
+    const hnbrdf_fitted fitted = fitted_of(material);
     for (size_t k = 0; k < count; k++) {
         float *to = e->packed + k * INPUTS;
         memcpy(to, pairs + 6 * k, 6 * sizeof *to);
@@ -175,6 +196,7 @@ hnbrdf_result gpu_evaluator_run(gpu_evaluator *e, gpu_evaluation what,
         memcpy(to + AT_SCALE, prepared.lobes.scale, sizeof prepared.lobes.scale);
         memcpy(to + AT_SHARE, prepared.lobes.share, sizeof prepared.lobes.share);
         memcpy(to + AT_U, u + 2 * k, 2 * sizeof *to);
+        memcpy(to + AT_FITTED, &fitted, sizeof fitted);
     }
     hnbrdf_result result =
         gpu_upload(e->device, &e->inputs, e->packed, count * INPUTS * sizeof(float), error);

@@ -208,6 +208,19 @@ static void pack_layer(unsigned char **at, int layer, hnbrdf_model *model)
     model->packed_biases[layer] = take_packed(at, own->biases[layer], outputs, 1, 0, stride);
 }
 
+/* A material of which nothing else is said was fitted as it is. */
+static void take_fitted(hnbrdf_material *material, hnbrdf_kind kind)
+{
+    hnbrdf_fitted *fitted = &material->fitted;
+    if (kind != HNBRDF_KIND_HYBRID) {
+        memset(fitted, 0, sizeof *fitted);
+    } else if (fitted->alpha[0] == 0.0f) {
+        memcpy(fitted->kd, material->kd, sizeof fitted->kd);
+        memcpy(fitted->eta, material->eta, sizeof fitted->eta);
+        memcpy(fitted->alpha, material->alpha, sizeof fitted->alpha);
+    }
+}
+
 static const hnbrdf_material *take_materials(unsigned char **at, const hnbrdf_model_desc *desc)
 {
     const size_t count = (size_t)desc->material_count;
@@ -218,6 +231,7 @@ static const hnbrdf_material *take_materials(unsigned char **at, const hnbrdf_mo
             copy[i].latent[k] = 0;
         if (copy[i].lobes.scale[0] == 0.0f) /* as a file gives them back */
             memset(&copy[i].lobes, 0, sizeof copy[i].lobes);
+        take_fitted(&copy[i], desc->kind);
     }
     *at += padded(count * sizeof *copy);
     return copy;

@@ -1,0 +1,101 @@
+/* bounds_edit.c: carry.h once more with bounds: what an edit makes of a pair and of f_a. */
+#include "check/bounds_edit.h"
+
+/* min(a/b, 1), or a/b where both are 1. A device that takes the other of the two is no further off
+ * than the quotient is. */
+static num quotient_or_1(num quotient, int is_one, int is_certain)
+{
+    return (num){is_one ? 1.0f : quotient.v, is_one && is_certain ? 0.0 : quotient.e};
+}
+
+/* hnbrdf_warp(). */
+static void warp(const check_rules *k, const hnbrdf_material *m, const pair *p, num s[3])
+{
+    num r2 = add(k, multiply(k, p->s[0], p->s[0]), multiply(k, p->s[1], p->s[1]));
+    num most = largest(r2, multiply(k, p->s[2], p->s[2])), w[2];
+    for (int i = 0; i < 2; i++)
+        w[i] = multiply(k, p->s[i], divide(k, same(m->fitted.alpha[i]), same(m->alpha[i])));
+    num w2 = add(k, multiply(k, w[0], w[0]), multiply(k, w[1], w[1]));
+    num shrink = root(k, quotient_or_1(divide(k, most, w2), !(w2.v > most.v),
+                                       (double)w2.v + w2.e < (double)most.v - most.e));
+    for (int i = 0; i < 2; i++)
+        w[i] = multiply(k, w[i], shrink);
+    num length2 = dot3(k, w[0], w[1], p->s[2]);
+    num stretch =
+        root(k, quotient_or_1(divide(k, p->length2, length2), length2.v == p->length2.v, 0));
+    s[0] = multiply(k, w[0], stretch);
+    s[1] = multiply(k, w[1], stretch);
+    s[2] = multiply(k, p->s[2], stretch);
+}
+
+/* hnbrdf_turn_pair(). */
+static void turn(const check_rules *k, const pair *p, pair *q)
+{
+    num d[3], sums[3], products[3];
+    for (int i = 0; i < 3; i++) {
+        d[i] = subtract(k, p->wi[i], p->wo[i]);
+        products[i] = multiply(k, d[i], q->s[i]);
+        sums[i] = multiply(k, p->s[i], q->s[i]);
+    }
+    num along = add(k, add(k, products[0], products[1]), products[2]);
+    num both = add(k, p->length2, add(k, add(k, sums[0], sums[1]), sums[2]));
+    num by = divide(k, along, both);
+    for (int i = 0; i < 3; i++) {
+        num turned = subtract(k, d[i], multiply(k, by, add(k, p->s[i], q->s[i])));
+        q->wi[i] = multiply(k, same(0.5f), add(k, q->s[i], turned));
+        q->wo[i] = multiply(k, same(0.5f), subtract(k, q->s[i], turned));
+    }
+}
+
+/* hnbrdf_carried_eta(). */
+static num fitted_eta(const check_rules *k, float eta, float fitted)
+{
+    num one = same(1.0f);
+    num r = divide(k, divide(k, subtract(k, same(eta), one), add(k, same(eta), one)), same(4.0f));
+    return largest(divide(k, add(k, one, r), subtract(k, one, r)), same(fitted));
+}
+
+static num masked(const check_rules *k, const pair *p, const pair *seen, const float alpha[2])
+{
+    num ax = same(alpha[0]), ay = same(alpha[1]);
+    num masking = multiply(k, smith_v(k, p->wi, ax, ay), smith_v(k, p->wo, ax, ay));
+    return multiply(k, ggx_d(k, seen, ax, ay), masking);
+}
+
+void check_edit_make(const check_rules *k, hnbrdf_encoding encoding,
+                     const hnbrdf_material *material, const pair *p, check_edit *edit)
+{
+    const hnbrdf_fitted *fitted = &material->fitted;
+    pair at_half = *p; /* D is asked at s', angles of incidence are as they were */
+    warp(k, material, p, at_half.s);
+    edit->seen = at_half;
+    if (encoding == HNBRDF_ENCODING_DIRECTIONS)
+        turn(k, p, &edit->seen);
+    num now = masked(k, p, p, material->alpha), before = masked(k, p, &at_half, fitted->alpha);
+    for (int c = 0; c < 3; c++) {
+        num kd = given(k, material->kd[c]);
+        num carried = smallest(kd, multiply(k, same(4.0f), given(k, fitted->kd[c])));
+        num diffuse = multiply(k, given(k, fitted->kd[c]), same(HNBRDF_INV_PI));
+        num f = fresnel_dielectric(k, same(material->eta[c]), p->c);
+        num f0 = fresnel_dielectric(k, fitted_eta(k, material->eta[c], fitted->eta[c]), p->c);
+        num then = add(k, diffuse, multiply(k, f0, before));
+        edit->edited[c] = add(k, multiply(k, carried, same(HNBRDF_INV_PI)), multiply(k, f, now));
+        num quotient = divide(k, edit->edited[c], then);
+        edit->ratio[c] =
+            clamp(quotient_or_1(quotient, edit->edited[c].v == then.v, 0), 0.0f, HNBRDF_MAX_VALUE);
+        edit->added[c] = multiply(k, subtract(k, kd, carried), same(HNBRDF_INV_PI));
+    }
+}
+
+num check_edit_compose(const check_rules *k, const check_edit *edit, int c, num correction,
+                       num sigmoid, num floor)
+{
+    num gated = multiply(k, sigmoid, edit->edited[c]);
+    num carried = add(k, multiply(k, edit->ratio[c], subtract(k, correction, floor)), gated);
+    num as_it_is = subtract(k, add(k, correction, gated), floor);
+    int is_one = edit->ratio[c].v == 1.0f;
+    num f = is_one ? as_it_is : carried, other = is_one ? carried : as_it_is;
+    if (edit->ratio[c].e > 0.0 && edit->ratio[c].e >= fabs((double)edit->ratio[c].v - 1.0))
+        f.e = fmax(f.e, other.e + fabs((double)other.v - (double)f.v)); /* a device may take it */
+    return add(k, f, edit->added[c]);
+}
