@@ -65,6 +65,19 @@ static const struct {
      .precision = HNBRDF_GLSL_HALF},
     {.name = "stripped", .shape = UNEVEN, .only = HNBRDF_GLSL_EVAL, .fixed = 1},
     {.name = "fixed_columns", .shape = UNEVEN, .weights = HNBRDF_GLSL_COLUMNS, .fixed = 1},
+    {.name = "edited",
+     .shape = {.encoding = HNBRDF_ENCODING_DIRECTIONS,
+               .hidden = 8,
+               .layers = 1,
+               .latent = 2,
+               .anisotropic = 1,
+               .edited = 1},
+     .packed = 1},
+    {.name = "edited_fixed",
+     .shape =
+         {.encoding = HNBRDF_ENCODING_ANGLES, .hidden = 8, .layers = 1, .latent = 2, .edited = 1},
+     .only = HNBRDF_GLSL_EVAL_SAMPLE,
+     .fixed = 1},
     {.name = "packed", .shape = UNEVEN, .only = HNBRDF_GLSL_EVAL_SAMPLE, .packed = 1},
 };
 

@@ -1,4 +1,5 @@
 /* gpu_support.c: models with pseudo-random weights, and exported texts. */
+#include "fitted_support.h"
 #include "gpu_support.h"
 
 #include "hnbrdf/measured.h"
@@ -79,6 +80,8 @@ hnbrdf_model *scene_model(const scene_shape *shape)
     if (shape->kind != HNBRDF_KIND_GGX)
         fill_network(&rng, shape, &desc, numbers);
     fill_materials(&rng, shape, materials);
+    for (int m = 1; m < SCENE_MATERIALS && shape->edited; m++) /* as if it had been another one */
+        materials[m].fitted = as_fitted(materials[m - 1]).fitted;
     hnbrdf_model *model = NULL;
     hnbrdf_error error = {""};
     if (hnbrdf_model_create(&desc, NULL, &model, &error))

@@ -11,7 +11,7 @@ typedef struct scene_shape {
     hnbrdf_kind kind;
     hnbrdf_encoding encoding;
     int hidden, layers, latent;
-    int anisotropic, rotated;
+    int anisotropic, rotated, edited; /* edited: all but the first material */
     float scale, shift, floor;
 } scene_shape;
 

@@ -33,8 +33,13 @@ fragment() { # version scene exact output
         has "$2" hnbrdf_eval_analytic && echo '    colour.rgb += hnbrdf_eval_analytic(m, wi, wo);'
         has "$2" hnbrdf_sample && echo '    colour.rgb += hnbrdf_sample(m, wo, wi.xy).weight * hnbrdf_pdf(m, wi, wo);'
         has "$2" hnbrdf_eval_GOLD_PAINT && echo '    colour.rgb += hnbrdf_eval_GOLD_PAINT(wi, wo);'
-        has "$2" hnbrdf_material_unpack &&
-            echo '    colour.rgb += hnbrdf_eval(hnbrdf_material_unpack(wi.xyzx, wo.xyzx, wi.zyxz), wi, wo);'
+        if has "$2" hnbrdf_material_unpack; then
+            texels=$(sed -n 's/^#define HNBRDF_TEXELS //p' "$work/$2.glsl") list=wi.xyzx
+            while [ "$texels" -gt 1 ]; do
+                list="$list, wo.zyxz" texels=$((texels - 1))
+            done
+            echo "    colour.rgb += hnbrdf_eval(hnbrdf_material_unpack($list), wi, wo);"
+        fi
         echo '}'
     } >"$4"
 }

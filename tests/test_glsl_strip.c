@@ -88,6 +88,9 @@ static void fixed_materials_have_the_values_of_c(void **state)
     same_values(&PLAIN, &fixed, EVAL);
     same_values(&ROTATED, &fixed, EVAL);
     same_values(&ROTATED, &fixed, NAMED);
+    scene_shape edited = ROTATED;
+    edited.edited = 1;
+    same_values(&edited, &fixed, NAMED);
     same_values(&ROTATED, &(hnbrdf_glsl_options){.fixed = 1, .weights = HNBRDF_GLSL_COLUMNS}, EVAL);
     same_values(&(scene_shape){.kind = HNBRDF_KIND_GGX, .anisotropic = 1}, &fixed, NAMED);
     same_values(&(scene_shape){.kind = HNBRDF_KIND_NEURAL, .hidden = 6, .layers = 1, .latent = 5},
@@ -222,6 +225,37 @@ static void a_stripped_text_has_only_what_it_calls(void **state)
     hnbrdf_model_free(model);
 }
 
+/* Nothing of edits is in the text of a scene that has none and does not ask. */
+static void edits_are_written_for_edited_materials_alone(void **state)
+{
+    (void)state;
+    scene_shape edited = PLAIN;
+    edited.edited = 1;
+    hnbrdf_model *plain = scene_model(&PLAIN), *changed = scene_model(&edited);
+    const int first = 0;
+    for (int fixed = 0; fixed < 2; fixed++)
+        for (int standalone = 0; standalone < 2; standalone++) {
+            hnbrdf_glsl_options options = {.standalone = standalone, .fixed = fixed};
+            char *texts[4];
+            texts[0] = gpu_run_export(plain, &options);
+            options.editable = 1;
+            texts[1] = gpu_run_export(plain, &options);
+            options.editable = 0;
+            texts[2] = gpu_run_export(changed, &options);
+            options.materials = &first; /* which is as it was fitted */
+            options.material_count = 1;
+            texts[3] = gpu_run_export(changed, &options);
+            const int wanted[4] = {0, !fixed, 1, 0};
+            for (int k = 0; k < 4; k++) {
+                assert_int_equal(strstr(texts[k], "hnbrdf_edit") != NULL, wanted[k]);
+                assert_int_equal(strstr(texts[k], "hnbrdf_warp") != NULL, wanted[k]);
+                free(texts[k]);
+            }
+        }
+    hnbrdf_model_free(plain);
+    hnbrdf_model_free(changed);
+}
+
 static void what_cannot_be_is_refused(void **state)
 {
     (void)state;
@@ -253,6 +287,7 @@ int main(void)
         cmocka_unit_test(one_fixed_material_has_the_values_of_c),
         cmocka_unit_test(an_isotropic_scene_that_only_evaluates_is_smaller),
         cmocka_unit_test(a_stripped_text_has_only_what_it_calls),
+        cmocka_unit_test(edits_are_written_for_edited_materials_alone),
         cmocka_unit_test(what_cannot_be_is_refused),
     };
     return gpu_run_tests(tests, sizeof tests / sizeof tests[0]);

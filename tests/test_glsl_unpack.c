@@ -143,15 +143,21 @@ static void unpacks_as_in_c(const scene_shape *shape, hnbrdf_texel_format format
 static void half_floats_unpack_as_in_c(void **state)
 {
     (void)state;
+    scene_shape edited = PLAIN;
+    edited.edited = 1;
     unpacks_as_in_c(&PLAIN, HNBRDF_TEXEL_RGBA16F);
     unpacks_as_in_c(&RICH, HNBRDF_TEXEL_RGBA16F);
+    unpacks_as_in_c(&edited, HNBRDF_TEXEL_RGBA16F);
 }
 
 static void bytes_unpack_as_in_c(void **state)
 {
     (void)state;
     unpacks_as_in_c(&PLAIN, HNBRDF_TEXEL_RGBA8);
+    scene_shape edited = PLAIN;
+    edited.edited = edited.anisotropic = 1;
     unpacks_as_in_c(&RICH, HNBRDF_TEXEL_RGBA8);
+    unpacks_as_in_c(&edited, HNBRDF_TEXEL_RGBA8);
 }
 
 int main(void)

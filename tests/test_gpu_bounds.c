@@ -5,6 +5,7 @@
 #include "core/frame.h"
 #include "core/model.h"
 #include "check/bounds.h"
+#include "check/oracle.h"
 #include "check/pairs.h"
 
 #include <setjmp.h>
@@ -154,6 +155,42 @@ static void bounds_cover_a_device_without_rounding(void **state)
     hnbrdf_model_free(model);
 }
 
+/* The same of edited materials of every encoding, the true values from the oracle. */
+static void bounds_cover_edited_materials(void **state)
+{
+    (void)state;
+    scene_shape shape = SHAPE;
+    shape.edited = 1;
+    for (int encoding = 0; encoding <= HNBRDF_ENCODING_ANGLES_ANISOTROPIC; encoding++) {
+        shape.encoding = (hnbrdf_encoding)encoding;
+        hnbrdf_model *model = scene_model(&shape);
+        check_rules rules = check_rules_fast(&NOTHING_EXACT, 0);
+        hnbrdf_rng rng;
+        hnbrdf_rng_seed(&rng, 15, 0);
+        float pair[6] = {0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 1.0f}, value[3];
+        size_t tight = 0, seen = 0;
+        for (size_t k = 0; k < PAIRS / 2; k++) {
+            const hnbrdf_material *material = hnbrdf_model_material(model, 1 + (int)(k % 2));
+            check_bounds bounds;
+            oracle_point exact;
+            if (!is_usual(check_pair_draw(&rng, k, pair)))
+                continue;
+            check_bounds_make(&rules, &model->desc, HNBRDF_GLSL_FLOAT, material, pair, pair + 3,
+                              &bounds);
+            hnbrdf_eval(model, material, pair, pair + 3, value);
+            for (int c = 0; c < 3; c++)
+                assert_memory_equal(&bounds.value[c].v, &value[c], sizeof value[c]);
+            oracle_evaluate(&model->desc, material, pair, pair + 3, &exact);
+            covered("encoding", bounds.encoding, exact.encoded, 6);
+            covered("value", bounds.value, exact.value, 3);
+            tight += bounds.value[0].e <= 0.1 * exact.scale[0];
+            seen++;
+        }
+        assert_true(tight > seen / 2);
+        hnbrdf_model_free(model);
+    }
+}
+
 /* Otherwise a bound would be about another function than the one that is compared. */
 static void bounds_reproduce_the_bits_of_c(void **state)
 {
@@ -250,6 +287,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(bounds_cover_a_device_without_rounding),
+        cmocka_unit_test(bounds_cover_edited_materials),
         cmocka_unit_test(bounds_reproduce_the_bits_of_c),
         cmocka_unit_test(bounds_are_zero_where_every_operation_is_exact),
         cmocka_unit_test(the_network_alone_is_exact_without_division),

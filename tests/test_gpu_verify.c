@@ -101,15 +101,15 @@ static void check_one_stage(const gpu_report *report, int build, int stage)
 
 /* The shader of this scene is within the derived bounds at every stage; where the device's
  * operations are exact, the exact build has the bits of C from end to end. */
-static void model_holds_as(const hnbrdf_model *model, hnbrdf_glsl_weights weights,
-                           hnbrdf_glsl_precision precision)
+static void model_holds_by(const hnbrdf_model *model, const hnbrdf_glsl_options *options)
 {
-    const hnbrdf_glsl_options options = {.weights = weights, .precision = precision};
+    const hnbrdf_glsl_weights weights = options->weights;
+    const hnbrdf_glsl_precision precision = options->precision;
     gpu_scene exported = {0};
-    char *scene = styled_text(model, &options);
+    char *scene = styled_text(model, options);
     float *block = NULL;
     if (weights == HNBRDF_GLSL_UNIFORM)
-        block = scene_weights(model, &options, &exported.weights_size);
+        block = scene_weights(model, options, &exported.weights_size);
     exported.text = scene;
     exported.weights = block;
     gpu_report report = verify_styled(model, &exported, precision);
@@ -120,6 +120,12 @@ static void model_holds_as(const hnbrdf_model *model, hnbrdf_glsl_weights weight
     gpu_report_free(&report);
     free(block);
     free(scene);
+}
+
+static void model_holds_as(const hnbrdf_model *model, hnbrdf_glsl_weights weights,
+                           hnbrdf_glsl_precision precision)
+{
+    model_holds_by(model, &(hnbrdf_glsl_options){.weights = weights, .precision = precision});
 }
 
 static void model_holds(const hnbrdf_model *model)
@@ -218,6 +224,43 @@ static void encodings_by_angles_equal_c(void **state)
                          .anisotropic = 1,
                          .rotated = 1,
                          .floor = 0.003f});
+}
+
+/* The correction carried along; the first material is not edited, and has the bits it has
+ * alone. */
+static void edited_hybrids_equal_c(void **state)
+{
+    (void)state;
+    for (int encoding = 0; encoding <= HNBRDF_ENCODING_ANGLES_ANISOTROPIC; encoding++)
+        holds(&(scene_shape){.encoding = (hnbrdf_encoding)encoding,
+                             .hidden = 8,
+                             .layers = 2,
+                             .latent = 4,
+                             .anisotropic = encoding % 2,
+                             .rotated = encoding % 2,
+                             .edited = 1,
+                             .floor = 0.003f});
+}
+
+static void edited_hybrids_of_every_style_equal_c(void **state)
+{
+    (void)state;
+    const scene_shape shape = {.encoding = HNBRDF_ENCODING_ANGLES,
+                               .hidden = 8,
+                               .layers = 1,
+                               .latent = 3,
+                               .edited = 1,
+                               .scale = 1.5f,
+                               .floor = 0.002f};
+    const scene_shape unedited = {
+        .encoding = HNBRDF_ENCODING_ANGLES, .hidden = 8, .layers = 1, .latent = 3};
+    hnbrdf_model *model = scene_model(&shape), *plain = scene_model(&unedited);
+    model_holds_by(model, &(hnbrdf_glsl_options){.fixed = 1});
+    model_holds_by(model, &(hnbrdf_glsl_options){.weights = HNBRDF_GLSL_UNIFORM,
+                                                 .precision = HNBRDF_GLSL_HALF});
+    model_holds_by(plain, &(hnbrdf_glsl_options){.editable = 1});
+    hnbrdf_model_free(model);
+    hnbrdf_model_free(plain);
 }
 
 static void neural_equals_c(void **state)
@@ -406,6 +449,8 @@ static int run_on(int index)
         cmocka_unit_test(anisotropic_rotated_hybrid_equals_c),
         cmocka_unit_test(encodings_by_angles_equal_c),
         cmocka_unit_test(one_material_alone_equals_c),
+        cmocka_unit_test(edited_hybrids_equal_c),
+        cmocka_unit_test(edited_hybrids_of_every_style_equal_c),
         cmocka_unit_test(neural_equals_c),
         cmocka_unit_test(ggx_equals_c),
         cmocka_unit_test(smallest_and_deepest_networks_equal_c),

@@ -175,6 +175,11 @@ static void library_and_oracle_agree_on_every_kind_and_encoding(void **state)
             hnbrdf_model_describe(model, &desc);
             for (int k = 0; k < 40; k++) {
                 hnbrdf_material m = random_material(&r, k & 1);
+                if (k & 2) { /* edited, by at most what an artist does */
+                    m = edited_from(&r, m);
+                    for (int a = 0; a < 2; a++)
+                        m.fitted.alpha[a] = fmaxf(m.fitted.alpha[a], 0.02f);
+                }
                 m.alpha[0] = fmaxf(m.alpha[0], 0.02f);
                 m.alpha[1] = k & 1 ? m.alpha[0] : fmaxf(m.alpha[1], 0.02f);
                 float wi[3], wo[3], f[3];

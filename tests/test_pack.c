@@ -84,8 +84,8 @@ static double turn_between(float a, float b)
     return fabs(remainder((double)a - (double)b, 2.0 * 3.14159265358979324));
 }
 
-/* What a material was fitted with, in the fields of what it is: stored by the same rules. A material
- * without is stored as it is. */
+/* What a material was fitted with, in the fields of what it is: stored by the same rules. One that
+ * does not know is stored as it is. */
 static hnbrdf_material fitted_fields(hnbrdf_material m)
 {
     if (m.fitted.alpha[0] == 0.0f)

@@ -28,6 +28,13 @@ static void warp(const check_rules *k, const hnbrdf_material *m, const pair *p, 
     s[2] = multiply(k, p->s[2], stretch);
 }
 
+/* C takes `taken`; a device that is not certain to may take the other. */
+static num either(num taken, num other, int certain)
+{
+    double away = fabs((double)other.v - (double)taken.v) + other.e;
+    return (num){taken.v, certain ? taken.e : fmax(taken.e, away)};
+}
+
 /* hnbrdf_turn_pair(). */
 static void turn(const check_rules *k, const pair *p, pair *q)
 {
@@ -40,10 +47,17 @@ static void turn(const check_rules *k, const pair *p, pair *q)
     num along = add(k, add(k, products[0], products[1]), products[2]);
     num both = add(k, p->length2, add(k, add(k, sums[0], sums[1]), sums[2]));
     num by = divide(k, along, both);
+    int moved = 0, certain = 1;
+    for (int i = 0; i < 3; i++) {
+        moved |= q->s[i].v != p->s[i].v;
+        certain &= q->s[i].e == 0.0 && p->s[i].e == 0.0;
+    }
     for (int i = 0; i < 3; i++) {
         num turned = subtract(k, d[i], multiply(k, by, add(k, p->s[i], q->s[i])));
-        q->wi[i] = multiply(k, same(0.5f), add(k, q->s[i], turned));
-        q->wo[i] = multiply(k, same(0.5f), subtract(k, q->s[i], turned));
+        num wi = multiply(k, same(0.5f), add(k, q->s[i], turned));
+        num wo = multiply(k, same(0.5f), subtract(k, q->s[i], turned));
+        q->wi[i] = moved ? wi : either(p->wi[i], wi, certain);
+        q->wo[i] = moved ? wo : either(p->wo[i], wo, certain);
     }
 }
 
@@ -94,8 +108,8 @@ num check_edit_compose(const check_rules *k, const check_edit *edit, int c, num 
     num carried = add(k, multiply(k, edit->ratio[c], subtract(k, correction, floor)), gated);
     num as_it_is = subtract(k, add(k, correction, gated), floor);
     int is_one = edit->ratio[c].v == 1.0f;
-    num f = is_one ? as_it_is : carried, other = is_one ? carried : as_it_is;
-    if (edit->ratio[c].e > 0.0 && edit->ratio[c].e >= fabs((double)edit->ratio[c].v - 1.0))
-        f.e = fmax(f.e, other.e + fabs((double)other.v - (double)f.v)); /* a device may take it */
+    int certain = edit->ratio[c].e == 0.0 ||
+                  (!is_one && edit->ratio[c].e < fabs((double)edit->ratio[c].v - 1.0));
+    num f = either(is_one ? as_it_is : carried, is_one ? carried : as_it_is, certain);
     return add(k, f, edit->added[c]);
 }

@@ -10,7 +10,7 @@
 
 static const cli_command command = {
     "export",
-    "MODEL [--materials A,B] [--only eval|eval+sample] [--fixed] [--weights STYLE]\n"
+    "MODEL [--materials A,B] [--only eval|eval+sample] [--fixed|--editable] [--weights STYLE]\n"
     "              [--precision P] [--conserve] [--pack P] [--standalone] -o FILE.glsl",
     "Writes one GLSL include: the network, the chosen materials, and\n"
     "  vec3 hnbrdf_eval(hnbrdf_material m, vec3 wi, vec3 wo)      1/sr, without the cosine\n"
@@ -29,7 +29,12 @@ static const cli_command command = {
     "folded "
     "into the\n"
     "first layer. hnbrdf_eval_NAME(wi, wo) of a fixed material takes no material at all. Whatever\n"
-    "is left out, the values are the same to the last bit.\n"
+    "is left out, the values are the same to the last bit. Of edited materials (hnbrdf edit) the "
+    "text\n"
+    "has what carries the network's correction along; with --editable also where none is, for "
+    "shaders\n"
+    "that change m.kd, m.eta or m.alpha themselves, which moves the analytic part alone "
+    "otherwise.\n"
     "\n"
     "--weights constants is the fastest, one shader a network; columns are the same constants in "
     "vec4.\n"
@@ -169,6 +174,7 @@ typedef struct settings {
     const char *materials, *path, *texels, *weights_path;
     int standalone, fixed, only; /* only: hnbrdf_glsl_only less one, -1 for everything */
     int pack;                    /* hnbrdf_texel_format, -1 for none */
+    int editable;
     int conserve;
     cli_word weights, precision;
 } settings;
@@ -206,6 +212,7 @@ static int export_materials(const hnbrdf_model *model, const settings *set, cons
                                          .standalone = set->standalone,
                                          .only = (hnbrdf_glsl_only)(set->only + 1),
                                          .fixed = set->fixed,
+                                         .editable = set->editable,
                                          .energy = energy,
                                          .packing = set->pack >= 0 ? &texels.packing : NULL,
                                          .weights = (hnbrdf_glsl_weights)set->weights.value,
@@ -232,6 +239,8 @@ int cmd_export(int argc, char **argv)
          "leave out what else there is (default: everything)"},
         {"fixed", 0, CLI_FLAG, &set.fixed, 0, 0, NULL,
          "materials are constants, not to be changed"},
+        {"editable", 0, CLI_FLAG, &set.editable, 0, 0, NULL,
+         "kd, eta, alpha that the shader changes carry the network's part along"},
         {"standalone", 0, CLI_FLAG, &set.standalone, 0, 0, NULL,
          "put the text of hybrid_brdf.glsl first"},
         {"weights", 'w', CLI_WORD, &set.weights, 0, 0, "constants|columns|uniform",
@@ -261,6 +270,9 @@ int cmd_export(int argc, char **argv)
         return cli_usage(&command, "--weights-out without --weights uniform");
     if (set.conserve && set.pack >= 0)
         return cli_usage(&command, "--conserve and --pack: materials from textures have no factor");
+    if (set.fixed && set.editable)
+        return cli_usage(&command,
+                         "--fixed and --editable: materials that are fixed do not change");
     if (set.fixed && set.pack >= 0)
         return cli_usage(&command, "--fixed and --pack: materials from textures are not fixed");
     if (set.texels && set.pack < 0)

@@ -13,7 +13,7 @@
 
 static const cli_command command = {
     "verify",
-    "MODEL [--materials A,B] [--weights STYLE] [--precision P] [--fixed]\n"
+    "MODEL [--materials A,B] [--weights STYLE] [--precision P] [--fixed|--editable]\n"
     "              [--device N|all] [--pairs N]",
     "Proves on every Vulkan device that the exported shader gives what the C library gives. "
     "Compared "
@@ -39,7 +39,7 @@ static const cli_command command = {
 typedef struct settings {
     const char *materials, *device, *csv, *json;
     long pairs, seed;
-    int validate, list, without_timing, fixed;
+    int validate, list, without_timing, fixed, editable;
     cli_word weights, precision;
 } settings;
 
@@ -56,7 +56,8 @@ static int export_scene(const hnbrdf_model *model, const settings *set, const in
                                          .material_count = count,
                                          .weights = (hnbrdf_glsl_weights)set->weights.value,
                                          .precision = (hnbrdf_glsl_precision)set->precision.value,
-                                         .fixed = set->fixed};
+                                         .fixed = set->fixed,
+                                         .editable = set->editable};
     hnbrdf_error error;
     hnbrdf_result result =
         hnbrdf_export_glsl(model, &options, gpu_text_append, &scene->text, &error);
@@ -207,6 +208,7 @@ int cmd_verify(int argc, char **argv)
          "of its hidden layers (default float)"},
         {"fixed", 0, CLI_FLAG, &set.fixed, 0, 0, NULL,
          "materials as constants, as export --fixed writes them"},
+        {"editable", 0, CLI_FLAG, &set.editable, 0, 0, NULL, "as export --editable writes them"},
         {"device", 'd', CLI_TEXT, &set.device, 0, 0, "N|all",
          "number of a device, see --list (default: all)"},
         {"pairs", 'n', CLI_INT, &set.pairs, 64, 1 << 22, "N",
