@@ -22,7 +22,7 @@ hnbrdf_room(model check_name.c choose_kernel.c create.c)
 hnbrdf_room(file
   decode.c load.c numbers.c safetensors.c save.c)
 hnbrdf_room(import
-  brdf_network.c brdf_text.c import_brdf.c)
+  brdf_network.c brdf_parameters.c brdf_text.c import_brdf.c published_name.c)
 hnbrdf_room(glsl
   export_evaluate.c export_glsl.c export_input.c export_library.c export_loops.c export_material.c
   export_network.c export_scene.c export_unpack.c export_weights.c half.c macro_names.c

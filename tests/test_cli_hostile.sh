@@ -160,6 +160,20 @@ run "$HNBRDF" import a.brdf b.brdf -o imported.safetensors
 expect_ok "import"
 run "$HNBRDF" info imported.safetensors --json
 grep -q '"materials": \["a", "b"\]' out || fail "import: names"
+cp a.brdf Ours_ld4_32x2_lambert_rgb.brdf
+sed 's/float alpha .*/float alpha 0 1 1.005/' b.brdf >Ours_ld4_32x2_b.brdf
+run "$HNBRDF" import a.brdf Ours_ld4_32x2_lambert_rgb.brdf Ours_ld4_32x2_b.brdf -o imported.safetensors
+[ "$rc" -eq 0 ] && [ "$(wc -l <err)" -eq 1 ] &&
+    grep -q "warning: Ours_ld4_32x2_b.brdf: line [0-9]*: alpha of b is 1.005" err ||
+    fail "import: alpha above 1"
+grep -q "^2 of 3 materials are named .* as lambert of Ours_ld4_32x2_lambert_rgb.brdf$" out ||
+    fail "import: what was renamed"
+run "$HNBRDF" compare imported.safetensors lambert_rgb.bsdf --pairs 16
+expect_ok "import: the measurement of a published name is found"
+run "$HNBRDF" import b.brdf Ours_ld4_32x2_b.brdf -o imported.safetensors
+expect_failure "import: two that become one name" "two materials have the name b: b.brdf and Ours_ld4_32x2_b.brdf"
+run "$HNBRDF" import lambert_rgb.bsdf -o imported.safetensors
+expect_failure "import: a measurement" "lambert_rgb.bsdf: measured data in a tensor file .RGL .bsdf., expected a published"
 sed '/f1_0 = /s/0\.2/0.1/' b.brdf >other_net.brdf
 run "$HNBRDF" import a.brdf other_net.brdf -o imported.safetensors
 expect_failure "import: another network" "other_net"

@@ -8,6 +8,7 @@
 
 #include <setjmp.h>
 #include <stdarg.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -26,6 +27,16 @@ static hnbrdf_material sample_material(uint64_t seed, const brdf_sample *s)
     return m;
 }
 
+/* What the last import told of, line by line. */
+static char notes[2048];
+
+static void keep_note(void *user, const char *line)
+{
+    (void)user;
+    const size_t length = strlen(notes);
+    snprintf(notes + length, sizeof notes - length, "%s\n", line);
+}
+
 /* Imports from blocks of exactly their size. */
 static hnbrdf_result import(const bytes *texts, int count, const hnbrdf_allocator *allocator,
                             hnbrdf_model **model, hnbrdf_error *error)
@@ -42,8 +53,11 @@ static hnbrdf_result import(const bytes *texts, int count, const hnbrdf_allocato
         sizes[i] = texts[i].size;
     }
     error->text[0] = '\0';
+    const hnbrdf_import_options options = {
+        .allocator = allocator ? *allocator : (hnbrdf_allocator){0}, .notes = {keep_note, NULL}};
+    notes[0] = '\0';
     const hnbrdf_result result =
-        hnbrdf_model_import_brdf(blocks, sizes, NAMES, count, allocator, model, error);
+        hnbrdf_model_import_brdf(blocks, sizes, NAMES, count, &options, model, error);
     for (int i = 0; i < count; i++)
         free((void *)blocks[i]);
     return result;
@@ -209,22 +223,163 @@ static void line_endings_and_tabs_do_not_matter(void **state)
     hnbrdf_model_free(other);
 }
 
-static void roughness_below_the_floor_is_raised_to_it(void **state)
+/* ---- Values out of range --------------------------------------------------------------------- */
+
+/* A text of 4x1 whose line for `parameter` says `value`. */
+static bytes with_value(const char *parameter, const char *value, int anisotropic)
 {
     static brdf_sample s;
+    char line[64];
+    make_brdf_sample(&s, 1, 4, 1, 2);
+    s.anisotropic = anisotropic;
+    const hnbrdf_material m = sample_material(1, &s);
+    bytes text = brdf_sample_text(&s, &m), result = {NULL, 0};
+    snprintf(line, sizeof line, "float %s ", parameter);
+    const char *all = (const char *)text.data, *at = strstr(all, line);
+    assert_non_null(at);
+    const char *end = strchr(at, '\n');
+    write_bytes(&result, all, (size_t)(at - all) + strlen(line));
+    write_bytes(&result, "0 1 ", 4);
+    write_bytes(&result, value, strlen(value));
+    write_bytes(&result, end, text.size - (size_t)(end - all));
+    free_bytes(&text);
+    return result;
+}
+
+static void values_a_little_out_of_range_are_moved_and_told(void **state)
+{
+    static const struct {
+        const char *parameter, *value;
+        int anisotropic;
+        size_t offset; /* of what it sets */
+        float expected;
+        const char *note;
+    } CASES[] = {
+        {"diffuse_r", "1.0000001", 0, offsetof(hnbrdf_material, kd[0]), 1,
+         "diffuse_r of one is 1.0000001, taken as 1, the largest there is"},
+        {"diffuse_b", "1.01", 0, offsetof(hnbrdf_material, kd[2]), 1, "diffuse_b of one is 1.01, "},
+        {"alpha", "1.005", 0, offsetof(hnbrdf_material, alpha[1]), 1,
+         "alpha of one is 1.005, taken as 1, the largest there is"},
+        {"alpha_y", "1.005", 1, offsetof(hnbrdf_material, alpha[1]), 1,
+         "alpha_y of one is 1.005, "},
+        {"alpha", "1e-6", 0, offsetof(hnbrdf_material, alpha[0]), HNBRDF_MIN_ALPHA,
+         "is 1e-06, taken as 0.0001, the smallest that evaluation uses"},
+        {"alpha_x", "0", 1, offsetof(hnbrdf_material, alpha[0]), HNBRDF_MIN_ALPHA,
+         "alpha_x of one is 0, taken as 0.0001"},
+        {"eta_g", "1.0", 0, offsetof(hnbrdf_material, eta[1]), 1.00000012f,
+         "eta_g of one is 1, taken as 1.0000001, the smallest above 1"},
+        {"diffuse_r", "1", 0, offsetof(hnbrdf_material, kd[0]), 1, NULL},
+        {"alpha", "1", 0, offsetof(hnbrdf_material, alpha[0]), 1, NULL},
+    };
+    (void)state;
+    for (size_t k = 0; k < sizeof CASES / sizeof *CASES; k++) {
+        bytes text = with_value(CASES[k].parameter, CASES[k].value, CASES[k].anisotropic);
+        hnbrdf_model *model = NULL;
+        hnbrdf_error error;
+        float value;
+        if (import(&text, 1, NULL, &model, &error) != HNBRDF_OK)
+            fail_msg("%s", error.text);
+        const char *material = (const char *)hnbrdf_model_material(model, 0);
+        memcpy(&value, material + CASES[k].offset, sizeof value);
+        assert_true(value == CASES[k].expected);
+        if (CASES[k].note ? !strstr(notes, CASES[k].note) || strncmp(notes, "one: line ", 10) != 0
+                          : notes[0] != '\0')
+            fail_msg("\"%s\", expected \"%s\"", notes, CASES[k].note ? CASES[k].note : "");
+        assert_true(!notes[0] || strchr(notes, '\n') == notes + strlen(notes) - 1); /* one line */
+        free_bytes(&text);
+        hnbrdf_model_free(model);
+    }
+}
+
+static void values_far_out_of_range_are_refused(void **state)
+{
+    static const char *const CASES[][3] = {
+        {"diffuse_r", "1.0101", "kd[0] is 1.0101, expected 0 to 1"},
+        {"diffuse_g", "-1e-6", "kd[1] is -1e-06, expected 0 to 1"},
+        {"alpha", "1.0101", "alpha[0] is 1.0101"},
+        {"alpha", "-1e-6", "alpha[0] is -1e-06"},
+        {"eta_b", "0.99999", "eta[2] is 0.99999, expected above 1"},
+        {"diffuse_r", "-0.5", "kd[0] is -0.5"}};
+    (void)state;
+    for (size_t k = 0; k < sizeof CASES / sizeof *CASES; k++) {
+        bytes text = with_value(CASES[k][0], CASES[k][1], 0);
+        hnbrdf_model *model = NULL;
+        hnbrdf_error error;
+        assert_int_equal(import(&text, 1, NULL, &model, &error), HNBRDF_ERROR_FORMAT);
+        if (strncmp(error.text, "one: ", 5) != 0 || !strstr(error.text, CASES[k][2]))
+            fail_msg("\"%s\", expected \"%s\"", error.text, CASES[k][2]);
+        assert_string_equal(notes, "");
+        free_bytes(&text);
+    }
+}
+
+/* ---- Names ----------------------------------------------------------------------------------- */
+
+static void published_names_become_those_of_the_measurements(void **state)
+{
+    static const struct {
+        const char *path, *name;
+        int published;
+    } CASES[] = {{"shaders/RGL/Ours_ld4_32x2_aurora_white_rgb.brdf", "aurora_white", 1},
+                 {"Ours_ld16_64x3_alum-bronze.brdf", "alum-bronze", 1},
+                 {"Ours_ld4_32x2_x_rgb_rgb.brdf", "x_rgb", 1},
+                 {"Ours_ld4_32x2_my.best.brdf", "my.best", 1},
+                 {"Ours_ld4_32x2_rgb.brdf", "rgb", 1},
+                 {"Ours_ld4_32x2__rgb.brdf", "_rgb", 1},
+                 {"aurora_white_rgb.brdf", "aurora_white_rgb", 0},
+                 {"Ours_ld4_32x2_.brdf", "Ours_ld4_32x2_", 0},
+                 {"Ours_ld4_32x2.brdf", "Ours_ld4_32x2", 0},
+                 {"Ours_32x2_gold.brdf", "Ours_32x2_gold", 0},
+                 {"Ours_ld_32x2_gold.brdf", "Ours_ld_32x2_gold", 0},
+                 {"Ours_ld4_32x_gold.brdf", "Ours_ld4_32x_gold", 0},
+                 {"ours_ld4_32x2_gold.brdf", "ours_ld4_32x2_gold", 0},
+                 {"not_Ours_ld4_32x2_gold_rgb.brdf", "not_Ours_ld4_32x2_gold_rgb", 0},
+                 {"Neural_ld4_32x2_gold.brdf", "Neural_ld4_32x2_gold", 0},
+                 {"a.b/gold", "gold", 0},
+                 {".brdf", ".brdf", 0}};
+    char name[64];
+    (void)state;
+    for (size_t k = 0; k < sizeof CASES / sizeof *CASES; k++) {
+        assert_int_equal(hnbrdf_import_name(CASES[k].path, name, sizeof name), CASES[k].published);
+        assert_string_equal(name, CASES[k].name);
+    }
+    memset(name, 'z', sizeof name);
+    hnbrdf_import_name("gold.brdf", name, 3);
+    assert_string_equal(name, "go");
+    assert_int_equal(name[3], 'z');
+    hnbrdf_import_name("gold.brdf", NULL, 0);
+}
+
+static void messages_call_texts_by_their_files(void **state)
+{
+    static const char *const names[] = {"gold"}, *const files[] = {"shaders/gold.brdf"};
+    const hnbrdf_import_options options = {.files = files};
+    const char *const texts[] = {"analytic"};
+    const size_t sizes[] = {8};
     hnbrdf_model *model = NULL;
     hnbrdf_error error;
-    hnbrdf_material m;
     (void)state;
-    make_brdf_sample(&s, 1, 4, 1, 2);
-    m = sample_material(1, &s);
-    m.alpha[0] = 1e-6f;
-    bytes text = brdf_sample_text(&s, &m);
-    assert_int_equal(import(&text, 1, NULL, &model, &error), HNBRDF_OK);
-    assert_true(hnbrdf_model_material(model, 0)->alpha[0] == HNBRDF_MIN_ALPHA);
-    assert_true(hnbrdf_model_material(model, 0)->alpha[1] == HNBRDF_MIN_ALPHA);
-    free_bytes(&text);
-    hnbrdf_model_free(model);
+    assert_int_equal(hnbrdf_model_import_brdf(texts, sizes, names, 1, &options, &model, &error),
+                     HNBRDF_ERROR_FORMAT);
+    assert_memory_equal(error.text, "shaders/gold.brdf: has no parameter", 35);
+}
+
+static void what_is_no_shader_is_named(void **state)
+{
+    static const char *const CASES[][2] = {
+        {"\x76\x2f\x31\x01\x02", "one: an OpenEXR picture, expected a published .brdf"},
+        {"tensor_file", "measured data in a tensor file"},
+        {"<?xml version=\"1.0\"?>", "an XML text"},
+        {"PK\3\4", "a zip archive"}};
+    (void)state;
+    for (size_t k = 0; k < sizeof CASES / sizeof *CASES; k++) {
+        const bytes file = {(unsigned char *)(uintptr_t)CASES[k][0], strlen(CASES[k][0])};
+        hnbrdf_model *model = NULL;
+        hnbrdf_error error;
+        assert_int_equal(import(&file, 1, NULL, &model, &error), HNBRDF_ERROR_FORMAT);
+        if (!strstr(error.text, CASES[k][1]))
+            fail_msg("\"%s\", expected \"%s\"", error.text, CASES[k][1]);
+    }
 }
 
 /* ---- Files of one dataset -------------------------------------------------------------------- */
@@ -346,7 +501,7 @@ static void wrong_parameters_are_named(void **state)
     refuses("diffuse_g", "diffuse_x", format, "no parameter line for diffuse_g");
     refuses("eta_b 1.0 10.0", "eta_b 1.0", format, "no parameter line for eta_b");
     refuses("float eta_b", "float eta_r", format, "found eta_r again, expected it once");
-    refuses("eta_r 1.0 10.0 1.5", "eta_r 1.0 10.0 1.0", format, "eta");
+    refuses("eta_r 1.0 10.0 1.5", "eta_r 1.0 10.0 0.99", format, "eta");
     refuses("diffuse_r 0.0 1.0 0.5", "diffuse_r 0.0 1.0 1.5", format, "kd");
     refuses("alpha 0.0001 1.0 0.5", "alpha 0.0001 1.0 -0.5", format, "alpha");
     refuses("alpha 0.0001 1.0 0.5", "alpha 0.0001 1.0 1.5", format, "alpha");
@@ -562,7 +717,11 @@ int main(int argc, char **argv)
         cmocka_unit_test(an_imported_network_gives_the_values_of_the_shader),
         cmocka_unit_test(the_exponent_is_read_in_any_notation),
         cmocka_unit_test(line_endings_and_tabs_do_not_matter),
-        cmocka_unit_test(roughness_below_the_floor_is_raised_to_it),
+        cmocka_unit_test(values_a_little_out_of_range_are_moved_and_told),
+        cmocka_unit_test(values_far_out_of_range_are_refused),
+        cmocka_unit_test(published_names_become_those_of_the_measurements),
+        cmocka_unit_test(messages_call_texts_by_their_files),
+        cmocka_unit_test(what_is_no_shader_is_named),
         cmocka_unit_test(files_with_different_networks_are_told_apart),
         cmocka_unit_test(two_materials_need_two_names),
         cmocka_unit_test(wrong_parameters_are_named),

@@ -79,6 +79,55 @@ static void missing_empty_and_foreign_files_are_refused(void **state)
     remove(path);
 }
 
+/* Each says what it is and what is expected; the content counts before the name, but for formats
+ * whose content looks like one that is read. */
+static void other_formats_of_the_field_are_named(void **state)
+{
+    static const struct {
+        const char *name, *content, *expected;
+    } cases[] = {
+        {"gold.PBSDF", NULL, "a polarised BRDF"},
+        {"gold.pbsdf", "", "a polarised BRDF"},
+        {"gold.hpbrdf", "tensor_file", "a hyperspectral polarised BRDF"},
+        {"gold.axf", "\x89HDF\r\n\x1a\n", "an AxF material"},
+        {"glass.bsdf", "<?xml version=\"1.0\"?><WindowElement>",
+         "an XML text: matrices of Radiance"},
+        {"glass.xml", "<WindowElement xmlns=", "an XML text of matrices of Radiance or WINDOW"},
+        {"lens.bsdf", "#Data\nSource  Measured\n", "a text, not RGL's .bsdf"},
+        {"data.mat", "MATLAB 5.0 MAT-file, Platform", "a MATLAB file"},
+        {"data.mat", "anything", "a MATLAB file"},
+        {"lamp.ies", "IESNA:LM-63-2002\n", "photometric data of a lamp"},
+        {"lamp.ies", "IESNA91\n", "photometric data of a lamp"},
+        {"steel.mbsdf", "NVIDIA ARC MBSDF V1\n", "an MBSDF measurement"},
+        {"steel.astm", "VERSION 1\n", "a BRDF as ASTM E1392"},
+        {"steel.ddr", "; Integra\n", "a BRDF of Integra"},
+        {"steel.exr", "\x76\x2f\x31\x01\x02", "an OpenEXR picture"},
+        {"sky.binary", "#?RADIANCE\n", "a Radiance picture"},
+        {"gold.binary", "analytic\n::begin parameters\n",
+         "make a model of it first: hnbrdf import"},
+        {"scan.tif", "MM", NULL}, /* two bytes are of no format */
+    };
+    test_bytes rgl = test_rgl(TEST_ISOTROPIC);
+    (void)state;
+    for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
+        const char *content = cases[k].content;
+        const void *data = content ? (const void *)content : rgl.data;
+        hnbrdf_measured *measured = NULL;
+        hnbrdf_error error;
+        char path[400];
+        snprintf(path, sizeof path, "%0300d/%s", 0, cases[k].name);
+        assert_int_equal(hnbrdf_measured_open_memory(data, content ? strlen(content) : rgl.size,
+                                                     path, NULL, &measured, &error),
+                         HNBRDF_ERROR_FORMAT);
+        const char *expected =
+            cases[k].expected ? cases[k].expected : "2 bytes starting with 4d 4d";
+        if (!strstr(error.text, expected) || !strstr(error.text, ", expected "))
+            fail_msg("%s: \"%s\", expected \"%s\"", cases[k].name, error.text, expected);
+        assert_int_equal(error.text[strlen(error.text) - 1], ')'); /* not cut */
+    }
+    free(rgl.data);
+}
+
 static void files_above_the_limit_are_refused_at_the_limit(void **state)
 {
     test_bytes file = test_rgl(TEST_ISOTROPIC);
@@ -177,10 +226,10 @@ static void long_paths_leave_room_for_the_message(void **state)
     hnbrdf_measured *measured = NULL;
     (void)state;
     memset(path, 'a', sizeof path);
-    memcpy(path + sizeof path - 11, "/last.bsdf", 11);
+    memcpy(path + sizeof path - 11, "/last.data", 11);
     assert_int_equal(hnbrdf_measured_open_memory("123456789012", 12, path, NULL, &measured, &error),
                      HNBRDF_ERROR_FORMAT);
-    assert_non_null(strstr(error.text, "aaa/last.bsdf: 12 bytes starting with"));
+    assert_non_null(strstr(error.text, "aaa/last.data: 12 bytes starting with"));
     assert_non_null(
         strstr(error.text, "UTIA .bin (1990656 bytes) or an NBRDF .h5/.npy (HDF, NUMPY)"));
 }
@@ -364,6 +413,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_file_and_its_bytes_give_the_same_values),
         cmocka_unit_test(missing_empty_and_foreign_files_are_refused),
+        cmocka_unit_test(other_formats_of_the_field_are_named),
         cmocka_unit_test(every_format_has_one_row),
         cmocka_unit_test(files_are_known_by_their_endings),
         cmocka_unit_test(options_are_described_once),

@@ -315,6 +315,9 @@ static void what_people_take_for_a_model_is_named(void **state)
         {"PK\3\4 archive of PyTorch", "a zip archive"},
         {"\x1f\x8b packed", "compressed by gzip"},
         {"GGUF and more", "a GGUF model"},
+        {"analytic\n\n::begin parameters\n", "a published .brdf shader"},
+        {"tensor_file", "measured data in a tensor file"},
+        {"#?RADIANCE\nFORMAT", "a Radiance picture"},
     };
     (void)state;
     for (size_t k = 0; k < sizeof CASES / sizeof *CASES; k++) {

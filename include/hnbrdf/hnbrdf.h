@@ -315,13 +315,28 @@ HNBRDF_API hnbrdf_result hnbrdf_model_save(const hnbrdf_model *model, const char
 HNBRDF_API hnbrdf_result hnbrdf_model_write(const hnbrdf_model *model, hnbrdf_write_fn write,
                                             void *user, hnbrdf_error *error);
 
+/* Zero-initialise for defaults. */
+typedef struct hnbrdf_import_options {
+    hnbrdf_allocator allocator;
+    hnbrdf_notes notes;       /* told of values that were moved into their range */
+    const char *const *files; /* [count], what messages call the texts; NULL: their names */
+} hnbrdf_import_options;
+
 /* Import published BRDF-Explorer .brdf shaders of this method: every text carries one material and
  * the same network, which is checked. names[i] becomes the material's name. 1 to
- * HNBRDF_MAX_MATERIALS texts of any size; memory depends on their number alone. */
+ * HNBRDF_MAX_MATERIALS texts of any size; memory depends on their number alone. options may be
+ * NULL. A diffuse colour or an alpha above 1 by at most 0.01 becomes 1, an alpha below
+ * HNBRDF_MIN_ALPHA becomes that, an eta of 1 the next float above. */
 HNBRDF_API hnbrdf_result hnbrdf_model_import_brdf(const char *const *texts, const size_t *sizes,
                                                   const char *const *names, int count,
-                                                  const hnbrdf_allocator *allocator,
+                                                  const hnbrdf_import_options *options,
                                                   hnbrdf_model **model, hnbrdf_error *error);
+
+/* The material that the file of a published shader stands for, into name[size], cut to fit: the
+ * file's name without folder and ending and, where it begins like Ours_ld4_32x2_ with any numbers,
+ * without that and a last _rgb. So measurements of that material have the same name. Returns 1 in
+ * the second case, else 0. */
+HNBRDF_EXPERIMENTAL int hnbrdf_import_name(const char *path, char *name, size_t size);
 
 /* Free a model; NULL is allowed. */
 HNBRDF_API void hnbrdf_model_free(hnbrdf_model *model);

@@ -1,4 +1,4 @@
-/* foreign.c: what files of other kinds begin with. */
+/* foreign.c: what files of other kinds begin with, and how their names end. */
 #include "base/foreign.h"
 
 #include "base/text.h"
@@ -18,8 +18,9 @@ typedef struct beginning {
 static const beginning BEGINNINGS[] = {
     {BYTES("<!doctype html"), 1, "an HTML page, as a failed download leaves"},
     {BYTES("<html"), 1, "an HTML page, as a failed download leaves"},
-    {BYTES("<?xml"), 1, "an XML text: Klems matrices of WINDOW, scenes and the like are not read"},
-    {BYTES("<WindowElement"), 1, "an XML text of Klems matrices, which are not read"},
+    {BYTES("<?xml"), 1, "an XML text: matrices of Radiance or WINDOW and scenes are not read"},
+    {BYTES("<WindowElement"), 1,
+     "an XML text of matrices of Radiance or WINDOW, which are not read"},
     {BYTES("version https://git-lfs"), 1,
      "a pointer of Git LFS and not the file itself: run git lfs pull"},
     {BYTES("/annex/objects/"), 1, "a pointer of git-annex and not the file itself"},
@@ -36,6 +37,43 @@ static const beginning BEGINNINGS[] = {
     {BYTES("\xff\xd8\xff"), 0, "a JPEG picture"},
     {BYTES("%PDF-"), 0, "a PDF document"},
     {BYTES("GGUF"), 0, "a GGUF model"},
+    {BYTES("MATLAB "), 0, "a MATLAB file, which is not read"},
+    {BYTES("IESNA"), 1, "photometric data of a lamp (IES), which are no reflectance"},
+    {BYTES("NVIDIA ARC MBSDF"), 0, "an MBSDF measurement of MDL, which is not read"},
+    {BYTES("II*\0"), 0, "a TIFF picture"},
+    {BYTES("MM\0*"), 0, "a TIFF picture"},
+};
+
+static const beginning OWN[] = {
+    {BYTES("\x76\x2f\x31\x01"), 0, "an OpenEXR picture"},
+    {BYTES("#?RADIANCE"), 0, "a Radiance picture"},
+    {BYTES("#?RGBE"), 0, "a Radiance picture"},
+    {BYTES("tensor_file"), 0, "measured data in a tensor file (RGL .bsdf)"},
+    {BYTES("\x5a\0\0\0\x5a\0\0\0\xb4\0\0\0"), 0, "measured data of MERL (.binary)"},
+    {BYTES("\x93NUMPY"), 0, "a NumPy array"},
+    {BYTES("\x89HDF\r\n\x1a\n"), 0, "an HDF5 file"},
+};
+
+/* Formats of reflectance data by the endings of their names, and what their bytes may be: anything
+ * that is not recognised, a text, or also what looks like a format that is read. */
+enum { ANYTHING, TEXT, LOOKALIKE };
+static const struct {
+    const char *ending;
+    int bytes;
+    const char *what;
+} NAMES[] = {
+    {".pbsdf", LOOKALIKE, "a polarised BRDF (Baek et al. 2020, Mitsuba's measured_polarized)"},
+    {".hpbrdf", LOOKALIKE, "a hyperspectral polarised BRDF"},
+    {".axf", LOOKALIKE, "an AxF material"},
+    {".astm", ANYTHING, "a BRDF as ASTM E1392"},
+    {".ddr", ANYTHING, "a BRDF of Integra"},
+    {".sdr", ANYTHING, "a specular BRDF of Integra"},
+    {".ddt", ANYTHING, "a BTDF of Integra"},
+    {".sdt", ANYTHING, "a specular BTDF of Integra"},
+    {".ssdd", ANYTHING, "surface scattering distribution data (SSDD)"},
+    {".bsdf", TEXT, "a text, not RGL's .bsdf: LightTools and Zemax have others"},
+    {".mat", ANYTHING, "a MATLAB file"},
+    {".ies", ANYTHING, "photometric data of a lamp (IES)"},
 };
 
 static int begins(const char *from, size_t size, const beginning *b)
@@ -63,19 +101,86 @@ static int is_index(const char *from, size_t size)
     return 0;
 }
 
+/* Behind a byte order mark and white space. */
+static const char *text_of(const char *start, const char *end)
+{
+    start += hnbrdf_byte_order_mark(start, (size_t)(end - start));
+    while (start < end && (*start == ' ' || (*start >= '\t' && *start <= '\r')))
+        start++;
+    return start;
+}
+
+static const char *find_beginning(const beginning *list, size_t count, const char *start,
+                                  const char *end)
+{
+    const char *text = text_of(start, end);
+    for (size_t k = 0; k < count; k++) {
+        const char *from = list[k].text ? text : start;
+        if (begins(from, (size_t)(end - from), &list[k]))
+            return list[k].what;
+    }
+    return NULL;
+}
+
 const char *hnbrdf_foreign_file(const unsigned char *bytes, size_t size)
 {
-    const char *start = (const char *)bytes, *text = start, *end = start + size;
-    text += hnbrdf_byte_order_mark(text, size);
-    while (text < end && (*text == ' ' || (*text >= '\t' && *text <= '\r')))
-        text++;
-    for (size_t k = 0; k < sizeof BEGINNINGS / sizeof BEGINNINGS[0]; k++) {
-        const beginning *b = &BEGINNINGS[k];
-        const char *from = b->text ? text : start;
-        if (begins(from, (size_t)(end - from), b))
-            return b->what;
-    }
+    const char *start = (const char *)bytes, *end = start + size, *text = text_of(start, end);
+    const char *what =
+        find_beginning(BEGINNINGS, sizeof BEGINNINGS / sizeof BEGINNINGS[0], start, end);
+    if (what)
+        return what;
     if (is_index(text, (size_t)(end - text)))
         return "the index of a model in several files, which are not read: save it as one";
+    return NULL;
+}
+
+/* ---- What is read ---------------------------------------------------------------------------- */
+
+/* Eight bytes of length, then the header, a JSON object with the format among its metadata. */
+static int is_safetensors(const unsigned char *bytes, size_t size)
+{
+    return size > 9 && bytes[6] == 0 && bytes[7] == 0 && bytes[8] == '{' && bytes[9] == '"';
+}
+
+int hnbrdf_is_brdf_text(const unsigned char *bytes, size_t size)
+{
+    static const beginning FIRST[] = {{BYTES("analytic"), 1, ""}, {BYTES("::begin"), 1, ""}};
+    const char *start = (const char *)bytes;
+    return find_beginning(FIRST, sizeof FIRST / sizeof FIRST[0], start, start + size) != NULL;
+}
+
+const char *hnbrdf_own_file(const unsigned char *bytes, size_t size)
+{
+    const char *start = (const char *)bytes;
+    if (is_safetensors(bytes, size))
+        return "a model file (safetensors)";
+    if (hnbrdf_is_brdf_text(bytes, size))
+        return "a published .brdf shader; make a model of it first: hnbrdf import";
+    return find_beginning(OWN, sizeof OWN / sizeof OWN[0], start, start + size);
+}
+
+/* Judged by its first bytes. */
+static int is_text(const unsigned char *bytes, size_t size)
+{
+    for (size_t k = 0; k < size && k < 64; k++)
+        if (bytes[k] < ' ' && (bytes[k] < '\t' || bytes[k] > '\r'))
+            return 0;
+    return size > 0;
+}
+
+int hnbrdf_foreign_lookalike(const char *path)
+{
+    for (size_t k = 0; k < sizeof NAMES / sizeof NAMES[0]; k++)
+        if (NAMES[k].bytes == LOOKALIKE && hnbrdf_ends_with(path, NAMES[k].ending))
+            return 1;
+    return 0;
+}
+
+const char *hnbrdf_foreign_name(const char *path, const unsigned char *bytes, size_t size)
+{
+    for (size_t k = 0; k < sizeof NAMES / sizeof NAMES[0]; k++)
+        if (hnbrdf_ends_with(path, NAMES[k].ending) &&
+            (NAMES[k].bytes != TEXT || is_text(bytes, size)))
+            return NAMES[k].what;
     return NULL;
 }

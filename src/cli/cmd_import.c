@@ -9,9 +9,16 @@ static const cli_command command = {
     "import",
     "FILE.brdf... -o MODEL.safetensors",
     "Reads published BRDF-Explorer shaders of this method, one material a file, all with the same\n"
-    "network, and writes them as one model. A material is named after its file.",
+    "network, and writes them as one model. A material is named after its file; of the published\n"
+    "names Ours_ld4_32x2_NAME and Ours_ld4_32x2_NAME_rgb, whatever the numbers, only NAME is left, "
+    "so "
+    "that\n"
+    "compare finds the measurement of the same name. A diffuse colour or an alpha above 1 by at "
+    "most "
+    "0.01\n"
+    "becomes 1, an alpha below 0.0001 becomes that, with a warning.",
     "hnbrdf import merl/*.brdf -o merl.safetensors\n"
-    "hnbrdf info merl.safetensors",
+    "hnbrdf compare merl.safetensors merl/",
 };
 
 /* A published shader has some 60 KB. */
@@ -19,8 +26,9 @@ static const size_t max_text = (size_t)16 << 20;
 
 typedef struct brdf_texts {
     int count;
-    char **texts, **names;
+    char **texts, **names, **paths;
     size_t *sizes;
+    int renamed, first; /* files with published names; the number of the first, from 1 */
 } brdf_texts;
 
 /* The whole file, or NULL after a message; malloc'ed. */
@@ -49,27 +57,28 @@ static char *read_text(const char *path, size_t *size)
     return smaller ? smaller : text;
 }
 
-/* The file's name without directory and extension; NULL after a message. malloc'ed. */
-static char *name_of(const char *path)
+/* The material of the file; malloc'ed, NULL after a message. */
+static char *name_of(const char *path, int *published)
 {
-    const char *slash = strrchr(path, '/');
-    char *name = strdup(slash ? slash + 1 : path);
-    if (!name) {
+    const size_t size = strlen(path) + 1;
+    char *name = malloc(size);
+    if (name)
+        *published = hnbrdf_import_name(path, name, size);
+    else
         cli_fail("out of memory");
-        return NULL;
-    }
-    char *dot = strrchr(name, '.');
-    if (dot && dot != name)
-        *dot = '\0';
     return name;
 }
 
-static int read_all(brdf_texts *texts, char **paths)
+static int read_all(brdf_texts *texts)
 {
+    char **paths = texts->paths;
     for (int k = 0; k < texts->count; k++) {
-        texts->names[k] = name_of(paths[k]);
+        int published = 0;
+        texts->names[k] = name_of(paths[k], &published);
         if (!texts->names[k])
             return CLI_FAILURE;
+        texts->renamed += published;
+        texts->first = published && !texts->first ? k + 1 : texts->first;
         for (int other = 0; other < k; other++)
             if (strcmp(texts->names[other], texts->names[k]) == 0)
                 return cli_fail("two materials have the name %s: %s and %s", texts->names[k],
@@ -81,13 +90,23 @@ static int read_all(brdf_texts *texts, char **paths)
     return CLI_OK;
 }
 
+static void tell_names(const brdf_texts *texts)
+{
+    const int k = texts->first - 1;
+    if (texts->renamed > 0)
+        printf("%d of %d materials are named without what published names add, as %s of %s\n",
+               texts->renamed, texts->count, texts->names[k], texts->paths[k]);
+}
+
 static int import_and_save(const brdf_texts *texts, const char *out)
 {
+    const hnbrdf_import_options options = {.notes = CLI_NOTES,
+                                           .files = (const char *const *)texts->paths};
     hnbrdf_model *model = NULL;
     hnbrdf_error error;
     hnbrdf_result result = hnbrdf_model_import_brdf((const char *const *)texts->texts, texts->sizes,
                                                     (const char *const *)texts->names, texts->count,
-                                                    NULL, &model, &error);
+                                                    &options, &model, &error);
     if (result != HNBRDF_OK)
         return cli_fail("%s", error.text);
     int failed = cli_set_lobes(&model, HNBRDF_LOBES_FIT);
@@ -96,6 +115,7 @@ static int import_and_save(const brdf_texts *texts, const char *out)
     hnbrdf_model_free(model);
     if (failed)
         return failed;
+    tell_names(texts);
     printf("%s: %d material%s\n", out, texts->count, texts->count == 1 ? "" : "s");
     return CLI_OK;
 }
@@ -117,13 +137,14 @@ int cmd_import(int argc, char **argv)
         return cli_usage(&command, "no model file to write: -o MODEL.safetensors");
 
     size_t count = (size_t)texts.count;
+    texts.paths = argv + 1;
     texts.texts = calloc(count, sizeof *texts.texts);
     texts.names = calloc(count, sizeof *texts.names);
     texts.sizes = calloc(count, sizeof *texts.sizes);
     if (!texts.texts || !texts.names || !texts.sizes)
         result = cli_fail("out of memory");
     else
-        result = read_all(&texts, argv + 1);
+        result = read_all(&texts);
     if (result == CLI_OK)
         result = import_and_save(&texts, out);
     for (size_t k = 0; k < count && texts.texts && texts.names; k++) {

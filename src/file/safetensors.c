@@ -355,6 +355,11 @@ static hnbrdf_result read_length(const char *path, const unsigned char *bytes, s
         value = value << 8 | bytes[i];
     if (value < 2 || value > MAX_HEADER || value > size - 8) {
         const uint64_t limit = size - 8 < MAX_HEADER ? size - 8 : MAX_HEADER;
+        const int has_header = size > 8 && bytes[8] == '{'; /* it is one, with another length */
+        const char *own = has_header ? NULL : hnbrdf_own_file(bytes, size);
+        if (own)
+            return hnbrdf_fail(error, HNBRDF_ERROR_FORMAT, "%s: %s, expected a safetensors file",
+                               path, own);
         return hnbrdf_fail(error, HNBRDF_ERROR_FORMAT,
                            "%s: not a safetensors file: its first 8 bytes give a header of %llu "
                            "bytes, expected 2 to "

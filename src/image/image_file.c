@@ -41,6 +41,8 @@ hnbrdf_result render_file_read(const char *path, size_t limit, render_bytes *byt
 static hnbrdf_result fail_foreign(const char *path, const render_bytes *bytes, hnbrdf_error *error)
 {
     const char *foreign = hnbrdf_foreign_file(bytes->data, bytes->size);
+    if (!foreign)
+        foreign = hnbrdf_own_file(bytes->data, bytes->size);
     return hnbrdf_fail(error, HNBRDF_ERROR_FORMAT,
                        "%s: %s%sneither OpenEXR nor Radiance .hdr (%zu bytes)", path,
                        foreign ? foreign : "", foreign ? "; " : "", bytes->size);

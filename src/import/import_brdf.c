@@ -1,7 +1,9 @@
 /* import_brdf.c: make a model of the published BRDF-Explorer .brdf files of one dataset.
  * Each holds one material as parameter lines and, written out in GLSL, the network of all. */
 #include "base/error.h"
+#include "base/foreign.h"
 #include "import/brdf_network.h"
+#include "import/brdf_parameters.h"
 #include "import/brdf_text.h"
 #include "base/memory.h"
 #include "base/text.h"
@@ -15,116 +17,6 @@ typedef struct published {
     int has_exponent;
     int latent;
 } published;
-
-/* ---- Parameters ------------------------------------------------------------------------------ */
-
-enum { DIFFUSE_R, DIFFUSE_G, DIFFUSE_B, ETA_R, ETA_G, ETA_B, ALPHA_X, ALPHA_Y, ALPHA, LATENT };
-static const char *const PARAMETERS[LATENT] = {"diffuse_r", "diffuse_g", "diffuse_b",
-                                               "eta_r",     "eta_g",     "eta_b",
-                                               "alpha_x",   "alpha_y",   "alpha"};
-
-/* The index of latent_N behind the underscore, or -1. */
-static int latent_index(const hnbrdf_words *name)
-{
-    static const char PREFIX[] = "latent_";
-    const size_t length = (size_t)(name->stop - name->begin), prefix = sizeof PREFIX - 1;
-    int index = 0;
-    if (length <= prefix || length > prefix + 4 || memcmp(name->begin, PREFIX, prefix) != 0)
-        return -1;
-    for (const char *at = name->begin + prefix; at < name->stop; ++at) {
-        if (*at < '0' || *at > '9')
-            return -1;
-        index = index * 10 + (*at - '0');
-    }
-    return index;
-}
-
-/* PARAMETERS index, LATENT + N, or -1 for a parameter of no interest here. */
-static int parameter_index(const hnbrdf_words *name)
-{
-    for (int i = 0; i < LATENT; ++i)
-        if (hnbrdf_words_at(name, PARAMETERS[i]))
-            return i;
-    const int latent = latent_index(name);
-    return latent < 0 ? -1 : LATENT + latent;
-}
-
-static void set_parameter(hnbrdf_material *material, int parameter, float value)
-{
-    if (parameter >= LATENT) {
-        material->latent[parameter - LATENT] = value;
-    } else if (parameter >= ALPHA_X) {
-        /* Rougher than the smallest roughness that can be evaluated; nonsense is left to the
-         * check. */
-        const float alpha = value >= 0 && value < HNBRDF_MIN_ALPHA ? HNBRDF_MIN_ALPHA : value;
-        material->alpha[0] = parameter == ALPHA_Y ? material->alpha[0] : alpha;
-        material->alpha[1] = parameter == ALPHA_X ? material->alpha[1] : alpha;
-    } else {
-        (parameter >= ETA_R ? material->eta : material->kd)[parameter % 3] = value;
-    }
-}
-
-/* float NAME MIN MAX DEFAULT, from behind float; anything else is left where it is. */
-static hnbrdf_result read_parameter(hnbrdf_words *words, hnbrdf_material *material,
-                                    unsigned long *seen, hnbrdf_error *error)
-{
-    hnbrdf_words ahead = *words;
-    float low, high, value;
-    const int parameter = ahead.kind == HNBRDF_WORD_NAME ? parameter_index(&ahead) : -1;
-    if (parameter < 0)
-        return HNBRDF_OK;
-    hnbrdf_words_next(&ahead);
-    if (!hnbrdf_words_take_number(&ahead, &low) || !hnbrdf_words_take_number(&ahead, &high) ||
-        !hnbrdf_words_take_number(&ahead, &value))
-        return HNBRDF_OK;
-    const int length = (int)(words->stop - words->begin);
-    if (parameter >= LATENT + HNBRDF_MAX_LATENT) {
-        return hnbrdf_fail(error, HNBRDF_ERROR_LIMIT,
-                           "%s: line %d: found %.*s, expected at most latent_%d", words->file,
-                           words->line, length, words->begin, HNBRDF_MAX_LATENT - 1);
-    }
-    if (*seen >> parameter & 1) {
-        return hnbrdf_fail(error, HNBRDF_ERROR_FORMAT,
-                           "%s: line %d: found %.*s again, expected it once", words->file,
-                           words->line, length, words->begin);
-    }
-    *seen |= 1ul << parameter;
-    set_parameter(material, parameter, value);
-    *words = ahead;
-    return HNBRDF_OK;
-}
-
-/* alpha, or alpha_x and alpha_y; latent_0 to latent_N without a gap; all others. */
-static hnbrdf_result check_parameters(const char *file, unsigned long seen, int *latent,
-                                      hnbrdf_error *error)
-{
-    const unsigned long alphas = seen >> ALPHA_X & 7;
-    int count = 0;
-    for (int i = DIFFUSE_R; i < ALPHA_X; ++i) {
-        if (!(seen >> i & 1)) {
-            return hnbrdf_fail(
-                error, HNBRDF_ERROR_FORMAT,
-                "%s: has no parameter line for %s, expected \"float %s MIN MAX DEFAULT\"", file,
-                PARAMETERS[i], PARAMETERS[i]);
-        }
-    }
-    if (alphas != 3 && alphas != 4) {
-        return hnbrdf_fail(
-            error, HNBRDF_ERROR_FORMAT,
-            "%s: has parameter lines for%s%s%s%s, expected alpha, or alpha_x and alpha_y", file,
-            alphas & 1 ? " alpha_x" : "", alphas & 2 ? " alpha_y" : "", alphas & 4 ? " alpha" : "",
-            alphas ? "" : " no alpha");
-    }
-    while (seen >> (LATENT + count) & 1)
-        ++count;
-    if (seen >> (LATENT + count) != 0) {
-        return hnbrdf_fail(error, HNBRDF_ERROR_FORMAT,
-                           "%s: has no parameter line for latent_%d, but a later one, expected all",
-                           file, count);
-    }
-    *latent = count;
-    return HNBRDF_OK;
-}
 
 /* ---- exp(S*(neural_output) + M) -------------------------------------------------------------- */
 
@@ -239,37 +131,61 @@ static hnbrdf_result check_network(const char *file, const published *p, hnbrdf_
     return HNBRDF_OK;
 }
 
+/* The text of one material. */
+static hnbrdf_result read_words(hnbrdf_words *words, published *p,
+                                hnbrdf_brdf_parameters *parameters, hnbrdf_error *error)
+{
+    hnbrdf_result result = HNBRDF_OK;
+    while (!result && words->kind != HNBRDF_WORD_END) {
+        if (hnbrdf_words_take(words, "float")) {
+            result = hnbrdf_brdf_read_parameter(words, parameters, error);
+        } else if (hnbrdf_words_take(words, "mlp_eval")) {
+            if (take_definition(words)) {
+                hnbrdf_words body = *words; /* the line with exp may stand in it */
+                result = p->network.layers
+                             ? hnbrdf_words_fail(words, "one function mlp_eval", error)
+                             : hnbrdf_brdf_read_network(&body, &p->network, error);
+            }
+        } else if (hnbrdf_words_take(words, "neural_output")) {
+            if (take_exponent(words))
+                result = read_exponent(words, p, error);
+        } else {
+            hnbrdf_words_next(words);
+        }
+    }
+    return result;
+}
+
+/* What is no text of this kind at all is called by its name. */
+static hnbrdf_result check_kind(const char *file, const char *text, size_t size,
+                                hnbrdf_error *error)
+{
+    const unsigned char *bytes = (const unsigned char *)text;
+    const char *other = hnbrdf_foreign_file(bytes, size);
+    if (!other)
+        other = hnbrdf_own_file(bytes, size);
+    if (!other || hnbrdf_is_brdf_text(bytes, size))
+        return HNBRDF_OK;
+    return hnbrdf_fail(error, HNBRDF_ERROR_FORMAT, "%s: %s, expected a published .brdf shader",
+                       file, other);
+}
+
 static hnbrdf_result read_file(const char *file, const char *text, size_t size, published *p,
-                               hnbrdf_material *material, hnbrdf_error *error)
+                               hnbrdf_brdf_parameters *parameters, hnbrdf_error *error)
 {
     hnbrdf_words words;
     hnbrdf_error inner;
-    unsigned long seen = 0;
-    hnbrdf_result result = HNBRDF_OK;
+    hnbrdf_result result = check_kind(file, text, size, error);
     memset(p, 0, sizeof *p);
-    hnbrdf_material_init(material);
+    hnbrdf_material_init(parameters->material);
+    if (result)
+        return result;
     hnbrdf_words_begin(&words, file, text, size);
-    while (!result && words.kind != HNBRDF_WORD_END) {
-        if (hnbrdf_words_take(&words, "float")) {
-            result = read_parameter(&words, material, &seen, error);
-        } else if (hnbrdf_words_take(&words, "mlp_eval")) {
-            if (take_definition(&words)) {
-                hnbrdf_words body = words; /* the line with exp may stand in it */
-                result = p->network.layers
-                             ? hnbrdf_words_fail(&words, "one function mlp_eval", error)
-                             : hnbrdf_brdf_read_network(&body, &p->network, error);
-            }
-        } else if (hnbrdf_words_take(&words, "neural_output")) {
-            if (take_exponent(&words))
-                result = read_exponent(&words, p, error);
-        } else {
-            hnbrdf_words_next(&words);
-        }
-    }
-    if (result || (result = check_parameters(file, seen, &p->latent, error)) ||
+    if ((result = read_words(&words, p, parameters, error)) ||
+        (result = hnbrdf_brdf_check_parameters(file, parameters, &p->latent, error)) ||
         (result = check_network(file, p, error)))
         return result;
-    if ((result = hnbrdf_material_check(material, &inner)))
+    if ((result = hnbrdf_material_check(parameters->material, &inner)))
         return hnbrdf_fail(error, HNBRDF_ERROR_FORMAT, "%s: %s", file, inner.text);
     return HNBRDF_OK;
 }
@@ -344,25 +260,32 @@ static hnbrdf_result compare(const importing *all, const char *file, const char 
 }
 
 static hnbrdf_result read_files(importing *all, const char *const *texts, const size_t *sizes,
-                                const char *const *names, int count, hnbrdf_error *error)
+                                const char *const *names, int count,
+                                const hnbrdf_import_options *options, hnbrdf_error *error)
 {
+    const char *const *files = options->files ? options->files : names;
     for (int i = 0; i < count; ++i) {
         hnbrdf_result result;
-        if (!texts[i] || !names[i]) {
+        if (!texts[i] || !names[i] || !files[i]) {
             return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT, "%s[%d] is NULL",
-                               texts[i] ? "names" : "texts", i);
+                               !texts[i]   ? "texts"
+                               : !names[i] ? "names"
+                                           : "files",
+                               i);
         }
         published *p = i == 0 ? &all->first : &all->current;
-        if ((result = read_file(names[i], texts[i], sizes[i], p, &all->materials[i], error)) ||
-            (i > 0 && (result = compare(all, names[i], names[0], error))))
+        hnbrdf_brdf_parameters parameters = {
+            .material = &all->materials[i], .name = names[i], .notes = &options->notes};
+        if ((result = read_file(files[i], texts[i], sizes[i], p, &parameters, error)) ||
+            (i > 0 && (result = compare(all, files[i], files[0], error))))
             return result;
     }
     return HNBRDF_OK;
 }
 
 static hnbrdf_result make_model(const importing *all, const char *const *names, int count,
-                                const hnbrdf_allocator *allocator, hnbrdf_model **model,
-                                hnbrdf_error *error)
+                                const char *first, const hnbrdf_allocator *allocator,
+                                hnbrdf_model **model, hnbrdf_error *error)
 {
     const hnbrdf_brdf_network *n = &all->first.network;
     hnbrdf_model_desc desc = {.kind = HNBRDF_KIND_HYBRID,
@@ -378,7 +301,7 @@ static hnbrdf_result make_model(const importing *all, const char *const *names, 
     if (desc.scale == 0) {
         return hnbrdf_fail(error, HNBRDF_ERROR_FORMAT,
                            "%s: exp(S*(neural_output) + M) has S 0, expected another number",
-                           names[0]);
+                           first);
     }
     for (int k = 0; k < n->layers; ++k) {
         desc.weights[k] = n->weights[k];
@@ -389,11 +312,12 @@ static hnbrdf_result make_model(const importing *all, const char *const *names, 
 
 hnbrdf_result hnbrdf_model_import_brdf(const char *const *texts, const size_t *sizes,
                                        const char *const *names, int count,
-                                       const hnbrdf_allocator *allocator, hnbrdf_model **model,
+                                       const hnbrdf_import_options *options, hnbrdf_model **model,
                                        hnbrdf_error *error)
 {
+    const hnbrdf_import_options settled = options ? *options : (hnbrdf_import_options){0};
     hnbrdf_allocator memory;
-    hnbrdf_result result = hnbrdf_choose_allocator(allocator, &memory, error);
+    hnbrdf_result result = hnbrdf_choose_allocator(&settled.allocator, &memory, error);
     if (result)
         return result;
     if (!texts || !sizes || !names || !model)
@@ -406,9 +330,10 @@ hnbrdf_result hnbrdf_model_import_brdf(const char *const *texts, const size_t *s
     importing *all = hnbrdf_allocate(&memory, size);
     if (!all)
         return hnbrdf_fail_memory(error, size, "an import");
-    result = read_files(all, texts, sizes, names, count, error);
+    result = read_files(all, texts, sizes, names, count, &settled, error);
     if (!result)
-        result = make_model(all, names, count, &memory, model, error);
+        result = make_model(all, names, count, settled.files ? settled.files[0] : names[0], &memory,
+                            model, error);
     hnbrdf_release(&memory, all);
     return result;
 }

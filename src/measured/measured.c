@@ -101,14 +101,25 @@ static void make_name(char name[HNBRDF_MAX_NAME + 1], const char *path)
 
 /* ---- Opening --------------------------------------------------------------------------------- */
 
-static hnbrdf_result unrecognised(const measured_file *file, hnbrdf_error *error)
+/* What the file is instead of measured data, by its content, else by its name; NULL: unknown. */
+static const char *instead(const measured_file *file, const char *path)
+{
+    const char *by_name = hnbrdf_foreign_name(path, file->bytes, file->size);
+    if (hnbrdf_foreign_lookalike(path))
+        return by_name;
+    const char *what = hnbrdf_foreign_file(file->bytes, file->size);
+    if (!what)
+        what = hnbrdf_own_file(file->bytes, file->size);
+    return what ? what : file->size == 0 ? "empty" : by_name;
+}
+
+static hnbrdf_result unrecognised(const measured_file *file, const char *path, hnbrdf_error *error)
 {
     char expected[sizeof error->text], start[3 * 12 + 1] = "";
     hnbrdf_measured_expected(expected, sizeof expected);
-    const char *foreign = hnbrdf_foreign_file(file->bytes, file->size);
-    if (file->size == 0 || foreign)
-        return hnbrdf_fail(error, HNBRDF_ERROR_FORMAT, "%s: %s, %s", file->label,
-                           foreign ? foreign : "empty", expected);
+    const char *what = instead(file, path);
+    if (what)
+        return hnbrdf_fail(error, HNBRDF_ERROR_FORMAT, "%s: %s, %s", file->label, what, expected);
     for (size_t i = 0; i < 12 && i < file->size; i++)
         snprintf(start + 3 * i, sizeof start - 3 * i, " %02x", file->bytes[i]);
     return hnbrdf_fail(error, HNBRDF_ERROR_FORMAT, "%s: %zu bytes starting with%s, %s", file->label,
@@ -129,9 +140,9 @@ static hnbrdf_result open_file(const measured_file *file, const char *path,
                                const hnbrdf_measured_options *options, hnbrdf_measured **measured,
                                hnbrdf_error *error)
 {
-    const measured_reader *reader = recognise(file);
+    const measured_reader *reader = hnbrdf_foreign_lookalike(path) ? NULL : recognise(file);
     if (!reader)
-        return unrecognised(file, error);
+        return unrecognised(file, path, error);
     hnbrdf_measured *opened = calloc(1, sizeof *opened);
     if (!opened)
         return hnbrdf_fail(error, HNBRDF_ERROR_MEMORY, "%s: out of memory", file->label);
