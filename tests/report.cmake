@@ -1,6 +1,9 @@
 # Editing, mixing, baking, the reports, pictures compared, the gallery. (cli.cmake, read before,
 # knows how to run the scripts.)
 hnbrdf_test(test_edit test_edit.c)
+hnbrdf_test(test_edit_properties test_edit_properties.c)
+target_compile_definitions(hnbrdf_test_edit_properties PRIVATE
+  HNBRDF_EXAMPLE_MODEL="${PROJECT_SOURCE_DIR}/examples/models/rgl_32x2.safetensors")
 hnbrdf_test(test_edit_materials test_edit_materials.c model_support.c core_support.c)
 hnbrdf_cli_test(test_edit_cli)
 hnbrdf_cli_test(test_report)

@@ -270,6 +270,19 @@ static void a_text_sets_multiplies_and_adds(void **state)
     assert_memory_equal(&m, &wanted, sizeof m);
 }
 
+static void a_field_goes_back_to_what_was_fitted(void **state)
+{
+    const hnbrdf_material fitted = other_material();
+    hnbrdf_material m = fitted;
+    (void)state;
+    assert_int_equal(hnbrdf_material_set(&m, "alpha=0.5,kd*=0.5,eta=2,alpha_y+=0.1", NULL), 0);
+    assert_int_equal(hnbrdf_material_set(&m, "alpha_x=fitted,kd=fitted", NULL), 0);
+    assert_true(m.alpha[0] == fitted.alpha[0] && m.alpha[1] == 0.5f + 0.1f);
+    assert_memory_equal(m.kd, fitted.kd, sizeof m.kd);
+    assert_int_equal(hnbrdf_material_set(&m, "alpha=fitted,eta=fitted", NULL), 0);
+    assert_memory_equal(&m, &fitted, sizeof m);
+}
+
 static void a_wrong_text_changes_nothing(void **state)
 {
     static const struct {
@@ -290,8 +303,13 @@ static void a_wrong_text_changes_nothing(void **state)
                  {"rotation*=30deg", "is not a number"},
                  {"eta=inf", "is not a number"},
                  {"eta=0x1", "is not a number"},
-                 {"alpha=0.2 ", "is not a number"}};
-    const hnbrdf_material before = other_material();
+                 {"alpha=0.2 ", "is not a number"},
+                 {"rotation=fitted", "is not a number"},
+                 {"kd*=fitted", "is not a number"},
+                 {"kd=fitted:1", "is not a number"},
+                 {"kd=fitted", "it is not known what the material was fitted with"}};
+    hnbrdf_material before = other_material();
+    memset(&before.fitted, 0, sizeof before.fitted);
     (void)state;
     for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
         hnbrdf_material m = before;
@@ -510,6 +528,7 @@ int main(void)
         cmocka_unit_test(changes_are_made_in_order),
         cmocka_unit_test(all_materials_may_go_when_others_come),
         cmocka_unit_test(a_text_sets_multiplies_and_adds),
+        cmocka_unit_test(a_field_goes_back_to_what_was_fitted),
         cmocka_unit_test(a_wrong_text_changes_nothing),
         cmocka_unit_test(wrong_changes_are_refused),
         cmocka_unit_test(a_model_without_materials_is_refused),

@@ -63,10 +63,11 @@ HNBRDF_EXPERIMENTAL hnbrdf_result hnbrdf_model_with_materials(
 
 /* Changes a material as a text says: assignments FIELD=VALUE with commas between, made in order.
  * FIELD is kd or eta (one value or three, R:G:B), alpha (one or two, x:y), alpha_x, alpha_y or
- * rotation (radians, or with a unit as in 30deg). FIELD*=VALUE multiplies, FIELD+=VALUE adds.
- * "alpha=0.1:0.4,kd*=0.5". Numbers are decimal, with '.' whatever the locale. What comes out may
- * be out of range: hnbrdf_material_check() tells, and so does the function above. Untouched on
- * failure. */
+ * rotation (radians, or with a unit as in 30deg). FIELD*=VALUE multiplies, FIELD+=VALUE adds,
+ * FIELD=fitted takes an edit of kd, eta or alpha back; HNBRDF_ERROR_ARGUMENT where material->fitted
+ * is all zeros. "alpha=0.1:0.4,kd*=0.5". Numbers are decimal, with '.' whatever the locale. What
+ * comes out may be out of range: hnbrdf_material_check() tells, and so does the function above.
+ * Untouched on failure. */
 HNBRDF_EXPERIMENTAL hnbrdf_result hnbrdf_material_set(hnbrdf_material *material, const char *text,
                                                       hnbrdf_error *error);
 

@@ -8,8 +8,10 @@
 static const cli_command command = {
     "edit",
     "MODEL --set FIELD=VALUE[,...] [--material A] [--as B] [-o OUT]",
-    "Changes fields of a material's analytic part; the network and the latent code stay as they "
-    "are.\n"
+    "Changes fields of a material. The model's network and the latent code stay as they are; what "
+    "the\n"
+    "network adds to the material is carried along: of a rougher material all of the highlight is "
+    "wider.\n"
     "Without --as the material itself changes, with it a copy is added under that name.\n"
     "\n"
     "Fields: kd (diffuse albedo, 0 to 1) and eta (index of refraction, above 1), one value or "
@@ -19,7 +21,11 @@ static const cli_command command = {
     "of x "
     "and\n"
     "y about the normal, counter-clockwise, in radians or as in 30deg. FIELD*=VALUE multiplies,\n"
-    "FIELD+=VALUE adds. Two different alphas make an isotropic material anisotropic.",
+    "FIELD+=VALUE adds. Two different alphas make an isotropic material anisotropic. FIELD=fitted "
+    "takes\n"
+    "an edit back: the file keeps what a material was fitted with (hnbrdf info shows it). Good up "
+    "to\n"
+    "3 times or a third of the fitted alpha or so; examples/editing.md has the errors.",
     "hnbrdf edit model.safetensors --material gold --set alpha=0.2,kd=0.1:0.2:0.3 --as dull-gold\n"
     "hnbrdf edit model.safetensors --material gold --set alpha=0.1:0.4,rotation=30deg --as "
     "brushed-gold\n"
@@ -66,7 +72,7 @@ static int edit_material(const edit_job *job, const hnbrdf_model *model, int ind
         cli_warn("%s: a neural model has no analytic part; kd, eta and alpha do not show",
                  job->path);
     if (hnbrdf_material_set(&after, job->set, &error) != HNBRDF_OK)
-        return cli_fail("%s", error.text);
+        return cli_fail("%s: %s", from, error.text);
     const hnbrdf_material_change change = {
         .name = to, .material = &after, .lobes = HNBRDF_LOBES_FIT};
     if (!job->replace && strcmp(to, from) != 0 && hnbrdf_model_find(model, to) >= 0)
@@ -121,7 +127,8 @@ int cmd_edit(int argc, char **argv)
         return cli_usage(&command, count ? "more than one MODEL" : "no MODEL");
     if (!job.set)
         return cli_usage(&command, "nothing to change, expected --set FIELD=VALUE");
-    hnbrdf_material_init(&any); /* is it an edit at all? before files are opened */
+    hnbrdf_material_init(&any);         /* is it an edit at all? before files are opened */
+    any.fitted.alpha[0] = any.alpha[0]; /* as every material of a hybrid has it */
     if (hnbrdf_material_set(&any, job.set, &error) != HNBRDF_OK)
         return cli_usage(&command, "--set: %s", error.text);
     job.path = argv[1];

@@ -7,26 +7,30 @@
 
 #include <string.h>
 
+/* Offsets in hnbrdf_material, of the field and of what it was fitted with. */
 typedef struct field {
     const char *name;
-    size_t offset; /* in hnbrdf_material */
+    size_t offset;
     int count;     /* floats there */
+    size_t fitted; /* 0: nothing is kept of it */
 } field;
 
 static const field fields[] = {
-    {"kd", offsetof(hnbrdf_material, kd), 3},
-    {"eta", offsetof(hnbrdf_material, eta), 3},
-    {"alpha", offsetof(hnbrdf_material, alpha), 2},
-    {"alpha_x", offsetof(hnbrdf_material, alpha), 1},
-    {"alpha_y", offsetof(hnbrdf_material, alpha) + sizeof(float), 1},
-    {"rotation", offsetof(hnbrdf_material, rotation), 1},
+    {"kd", offsetof(hnbrdf_material, kd), 3, offsetof(hnbrdf_material, fitted.kd)},
+    {"eta", offsetof(hnbrdf_material, eta), 3, offsetof(hnbrdf_material, fitted.eta)},
+    {"alpha", offsetof(hnbrdf_material, alpha), 2, offsetof(hnbrdf_material, fitted.alpha)},
+    {"alpha_x", offsetof(hnbrdf_material, alpha), 1, offsetof(hnbrdf_material, fitted.alpha)},
+    {"alpha_y", offsetof(hnbrdf_material, alpha) + sizeof(float), 1,
+     offsetof(hnbrdf_material, fitted.alpha) + sizeof(float)},
+    {"rotation", offsetof(hnbrdf_material, rotation), 1, 0},
 };
+static const char FITTED[] = "fitted";
 enum { FIELDS = sizeof fields / sizeof fields[0], MAX_VALUES = 3 };
 
-/* FIELD=VALUE[:VALUE...], or with *= or +=. */
+/* FIELD=VALUE[:VALUE...], or with *= or +=; or FIELD=fitted. */
 typedef struct assignment {
     const field *field;
-    char operation; /* '=', '*' or '+' */
+    char operation; /* '=', '*', '+', or 'f': what it was fitted with */
     float values[MAX_VALUES];
     int count; /* 1: the same for every float of the field */
 } assignment;
@@ -71,6 +75,11 @@ static hnbrdf_result read_values(assignment *a, const char *from, const char *en
                                  hnbrdf_error *error)
 {
     const field *f = a->field;
+    if (f->fitted && a->operation == '=' && (size_t)(end - from) == sizeof FITTED - 1 &&
+        strncmp(from, FITTED, sizeof FITTED - 1) == 0) {
+        a->operation = 'f';
+        return HNBRDF_OK;
+    }
     for (;;) {
         float value;
         const char *to = read_value(a, from, end, &value);
@@ -113,6 +122,10 @@ static hnbrdf_result read_assignment(assignment *a, const char *from, const char
 static void apply(const assignment *a, hnbrdf_material *material)
 {
     float *at = (float *)(void *)((char *)material + a->field->offset);
+    if (a->operation == 'f') {
+        memcpy(at, (const char *)material + a->field->fitted, (size_t)a->field->count * sizeof *at);
+        return;
+    }
     for (int k = 0; k < a->field->count; ++k) {
         const float value = a->values[a->count > 1 ? k : 0];
         at[k] = a->operation == '=' ? value : a->operation == '*' ? at[k] * value : at[k] + value;
@@ -131,6 +144,10 @@ hnbrdf_result hnbrdf_material_set(hnbrdf_material *material, const char *text, h
         const hnbrdf_result result = read_assignment(&a, text, end, error);
         if (result)
             return result;
+        if (a.operation == 'f' && changed.fitted.alpha[0] == 0.0f)
+            return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT,
+                               "%s=%s: it is not known what the material was fitted with",
+                               a.field->name, FITTED);
         apply(&a, &changed);
         if (*end == '\0')
             break;

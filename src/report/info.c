@@ -22,12 +22,21 @@ static const char *encoding_name(const hnbrdf_model_desc *desc)
     return desc->kind == HNBRDF_KIND_GGX ? "none" : hnbrdf_encoding_name(desc->encoding);
 }
 
+/* The row below that of an edited material. */
+static const char FITTED_AS[] = "  edited; fitted as";
+
 static void print_material(const hnbrdf_material *m, const char *name, int width, FILE *file)
 {
     fprintf(file, "%-*s  %6.4f %6.4f %6.4f  %7.4g %7.4g %7.4g  %7.4g %7.4g  %8.4g\n", width, name,
             (double)m->kd[0], (double)m->kd[1], (double)m->kd[2], (double)m->eta[0],
             (double)m->eta[1], (double)m->eta[2], (double)m->alpha[0], (double)m->alpha[1],
             (double)m->rotation);
+    if (hnbrdf_material_is_edited(m)) {
+        const hnbrdf_fitted *f = &m->fitted;
+        fprintf(file, "%-*s  %6.4f %6.4f %6.4f  %7.4g %7.4g %7.4g  %7.4g %7.4g\n", width, FITTED_AS,
+                (double)f->kd[0], (double)f->kd[1], (double)f->kd[2], (double)f->eta[0],
+                (double)f->eta[1], (double)f->eta[2], (double)f->alpha[0], (double)f->alpha[1]);
+    }
 }
 
 void info_print_model(const char *path, const hnbrdf_model *model, const hnbrdf_physics *physics,
@@ -47,8 +56,11 @@ void info_print_model(const char *path, const hnbrdf_model *model, const hnbrdf_
             (double)desc.shift, (double)desc.floor);
     fprintf(file, "  materials  %d\n\n", desc.material_count);
     int width = (int)strlen("material");
-    for (int k = 0; k < desc.material_count; k++)
+    for (int k = 0; k < desc.material_count; k++) {
+        const char *note = hnbrdf_material_is_edited(&desc.materials[k]) ? FITTED_AS : "";
         width = (int)strlen(desc.names[k]) > width ? (int)strlen(desc.names[k]) : width;
+        width = (int)strlen(note) > width ? (int)strlen(note) : width;
+    }
     fprintf(file, "%-*s  %-20s  %-23s  %-15s  %8s\n", width, "material", "kd (R G B)",
             "eta (R G B)", "alpha (x y)", "rotation");
     for (int k = 0; k < desc.material_count; k++)
@@ -94,6 +106,11 @@ static void json_material(const hnbrdf_material *m, const hnbrdf_physics *physic
     fputs(", \"rotation\": ", file);
     json_number(m->rotation, file);
     json_numbers("latent", m->latent, latent, file);
+    if (hnbrdf_material_is_edited(m)) {
+        json_numbers("fitted_kd", m->fitted.kd, 3, file);
+        json_numbers("fitted_eta", m->fitted.eta, 3, file);
+        json_numbers("fitted_alpha", m->fitted.alpha, 2, file);
+    }
     info_json_physics(physics, file);
     putc('}', file);
 }
