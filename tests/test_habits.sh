@@ -6,31 +6,7 @@ set -u
 . "$(dirname "$0")/test_cli_support.sh"
 SOURCES=$3
 
-# A command line of each command. @ is what it writes, IN what it reads first. "whole": it ends soon and is also run as
-# it stands; the others are only run where they are refused.
-cat >table <<'END'
-fit|whole|builtin:rough-clay --steps 2 --pool 64 -o @
-compare|whole|IN builtin:rough-clay --pairs 10 --csv @
-info|whole|IN
-eval|whole|IN -m rough-clay -i pairs.csv -o @
-export|whole|IN -o @
-verify|-|IN --pairs 64 --without-timing --csv @
-stability|-|IN --blocks 1 --device none --csv @
-render|whole|IN --material rough-clay --size 8 --spp 1 -o @.png
-scene|whole|small.scene --spp 1 -o @.png
-sheet|whole|IN builtin:rough-clay --size 32 --spp 1 -o @.png
-edit|whole|IN -m rough-clay -s alpha=0.3 -o @
-mix|whole|IN rough-clay velvet-crimson -t 0.5 -o @
-lobes|whole|IN -o @
-gallery|-|IN --size 32 --spp 1 -o @/
-bake|whole|IN --net 4x1 --steps 1 --pairs 100 --pool 64 -o @
-report accuracy|-|builtin:rough-clay --quick -o @/
-report images|-|builtin:rough-clay --quick -o @/
-report sampling|-|IN --quick -o @/
-report editing|-|--families plastic --quick -o @/
-bench|-|IN --quick --device none --csv @
-import|whole|a.brdf -o @
-END
+grep -v '^#' "$SOURCES/tests/command_lines.txt" >table
 sed -n 's/^ *ROW(\([a-z]*\), .*/\1/p' "$SOURCES/src/cli/commands.h" | sort -u >commands
 sed 's/[ |].*//' table | sort -u >here
 cmp -s commands here || fail "a command is not in the table of this test: $(diff commands here)"
@@ -137,7 +113,7 @@ outputs() {
 
 inputs() {
     case $arguments in *IN*) ;; *) return 0 ;; esac
-    for bad in letter empty lambert_rgb.bsdf; do
+    for bad in letter empty lambert_rgb.bsdf /dev/zero; do
         case $words:$bad in
         info:lambert_rgb.bsdf | eval:lambert_rgb.bsdf | render:lambert_rgb.bsdf | gallery:lambert_rgb.bsdf) continue ;;
         esac
@@ -228,6 +204,9 @@ cp lambert_rgb.bsdf folder/UPPER.BSDF
 cp lambert_rgb.bsdf folder/lower.bsdf
 run "$HNBRDF" info folder
 [ "$rc" -eq 0 ] && grep -q '^UPPER ' out && grep -q '^lower ' out || fail "an ending in capitals is left out"
+cp a.brdf A.BRDF
+run "$HNBRDF" info A.BRDF
+expect_failure "an ending in capitals" "A.BRDF: a published shader; make a model of it first"
 cp a.brdf light.exr
 sed 's/environment sky/environment light.exr/' small.scene >lit.scene
 run "$HNBRDF" scene lit.scene --spp 1 -o ./light.exr

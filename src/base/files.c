@@ -190,8 +190,16 @@ FILE *hnbrdf_open_to_read(const char *path)
     return hnbrdf_system_open(path, 0);
 }
 
-hnbrdf_result hnbrdf_fail_to_open(const char *label, hnbrdf_error *error)
+FILE *hnbrdf_open_whole(const char *path, const char *label, hnbrdf_error *error)
 {
-    return hnbrdf_fail(error, HNBRDF_ERROR_IO, "%s: cannot be opened for reading: %s", label,
-                       reason(errno));
+    FILE *file = hnbrdf_open_to_read(path);
+    if (!file) {
+        hnbrdf_fail(error, HNBRDF_ERROR_IO, "%s: cannot be opened for reading: %s", label,
+                    reason(errno));
+    } else if (hnbrdf_system_is_device(file)) {
+        hnbrdf_fail(error, HNBRDF_ERROR_IO, "%s: a device, expected a file", label);
+        fclose(file);
+        file = NULL;
+    }
+    return file;
 }

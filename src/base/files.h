@@ -51,7 +51,8 @@ int hnbrdf_write_stream(void *file, const void *data, size_t size);
 
 /* Opens a file to read its bytes; NULL if that fails, errno says why. */
 FILE *hnbrdf_open_to_read(const char *path);
-/* Fails with "LABEL: cannot be opened for reading: " and what errno says, in no locale's words. */
-hnbrdf_result hnbrdf_fail_to_open(const char *label, hnbrdf_error *error);
+/* The same for a file that is read whole, with a message that begins with LABEL and holds what
+ * errno says, in no locale's words. Devices are refused: a terminal or /dev/zero has no end. */
+FILE *hnbrdf_open_whole(const char *path, const char *label, hnbrdf_error *error);
 
 #endif

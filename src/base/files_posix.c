@@ -35,6 +35,13 @@ int hnbrdf_system_is_written_directly(const char *path)
     return stat(path, &status) == 0 && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode);
 }
 
+int hnbrdf_system_is_device(FILE *file)
+{
+    struct stat status;
+    return fstat(fileno(file), &status) == 0 &&
+           (S_ISCHR(status.st_mode) || S_ISBLK(status.st_mode));
+}
+
 int hnbrdf_system_may_write(const char *path)
 {
     return access(path, W_OK) == 0;

@@ -18,6 +18,8 @@ FILE *hnbrdf_system_open(const char *path, int writing);
 
 /* 1 for what exists and is neither a file nor a folder: /dev/null must not be replaced. */
 int hnbrdf_system_is_written_directly(const char *path);
+/* 1 for an open terminal, /dev/zero, a disk: what is neither a file nor a pipe. */
+int hnbrdf_system_is_device(FILE *file);
 int hnbrdf_system_may_write(const char *path);
 /* Fills target, replaces, mode, user and group from path. */
 int hnbrdf_system_find_target(hnbrdf_output *output);

@@ -55,6 +55,11 @@ int hnbrdf_system_is_written_directly(const char *path)
     return type != FILE_TYPE_DISK;
 }
 
+int hnbrdf_system_is_device(FILE *file)
+{
+    return GetFileType((HANDLE)_get_osfhandle(_fileno(file))) == FILE_TYPE_CHAR;
+}
+
 int hnbrdf_system_may_write(const char *path)
 {
     (void)path; /* opening tells */

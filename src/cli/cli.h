@@ -185,6 +185,9 @@ int cli_standard_end(int code);
 int cli_standard_gone(void); /* 1 after a write to a pipe that nobody reads */
 /* 1 if path is "-". */
 int cli_is_stdout(const char *path);
+/* Where words for a person go: stdout, or stderr once an option has given stdout to data. */
+FILE *cli_words(void);
+void cli_give_stdout_to_data(void);
 
 /* ---- Progress -----------------------------------------------------------------------------------
  * One line  * on stderr, rewritten in place on a terminal, a line every 10 s elsewhere; nothing

@@ -56,12 +56,12 @@ static int show(void *user, const hnbrdf_bake_progress *p)
     }
     cli_stages_end(&w->stages);
     if (p->report->row_count == 1) {
-        report_bake_heading(p->report, w->path, stdout);
+        report_bake_heading(p->report, w->path, cli_words());
         cli_print_reading();
-        report_bake_columns(p->report, stdout);
+        report_bake_columns(p->report, cli_words());
     }
-    report_bake_row(p->report, &p->report->rows[p->report->row_count - 1], stdout);
-    fflush(stdout);
+    report_bake_row(p->report, &p->report->rows[p->report->row_count - 1], cli_words());
+    fflush(cli_words());
     return hnbrdf_interrupted();
 }
 
@@ -71,13 +71,13 @@ static int save(const hnbrdf_model *baked, const hnbrdf_bake_report *r, double s
     hnbrdf_error error;
     if (hnbrdf_model_save(baked, o->model, &error) != HNBRDF_OK)
         return cli_fail("%s", error.text);
-    report_bake_result(r, o->model, stdout);
+    report_bake_result(r, o->model, cli_words());
     int code = cli_write_file(o->csv, report_bake_csv, r);
     if (code == CLI_OK)
         code = cli_write_file(o->json, report_bake_json, r);
     if (code == CLI_OK)
         code = cli_write_file(o->plot, report_bake_plot, r);
-    fflush(stdout);
+    fflush(cli_words());
     if (code == CLI_OK)
         code = cli_code(report_bake_verdict(r, seconds, o->model, &error), &error);
     return code;

@@ -61,7 +61,7 @@ static int show(void *user, const char *what, double share, const char *detail)
 static void tell(void *user, const char *line)
 {
     cli_stages_end(user);
-    puts(line);
+    fprintf(cli_words(), "%s\n", line);
 }
 
 static void warn(void *user, const char *line)

@@ -161,12 +161,11 @@ static int export_to(const hnbrdf_model *model, const hnbrdf_glsl_options *optio
         cli_output_discard(&output);
         return cli_fail("%s: %s", path, error.text);
     }
-    FILE *notes = output.file == stdout ? stderr : stdout;
     if (cli_output_close(&output) != CLI_OK)
         return CLI_FAILURE;
-    print_summary(notes, model, options, path, to.bytes);
+    print_summary(cli_words(), model, options, path, to.bytes);
     if (texels)
-        print_packing(texels, notes);
+        print_packing(texels, cli_words());
     return CLI_OK;
 }
 
@@ -181,8 +180,7 @@ typedef struct settings {
 
 /* A factor for each material that keeps its albedo at most 1, a little less as that is known to
  * 0.5 %; says which. malloc'ed, NULL after a message. */
-static float *conserving_factors(const hnbrdf_model *model, const int *materials, int count,
-                                 FILE *notes)
+static float *conserving_factors(const hnbrdf_model *model, const int *materials, int count)
 {
     float *factors = malloc((size_t)count * sizeof *factors);
     if (!factors)
@@ -192,7 +190,7 @@ static float *conserving_factors(const hnbrdf_model *model, const int *materials
         hnbrdf_physics_of(model, hnbrdf_model_material(model, materials[k]), &p);
         factors[k] = p.albedo > 1.0 ? (float)(0.995 / p.albedo) : 1.0f;
         if (p.albedo > 1.0)
-            fprintf(notes, "%s: albedo %.3f, values times %.4f\n",
+            fprintf(cli_words(), "%s: albedo %.3f, values times %.4f\n",
                     hnbrdf_model_material_name(model, materials[k]), p.albedo, (double)factors[k]);
     }
     return factors;
@@ -285,8 +283,7 @@ int cmd_export(int argc, char **argv)
     result = cli_choose_materials(model, set.materials, &materials, &chosen);
     float *energy = NULL;
     if (result == CLI_OK && set.conserve) {
-        energy = conserving_factors(model, materials, chosen,
-                                    strcmp(set.path, "-") == 0 ? stderr : stdout);
+        energy = conserving_factors(model, materials, chosen);
         result = energy ? CLI_OK : CLI_FAILURE;
     }
     if (result == CLI_OK)

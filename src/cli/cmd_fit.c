@@ -72,74 +72,88 @@ typedef struct job {
 
 static void summarise(const job *j, const hnbrdf_model *model, const hnbrdf_fit_report *report)
 {
+    FILE *words = cli_words();
     hnbrdf_model_desc desc;
     hnbrdf_model_describe(model, &desc);
-    printf("%s: %s", j->output, hnbrdf_kind_name(desc.kind));
+    fprintf(words, "%s: %s", j->output, hnbrdf_kind_name(desc.kind));
     if (desc.kind != HNBRDF_KIND_GGX)
-        printf(" %dx%d, %s, l = %d", desc.hidden, desc.layers, hnbrdf_encoding_name(desc.encoding),
-               desc.latent);
-    printf(", %d material%s", desc.material_count, desc.material_count == 1 ? "" : "s");
+        fprintf(words, " %dx%d, %s, l = %d", desc.hidden, desc.layers,
+                hnbrdf_encoding_name(desc.encoding), desc.latent);
+    fprintf(words, ", %d material%s", desc.material_count, desc.material_count == 1 ? "" : "s");
     if (j->fit.freeze) {
         int replaced =
             hnbrdf_model_material_count(j->fit.freeze) + j->data.count - desc.material_count;
-        printf(" (%d fitted on a frozen network, %.2f s each", j->data.count,
-               report->seconds / j->data.count);
+        fprintf(words, " (%d fitted on a frozen network, %.2f s each", j->data.count,
+                report->seconds / j->data.count);
         if (replaced > 0)
-            printf(", %d of the same name replaced", replaced);
-        printf(")");
+            fprintf(words, ", %d of the same name replaced", replaced);
+        fprintf(words, ")");
     }
     if (desc.kind != HNBRDF_KIND_GGX)
-        printf(", %ld steps, loss %.4f", report->steps, report->final_loss);
-    printf(", %.1f s\n", report->seconds);
+        fprintf(words, ", %ld steps, loss %.4f", report->steps, report->final_loss);
+    fprintf(words, ", %.1f s\n", report->seconds);
     cli_print_reading();
     if (report->stopped)
-        printf(
+        fprintf(
+            words,
             "interrupted; the model so far is saved. Repeat the command with --resume to go on.\n");
 }
 
 /* What is odd about the data: a person should know before trusting the model. */
 static void tell_about_data(const job *j)
 {
+    FILE *words = cli_words();
     for (int m = 0; m < j->data.count; m++) {
         const hnbrdf_fit_drawn *d = &j->fit.drawn[m];
         const char *name = hnbrdf_measured_name(j->data.items[m]);
         if (d->valid < FEW_VALID)
-            printf(
+            fprintf(
+                words,
                 "note: %s: %.3g %% of the directions drawn are valid measurements; what the model "
                 "says of the others is a guess\n",
                 name, 100.0 * d->valid);
         if (d->cut > 0.0)
-            printf("note: %s: %.3g %% of its values are above 1e15 1/sr, the largest %.3g; no BRDF "
-                   "is, "
-                   "they were taken as 1e15\n",
-                   name, 100.0 * d->cut, d->largest);
+            fprintf(
+                words,
+                "note: %s: %.3g %% of its values are above 1e15 1/sr, the largest %.3g; no BRDF "
+                "is, "
+                "they were taken as 1e15\n",
+                name, 100.0 * d->cut, d->largest);
         if (d->largest <= 0.0)
-            printf("note: %s: every value is 0, negative ones counted as 0\n", name);
+            fprintf(words, "note: %s: every value is 0, negative ones counted as 0\n", name);
         else if (d->dark >= 1.0)
-            printf("note: %s: no value above %.3g 1/sr, which the loss hardly tells from black; is "
-                   "the "
-                   "unit 1/sr?\n",
-                   name, d->largest);
+            fprintf(
+                words,
+                "note: %s: no value above %.3g 1/sr, which the loss hardly tells from black; is "
+                "the "
+                "unit 1/sr?\n",
+                name, d->largest);
     }
 }
 
 /* What the training could not do. */
 static void tell_about_training(const hnbrdf_fit_report *r)
 {
+    FILE *words = cli_words();
     if (r->set_backs > 0)
-        printf("note: training diverged %d time%s and went on from its best state at 0.3 times the "
-               "rate, in the end %.3g; give a lower --rate\n",
-               r->set_backs, r->set_backs == 1 ? "" : "s", r->rate);
+        fprintf(
+            words,
+            "note: training diverged %d time%s and went on from its best state at 0.3 times the "
+            "rate, in the end %.3g; give a lower --rate\n",
+            r->set_backs, r->set_backs == 1 ? "" : "s", r->rate);
     if (r->ggx_alone)
-        printf("note: no state of the training was better than GGX alone, loss %.4f: the network "
-               "saved "
-               "leaves GGX as it is; give more --steps or a lower --rate\n",
-               r->ggx_loss);
+        fprintf(words,
+                "note: no state of the training was better than GGX alone, loss %.4f: the network "
+                "saved "
+                "leaves GGX as it is; give more --steps or a lower --rate\n",
+                r->ggx_loss);
     else if (r->best_step < r->steps)
-        printf("note: the state of step %ld is saved, loss %.4f; what came later was worse\n",
-               r->best_step, r->best_loss);
+        fprintf(words,
+                "note: the state of step %ld is saved, loss %.4f; what came later was worse\n",
+                r->best_step, r->best_loss);
     if (r->best_loss > POOR_LOSS)
-        printf(
+        fprintf(
+            words,
             "note: the model does not follow these data: loss %.2f, where 0 is perfect and 2 the "
             "worst\n",
             r->best_loss);
@@ -148,7 +162,7 @@ static void tell_about_training(const hnbrdf_fit_report *r)
 static int write_speed(const job *j, const hnbrdf_fit_report *report)
 {
     bench_speed speed = bench_speed_of(report);
-    bench_speed_print(&speed, stdout);
+    bench_speed_print(&speed, cli_words());
     if (!j->json)
         return CLI_OK;
     cli_output output;

@@ -1,7 +1,8 @@
 /* cmd_import.c: `hnbrdf import`: published .brdf shaders of one data set become one model file. */
 #include "cli/cli.h"
 
-#include <errno.h>
+#include "image/image.h"
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -31,32 +32,6 @@ typedef struct brdf_texts {
     int renamed, first; /* files with published names; the number of the first, from 1 */
 } brdf_texts;
 
-/* The whole file, or NULL after a message; malloc'ed. */
-static char *read_text(const char *path, size_t *size)
-{
-    char *text = malloc(max_text + 1);
-    FILE *file = text ? fopen(path, "rb") : NULL;
-    size_t length = file ? fread(text, 1, max_text + 1, file) : 0;
-    int failed = 1;
-    if (!text)
-        cli_fail("out of memory");
-    else if (!file || ferror(file))
-        cli_fail("%s: cannot %s: %s", path, file ? "read" : "open", strerror(errno));
-    else if (length > max_text)
-        cli_fail("%s: larger than %zu bytes, expected a .brdf shader", path, max_text);
-    else
-        failed = 0;
-    if (file)
-        fclose(file);
-    if (failed) {
-        free(text);
-        return NULL;
-    }
-    *size = length;
-    char *smaller = realloc(text, length + 1);
-    return smaller ? smaller : text;
-}
-
 /* The material of the file; malloc'ed, NULL after a message. */
 static char *name_of(const char *path, int *published)
 {
@@ -71,6 +46,7 @@ static char *name_of(const char *path, int *published)
 
 static int read_all(brdf_texts *texts)
 {
+    hnbrdf_error error;
     char **paths = texts->paths;
     for (int k = 0; k < texts->count; k++) {
         int published = 0;
@@ -83,9 +59,14 @@ static int read_all(brdf_texts *texts)
             if (strcmp(texts->names[other], texts->names[k]) == 0)
                 return cli_fail("two materials have the name %s: %s and %s", texts->names[k],
                                 paths[other], paths[k]);
-        texts->texts[k] = read_text(paths[k], &texts->sizes[k]);
-        if (!texts->texts[k])
-            return CLI_FAILURE;
+        render_bytes bytes = {0};
+        const hnbrdf_result result = render_file_read(paths[k], max_text, &bytes, &error);
+        texts->texts[k] = (char *)bytes.data;
+        texts->sizes[k] = bytes.size;
+        if (result != HNBRDF_OK)
+            return cli_fail("%s", error.text);
+        if (bytes.size == 0)
+            return cli_fail("%s: empty, expected a .brdf shader", paths[k]);
     }
     return CLI_OK;
 }

@@ -141,7 +141,7 @@ static int compare(const scene_command *c)
     cli_progress_end(&line);
     if (result != HNBRDF_OK)
         return cli_fail("%s", error.text);
-    report_scene_print(rows, stdout);
+    report_scene_print(rows, cli_words());
     int code = cli_write_file(c->csv, report_scene_write_csv, rows);
     return code == CLI_OK ? cli_write_file(c->json, report_scene_write_json, rows) : code;
 }

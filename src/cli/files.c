@@ -139,6 +139,8 @@ static int add_written(const cli_command *command, const cli_option *option, con
     if (written_count == MOST_WRITTEN)
         return cli_usage(command, "more than %d files to write", (int)MOST_WRITTEN);
     written[written_count++] = (written_file){option, path};
+    if (cli_is_stdout(path))
+        cli_give_stdout_to_data();
     return check_written(command, &written[written_count - 1]);
 }
 

@@ -30,7 +30,7 @@ int picture_write(const render_image *image, const char *path, const render_writ
     hnbrdf_error error;
     if (report_picture_write(image, path, options, &error) != HNBRDF_OK)
         return cli_fail("%s", error.text);
-    report_print_pictures(path, stdout);
+    report_print_pictures(path, cli_words());
     return CLI_OK;
 }
 
@@ -52,7 +52,9 @@ void picture_end(cli_progress *line, const render_outcome *outcome, long spp)
     hnbrdf_catch_interrupts(0);
     cli_progress_end(line);
     if (outcome && !outcome->complete)
-        printf("stopped at %d to %d of %ld samples a pixel. Repeat the command with --resume to go "
-               "on.\n",
-               outcome->least, outcome->most, spp);
+        fprintf(
+            cli_words(),
+            "stopped at %d to %d of %ld samples a pixel. Repeat the command with --resume to go "
+            "on.\n",
+            outcome->least, outcome->most, spp);
 }

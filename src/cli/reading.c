@@ -92,19 +92,20 @@ static int matters(const hnbrdf_measured_option *option)
 void cli_print_reading(void)
 {
     const hnbrdf_measured_option *option;
+    FILE *words = cli_words();
     int shown = 0;
     for (int k = 0; (option = option_at(k)); k++) {
         const char *member = (const char *)&cli_read + option->offset;
         if (!matters(option))
             continue;
-        printf("%s --%s", shown++ ? "" : "measured files read with", option->name);
+        fprintf(words, "%s --%s", shown++ ? "" : "measured files read with", option->name);
         if (option->word)
-            printf(" %s", option->word(*(const int *)(const void *)member));
+            fprintf(words, " %s", option->word(*(const int *)(const void *)member));
         else if (option->usual != 0.0)
-            printf(" %.9g", *(const double *)(const void *)member);
+            fprintf(words, " %.9g", *(const double *)(const void *)member);
     }
     if (shown)
-        putchar('\n');
+        fputc('\n', words);
 }
 
 /* "MERL .binary, RGL .bsdf or UTIA .bin" with `last` before the last. */

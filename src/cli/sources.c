@@ -3,6 +3,7 @@
 #include "cli/words.h"
 
 #include "base/guess.h"
+#include "base/text.h"
 
 #include <dirent.h>
 #include <errno.h>
@@ -95,12 +96,6 @@ static int open_builtin(int index, hnbrdf_measured **measured)
 
 /* ---- Recognising files ----------------------------------------------------------------------- */
 
-static int has_extension(const char *path, const char *extension)
-{
-    size_t length = strlen(path), tail = strlen(extension);
-    return length > tail && strcmp(path + length - tail, extension) == 0;
-}
-
 static int is_directory(const char *path)
 {
     struct stat status;
@@ -148,7 +143,7 @@ static int open_measured_file(const char *path, hnbrdf_measured **measured)
     }
     if (cli_check_read(path) != CLI_OK)
         return CLI_FAILURE;
-    if (has_extension(path, ".brdf"))
+    if (hnbrdf_ends_with(path, ".brdf"))
         return cli_fail("%s: a published shader; make a model of it first: hnbrdf import", path);
     if (hnbrdf_measured_open(path, &cli_read, measured, &error) == HNBRDF_OK)
         return CLI_OK;
@@ -267,7 +262,7 @@ static int add_directory(data_builder *builder, const char *path)
         cli_measured_files(files, sizeof files, " or ");
         result = cli_fail("%s: the directory has no measured file: %s", path, files);
     }
-    const char *slash = has_extension(path, "/") ? "" : "/";
+    const char *slash = hnbrdf_ends_with(path, "/") ? "" : "/";
     for (int k = 0; k < count; k++) {
         size_t size = strlen(path) + strlen(entries[k]->d_name) + 2;
         int wanted = result == CLI_OK && !is_further_part(entries, count, k);
@@ -350,7 +345,7 @@ int cli_open_source(const char *path, cli_source *source)
         result = open_builtin(find_builtin(builtin), &opened.measured);
     else if (is_directory(path))
         return cli_fail("%s: a directory, expected one model or measured file", path);
-    else if (cli_looks_like_model(path) || has_extension(path, ".safetensors"))
+    else if (cli_looks_like_model(path) || hnbrdf_ends_with(path, ".safetensors"))
         result = load_model(path, &opened.model);
     else
         result = open_measured_file(path, &opened.measured);

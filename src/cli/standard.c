@@ -36,6 +36,18 @@ void cli_standard_begin(void)
     signal(SIGXFSZ, SIG_IGN); /* a file that may grow no further: EFBIG, with a message */
 }
 
+static int stdout_has_data;
+
+void cli_give_stdout_to_data(void)
+{
+    stdout_has_data = 1;
+}
+
+FILE *cli_words(void)
+{
+    return stdout_has_data ? stderr : stdout;
+}
+
 int cli_standard_gone(void)
 {
     return pipe_broken != 0;

@@ -22,7 +22,7 @@ static int stop(void *progress)
 static void tell(void *progress, const char *line)
 {
     cli_progress_end(progress);
-    printf("%s\n", line);
+    fprintf(cli_words(), "%s\n", line);
 }
 
 report_watch cli_watch(cli_progress *progress)

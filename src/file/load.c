@@ -139,8 +139,8 @@ hnbrdf_result hnbrdf_model_load(const char *path, const hnbrdf_load_options *opt
             return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT,
                                "path is NULL, expected a file's path");
         }
-        if (!(file = hnbrdf_open_to_read(path)))
-            return hnbrdf_fail_to_open(path, error);
+        if (!(file = hnbrdf_open_whole(path, path, error)))
+            return HNBRDF_ERROR_IO;
         s.read = read_stream;
         s.read_user = file;
     }

@@ -29,10 +29,9 @@ static hnbrdf_result read_stream(FILE *file, const char *path, size_t limit, ren
 hnbrdf_result render_file_read(const char *path, size_t limit, render_bytes *bytes,
                                hnbrdf_error *error)
 {
-    FILE *file = hnbrdf_open_to_read(path);
+    FILE *file = hnbrdf_open_whole(path, path, error);
     if (!file)
-        return hnbrdf_fail(error, HNBRDF_ERROR_IO, "%s: cannot be opened: %s", path,
-                           strerror(errno));
+        return HNBRDF_ERROR_IO;
     hnbrdf_result result = read_stream(file, path, limit, bytes, error);
     fclose(file);
     return result;

@@ -48,9 +48,9 @@ static hnbrdf_result read_stream(FILE *stream, size_t limit, const char *label,
 hnbrdf_result hnbrdf_read_file(const char *path, size_t limit, const char *label,
                                unsigned char **bytes, size_t *size, hnbrdf_error *error)
 {
-    FILE *stream = hnbrdf_open_to_read(path);
+    FILE *stream = hnbrdf_open_whole(path, label, error);
     if (!stream)
-        return hnbrdf_fail_to_open(label, error);
+        return HNBRDF_ERROR_IO;
     hnbrdf_result result = read_stream(stream, limit, label, bytes, size, error);
     fclose(stream);
     return result;
