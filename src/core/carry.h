@@ -41,7 +41,7 @@ static inline float hnbrdf_carried_eta(float eta, float fitted_eta)
 {
     float r = ((eta - 1.0f) / (eta + 1.0f)) / HNBRDF_CARRIED_AMPLITUDE;
     float raised = (1.0f + r) / (1.0f - r);
-    return (eta > fitted_eta) & (raised > fitted_eta) ? raised : fitted_eta;
+    return ((eta > fitted_eta) & (raised > fitted_eta)) ? raised : fitted_eta;
 }
 
 /* What the tangents of s are multiplied by; 1 to the bit where the roughness is that of the fit,
