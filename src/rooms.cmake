@@ -53,7 +53,7 @@ hnbrdf_room(render
 hnbrdf_room(scene
   describe.c describe_file.c describe_lists.c describe_shape.c film.c film_file.c hit.c job.c
   lights.c load.c load_shapes.c mesh.c mesh_view.c obj.c obj_faces.c obj_file.c obj_lines.c
-  obj_notes.c outline.c passes.c patch.c path.c polygon.c polygon_ears.c portals.c scene.c
+  obj_notes.c passes.c patch.c path.c polygon.c polygon_ears.c portals.c scene.c
   shapes.c teapot.c trace.c turn.c units.c words.c)
 hnbrdf_room(plot
   svg.c)

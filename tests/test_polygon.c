@@ -134,6 +134,7 @@ static const figure figures[] = {
     {"a spike along an edge", 5, 1.0, {{0, 0}, {2, 0}, {1, 0}, {1, 1}, {0, 1}}},
     {"a spike from a corner", 6, 1.0, {{0, 0}, {1, 0}, {2, -1}, {1, 0}, {1, 1}, {0, 1}}},
     {"a slit from a corner", 6, 1.0, {{0, 0}, {1, 0}, {0.5, 0.5}, {1, 0}, {1, 1}, {0, 1}}},
+    {"there and back", 6, 0.0, {{0, 0}, {4, 1}, {6, 5}, {4, 1}, {5, 0}, {4, 1}}},
     {"a corner on an edge", 5, 8.0, {{0, 0}, {4, 0}, {4, 4}, {2, 0}, {0, 4}}},
     {"two corners that touch", 6, 8.0, {{0, 0}, {2, 1}, {4, 0}, {4, 4}, {2, 1}, {0, 4}}},
     {"a corner given twice", 5, 16.0, {{0, 0}, {4, 0}, {4, 0}, {4, 4}, {0, 4}}},
@@ -166,6 +167,24 @@ static void edges_may_touch(void **state)
                 if (split(count, figures[f].area, way) != 0.0)
                     fail_msg("%s, from corner %u, far away", figures[f].name, first);
             }
+}
+
+/* A corner at which an edge goes straight on is a corner of triangles on both sides of it, so that
+ * no rounding opens a gap there: every triangle has an area. */
+static void straight_corners_are_kept(void **state)
+{
+    (void)state;
+    static const double xy[][2] = {{0, 0}, {1, 0}, {2, 0}, {3, 0}, {3, 1}, {3, 2}, {2, 2},
+                                   {2, 1}, {1, 1}, {1, 2}, {1, 3}, {0, 3}, {0, 2}, {0, 1}};
+    enum { COUNT = sizeof xy / sizeof *xy };
+    for (uint32_t first = 0; first < COUNT; first++) {
+        for (uint32_t i = 0; i < COUNT; i++)
+            for (int k = 0; k < 3; k++)
+                p[i][k] = k < 2 ? xy[(first + i) % COUNT][k] : 0.0;
+        assert_true(split(COUNT, 6.0, 1) == 0.0);
+        for (uint32_t i = 0; i + 2 < COUNT; i++)
+            assert_true(area_of(t[i]) > 0.0);
+    }
 }
 
 static uint32_t draw(uint32_t count)
@@ -229,6 +248,33 @@ static void mazes_are_covered_once(void **state)
         grow_tree(count, doors);
         if (split(walk_walls(doors, 2 * (uint32_t)count + 2), count, 1) != 0.0)
             fail_msg("maze %d of %d cells", round, count);
+    }
+}
+
+/* Without the corners at which the outline goes straight on, others touch the middle of edges. */
+static uint32_t drop_straight(uint32_t count)
+{
+    static double all[MOST][3];
+    uint32_t kept = 0;
+    memcpy(all, p, count * sizeof *all);
+    for (uint32_t i = 0; i < count; i++) {
+        const double *a = all[(i + count - 1) % count], *b = all[i], *c = all[(i + 1) % count];
+        if (a[0] + c[0] != 2.0 * b[0] || a[1] + c[1] != 2.0 * b[1])
+            memcpy(p[kept++], b, sizeof *p);
+    }
+    return kept;
+}
+
+static void corners_may_touch_the_middle_of_edges(void **state)
+{
+    (void)state;
+    for (int round = 0; round < 400; round++) {
+        int doors[CELLS];
+        const int count = 1 + (int)draw(CELLS);
+        grow_tree(count, doors);
+        const uint32_t corners = drop_straight(walk_walls(doors, 2 * (uint32_t)count + 2));
+        if (split(corners, count, 1) != 0.0)
+            fail_msg("maze %d of %d cells, %u corners", round, count, corners);
     }
 }
 
@@ -305,7 +351,9 @@ int main(void)
         cmocka_unit_test(turns_do_not_overflow_their_terms),
         cmocka_unit_test(stars_are_covered_once),
         cmocka_unit_test(edges_may_touch),
+        cmocka_unit_test(straight_corners_are_kept),
         cmocka_unit_test(mazes_are_covered_once),
+        cmocka_unit_test(corners_may_touch_the_middle_of_edges),
         cmocka_unit_test(planes_may_be_tilted),
         cmocka_unit_test(convex_polygons_are_fans),
         cmocka_unit_test(any_polygon_ends),

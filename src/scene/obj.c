@@ -58,7 +58,7 @@ static hnbrdf_result read_normal(obj_reader *r)
         return result;
     double length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
     for (int k = 0; k < 3; k++)
-        n[k] = n[k] / length; /* NaN for 0 0 0, which some exporters write */
+        n[k] = length > 0.0 ? n[k] / length : (double)NAN; /* some exporters write 0 0 0 */
     if (!(length > 0.0))
         obj_count(&r->tallies[OBJ_NORMAL_UNUSABLE], &before, before.at, obj_rest(&before));
     return render_mesh_normal(r->mesh, n) == RENDER_NONE ? obj_no_memory(&r->in) : HNBRDF_OK;

@@ -132,6 +132,19 @@ static void remember(const ring *r, uint32_t i, uint32_t blocker)
     c->blocker_changes = r->corners[blocker].changes;
 }
 
+/* Whether the way from a to c by b, all on one line, goes back over itself: b is not between them,
+ * or two of them are one point. */
+static int goes_back(const ring *r, uint32_t a, uint32_t b, uint32_t c)
+{
+    for (int k = 0; k < 2; k++) {
+        const int axis = k ? r->o->y : r->o->x;
+        const double from = r->o->p[a][axis], at = r->o->p[b][axis], to = r->o->p[c][axis];
+        if ((from < at && at < to) || (from > at && at > to))
+            return 0;
+    }
+    return 1;
+}
+
 /* Whether corner i can be cut off: it turns left, and no other corner blocks it; or the outline
  * goes back over itself there. */
 static int is_ear(ring *r, uint32_t i)
@@ -140,7 +153,7 @@ static int is_ear(ring *r, uint32_t i)
         return 0;
     const triangle t = triangle_at(r, i);
     const int way = turn_of(r, &t);
-    if (way == 0 && render_outline_returns(r->o, t.t[0], i, t.t[2]))
+    if (way == 0 && goes_back(r, t.t[0], i, t.t[2]))
         return 1;
     if (way <= 0) {
         remember(r, i, i);
@@ -171,16 +184,6 @@ static int is_free(ring *r, uint32_t i)
     return 1;
 }
 
-static int is_straight(ring *r, uint32_t i)
-{
-    return turn(r, r->corners[i].before, i, r->corners[i].next) == 0;
-}
-
-static int turns_left(ring *r, uint32_t i)
-{
-    return turn(r, r->corners[i].before, i, r->corners[i].next) > 0;
-}
-
 static uint32_t find(ring *r, int (*is_such)(ring *, uint32_t))
 {
     uint32_t i = r->first;
@@ -190,14 +193,13 @@ static uint32_t find(ring *r, int (*is_such)(ring *, uint32_t))
     return NOBODY;
 }
 
-/* The next corner to cut off. An outline without crossings that touches itself has one of the
- * first three kinds; where edges cross, anything ends it. */
+/* The next corner to cut off. An outline whose edges do not cross has an ear, or one that is free
+ * where corners touch the middle of edges; otherwise anything ends it. */
 static uint32_t choose(ring *r)
 {
-    static int (*const kinds[])(ring *, uint32_t) = {is_ear, is_free, is_straight, turns_left};
-    uint32_t found = NOBODY;
-    for (size_t k = 0; k < sizeof kinds / sizeof *kinds && found == NOBODY; k++)
-        found = find(r, kinds[k]);
+    uint32_t found = find(r, is_ear);
+    if (found == NOBODY)
+        found = find(r, is_free);
     return found == NOBODY ? r->first : found;
 }
 
