@@ -108,6 +108,24 @@ expect_usage "mix of one" "two materials"
 run "$HNBRDF" mix mixed.safetensors "$first" nothing --t 0.5
 expect_failure "mix with nothing" "nothing"
 
+# ---- an edit and what was fitted ---------------------------------------------------------------------
+run "$HNBRDF" edit hybrid.safetensors --material "$first" --set 'alpha*=1.5' -o rough.safetensors
+expect_ok "edit alpha"
+run "$HNBRDF" info rough.safetensors
+[ "$(grep -c 'edited; fitted as' out)" = 1 ] || fail "info does not show what an edited material was fitted with"
+"$HNBRDF" info rough.safetensors --json | grep -q '"fitted_alpha"' || fail "info --json of an edited material"
+! "$HNBRDF" info hybrid.safetensors --json | grep -q fitted || fail "info shows unedited materials as edited"
+"$HNBRDF" export rough.safetensors -o - | grep -q 'edited with their corrections' || fail "export of an edited material"
+! "$HNBRDF" export hybrid.safetensors -o - | grep -q hnbrdf_edit || fail "export writes edits nobody asked for"
+"$HNBRDF" export hybrid.safetensors --editable -o - | grep -q 'hnbrdf_fitted fitted' || fail "export --editable"
+run "$HNBRDF" export hybrid.safetensors --editable --fixed -o x.glsl
+expect_usage "export --editable --fixed" "do not change"
+run "$HNBRDF" edit rough.safetensors --material "$first" --set alpha=fitted
+expect_ok "edit alpha=fitted"
+values hybrid.safetensors "$first" >a
+values rough.safetensors "$first" >b
+cmp -s a b || fail "an edit taken back leaves other values"
+
 # ---- lobes ------------------------------------------------------------------------------------------
 run "$HNBRDF" lobes hybrid.safetensors -o lobes.safetensors
 [ "$rc" -eq 0 ] || fail "lobes -o: exit $rc" # with progress, where it takes long
