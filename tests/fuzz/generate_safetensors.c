@@ -301,7 +301,8 @@ static void put_network(writer *w)
 
 static void put_materials(writer *w)
 {
-    static const double unit[2] = {0.05, 0.95}, eta[2] = {1.1, 3.0}, turn[2] = {-3.1, 3.1};
+    static const double zero[2] = {0.0, 0.0}, unit[2] = {0.05, 0.95}, eta[2] = {1.1, 3.0},
+                        turn[2] = {-3.1, 3.1};
     const size_t count = (size_t)w->shape.materials;
     if (w->shape.kind != HNBRDF_KIND_NEURAL || fuzz_below(w->c, 2)) {
         put_tensor(w, "material.kd", 2, count, 3, unit);
@@ -314,6 +315,8 @@ static void put_materials(writer *w)
         put_tensor(w, "material.latent", 2, count, (size_t)w->shape.latent, turn);
     if (fuzz_below(w->c, 3) == 0)
         put_tensor(w, "material.lobes", 2, count, 10, unit);
+    if (fuzz_below(w->c, 3) == 0) /* all zeros: as it is; else out of range */
+        put_tensor(w, "material.fitted", 2, count, 8, fuzz_below(w->c, 4) ? zero : unit);
     if (fuzz_below(w->c, 3) == 0)
         put_tensor(w, "optimiser.step", 1, 1, 0, unit);
 }
