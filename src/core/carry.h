@@ -15,6 +15,18 @@
 #include "core/compose.h"
 #include "core/microfacet.h"
 
+/* hnbrdf_material_is_edited(); kd, eta and alpha come first in a material, and so in `fitted`. */
+static inline int hnbrdf_is_edited(const hnbrdf_material *material)
+{
+    float now[8], then[8];
+    int differ = 0;
+    memcpy(now, material, sizeof now);
+    memcpy(then, &material->fitted, sizeof then);
+    for (int k = 0; k < 8; k++)
+        differ |= now[k] != then[k];
+    return differ & (then[6] != 0.0f);
+}
+
 /* A diffuse part that was (nearly) black, or a reflectance that was (nearly) nothing, has no
  * correction that could be scaled: f_a of the fitted material is then a small number that divides.
  * kd carries the correction up to 4 times what it was; what is above is added as it is. The

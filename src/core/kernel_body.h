@@ -128,6 +128,17 @@ static void begin_materials(const hnbrdf_materials *of, int sampled, block_mater
     }
 }
 
+/* Some lane is edited: what that adds, of all. */
+KERNEL_APART void take_edits(block_materials *m, const hnbrdf_material *const own[LANES], int same)
+{
+    hnbrdf_prepared prepared = m->prepared;
+    for (int l = 0; l < LANES; l++) {
+        if (!same && (l == 0 || own[l] != own[l - 1]))
+            hnbrdf_prepare_analytic(m->of->model, own[l], &prepared);
+        put_edit(&prepared, l, &m->edits);
+    }
+}
+
 /* Those of items first to first + count of the batch. Where all lanes have the same one, that is
  * prepared (unless it is already) and `shared`; else the latent codes are put before what will be
  * encoded. */
@@ -148,9 +159,6 @@ static void take_materials(block_materials *m, size_t first, size_t count, lane_
         return;
     m->held = same ? own[0] : NULL;
     m->edited = 0;
-    for (int l = 0; l < LANES; l++)
-        m->edited |=
-            of->model->desc.kind == HNBRDF_KIND_HYBRID && hnbrdf_material_is_edited(own[l]);
     for (int l = 0; l < LANES; l++) {
         if (l == 0 && same)
             hnbrdf_prepare(of->model, own[0], &m->prepared);
@@ -160,11 +168,12 @@ static void take_materials(block_materials *m, size_t first, size_t count, lane_
                 hnbrdf_prepare_lobes(of->model, own[l], &m->prepared);
         }
         take_material(m, l, &m->prepared);
-        if (m->edited)
-            put_edit(&m->prepared, l, &m->edits);
+        m->edited |= m->prepared.edited;
         for (int i = 0; i < of->model->desc.latent && !same; i++)
             b->x[i][l] = own[l]->latent[i];
     }
+    if (m->edited)
+        take_edits(m, own, same);
 }
 
 /* b->out of what is encoded in b->x behind the latent codes. */

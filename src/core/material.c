@@ -1,6 +1,6 @@
 /* material.c: make, check and interpolate a material. */
 #include "base/error.h"
-#include "core/math.h"
+#include "core/carry.h"
 
 #include <math.h>
 #include <string.h>
@@ -94,13 +94,7 @@ hnbrdf_result hnbrdf_material_check(const hnbrdf_material *material, hnbrdf_erro
 
 int hnbrdf_material_is_edited(const hnbrdf_material *material)
 {
-    const hnbrdf_fitted *fitted = &material->fitted;
-    int differ = 0;
-    for (int c = 0; c < 3; c++)
-        differ |= material->kd[c] != fitted->kd[c] || material->eta[c] != fitted->eta[c];
-    for (int c = 0; c < 2; c++)
-        differ |= material->alpha[c] != fitted->alpha[c];
-    return differ && fitted->alpha[0] != 0.0f;
+    return hnbrdf_is_edited(material);
 }
 
 /* Never outside its two ends, whatever rounding does; a where both are equal. */

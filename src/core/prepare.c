@@ -54,8 +54,7 @@ void hnbrdf_prepare_analytic(const hnbrdf_model *model, const hnbrdf_material *m
         prepared->diffuse[c] = material->kd[channel] * HNBRDF_INV_PI;
         prepared->e[c] = hnbrdf_fresnel_e(material->eta[channel]);
     }
-    prepared->edited =
-        model->desc.kind == HNBRDF_KIND_HYBRID && hnbrdf_material_is_edited(material);
+    prepared->edited = model->desc.kind == HNBRDF_KIND_HYBRID && hnbrdf_is_edited(material);
     if (prepared->edited)
         prepared->edit = prepare_edit(material);
 }
