@@ -270,6 +270,25 @@ static void what_is_no_number_is_not_used(void **state)
     render_mesh_free(&mesh);
 }
 
+/* Normals that are averaged need none in the file. */
+static void smooth_meshes_lack_no_normals(void **state)
+{
+    (void)state;
+    render_mesh mesh;
+    told all = {""};
+    const char text[] = "v 0 0 0\nv 2 0 0\nv 0 2 0\nv 0 0 2\nvn 0 0 0\nvn 0 0 1\n"
+                        "f 1//2 3//2 2//2\nf 1 2 4\nf 1//9 4//1 3//1\n";
+    const render_obj_options options = {.smooth = 1, .notes = {keep, &all}};
+    assert_int_equal(render_obj_decode(text, strlen(text), "a.obj", &options, &mesh, NULL, NULL),
+                     HNBRDF_OK);
+    assert_string_equal(all.text, "");
+    assert_int_equal(mesh.normal_count, 4);
+    for (int k = 0; k < 3; k++) /* at the corner of a cube: all angles are alike */
+        assert_true(fabs((double)mesh.normals[mesh.triangles[1].normal[0]][k] + sqrt(1.0 / 3.0)) <
+                    1e-6);
+    render_mesh_free(&mesh);
+}
+
 /* ---- What is refused ------------------------------------------------------------------------- */
 
 /* Messages name file, line, what was found and what was expected. */
@@ -300,8 +319,8 @@ static void refuses_with_file_and_line(void **state)
         {"v 0 0 0\nf 1/x 1 1\n", "texture coordinate 'x 1 1' of a face"},
         {"v 0 0 0\nvn 0 0 1\nf 1//1/ 1 1\n", "not v, v/t, v//n or v/t/n"},
         {"v 0 0 0\nf 1,1,1\n", "not v, v/t"},
-        {"v 1 2 3\nf 1 1 1\nf -1 -1 -1\n", "a.obj: none of its 2 faces has an area"},
-        {"v 0 0 0\nv 1 2 3\nv 2 4 6\nf 1 2 3\n", "a.obj: none of its 1 face has an area"},
+        {"v 1 2 3\nf 1 1 1\nf -1 -1 -1\n", "a.obj: its 2 faces have no area"},
+        {"v 0 0 0\nv 1 2 3\nv 2 4 6\nf 1 2 3\n", "a.obj: its 1 face has no area"},
         {"v 0 0 0\nv 0.1 0.2 0.3\nv 0.3 0.6 0.9\nf 1 2 3\n",
          "a line or a point: expected a surface"},
         {"v 0 0 0\nv 1 0 0\nv 1 1e-9 0\nf 1 2 3\n", "a line or a point: expected a surface"},
@@ -350,6 +369,7 @@ int main(void)
         cmocka_unit_test(other_vertices_are_moved_and_scaled),
         cmocka_unit_test(what_is_left_aside_is_noted_once),
         cmocka_unit_test(what_is_no_number_is_not_used),
+        cmocka_unit_test(smooth_meshes_lack_no_normals),
         cmocka_unit_test(refuses_with_file_and_line),
         cmocka_unit_test(limits_hold),
     };

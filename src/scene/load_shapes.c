@@ -47,14 +47,12 @@ static hnbrdf_result read_mesh(const loader *l, const render_text_shape *t, rend
                                render_transform *place)
 {
     char path[2 * RENDER_MAX_PATH];
-    const render_obj_options options = {.notes = l->reading.notes};
+    const render_obj_options options = {.smooth = t->smooth, .notes = l->reading.notes};
     render_transform units;
     render_description_path(l->d, t->file, path);
     hnbrdf_result result = render_obj_read(path, &options, mesh, &units, l->error);
     if (result == HNBRDF_OK && memcmp(&units, &render_identity, sizeof units) != 0)
         *place = render_transform_then(&units, place);
-    if (result == HNBRDF_OK && t->smooth && render_mesh_smooth(mesh))
-        result = hnbrdf_fail(l->error, HNBRDF_ERROR_MEMORY, "%s: no memory for its normals", path);
     return result;
 }
 

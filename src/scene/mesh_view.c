@@ -62,12 +62,12 @@ static hnbrdf_result build(const render_mesh_view *view, const render_surface *s
     scene->surfaces[0].surface = *surface;
     scene->surface_count = scene->shape_count = 1;
     render_mesh *mesh = &scene->shapes[0].mesh;
-    const render_obj_options options = {.notes = view->notes};
+    const render_obj_options options = {.smooth = view->smooth, .notes = view->notes};
     hnbrdf_result result = render_obj_read(view->path, &options, mesh, NULL, error);
     if (result != HNBRDF_OK)
         return result;
     scene->shapes[0].surfaces = calloc(mesh->part_count, sizeof *scene->shapes[0].surfaces);
-    if (!scene->shapes[0].surfaces || (view->smooth && render_mesh_smooth(mesh)))
+    if (!scene->shapes[0].surfaces)
         return hnbrdf_fail(error, HNBRDF_ERROR_MEMORY, "out of memory");
     aim(view, mesh, size, &scene->camera);
     if (share_seen(mesh, &scene->camera) < 1e-5) /* single precision may leave 1e-6 */

@@ -175,20 +175,23 @@ static hnbrdf_result finish(obj_reader *r, render_transform *place)
     if (render_units_settle((const double(*)[3])r->positions, r->position_count, r->mesh, place))
         return obj_no_memory(&r->in);
     if (!render_units_resolve(r->mesh))
-        return hnbrdf_fail(r->in.error, HNBRDF_ERROR_FORMAT,
-                           "%s: none of its %zu face%s has an area, their corners lie in a line or "
-                           "a point: expected a surface",
-                           r->in.name, r->faces, r->faces == 1 ? "" : "s");
+        return hnbrdf_fail(
+            r->in.error, HNBRDF_ERROR_FORMAT,
+            "%s: its %zu face%s no area, all corners lie in a line or a point: expected "
+            "a surface",
+            r->in.name, r->faces, r->faces == 1 ? " has" : "s have");
     return HNBRDF_OK;
 }
 
-static void tell(obj_reader *r, const hnbrdf_notes *notes)
+static void tell(obj_reader *r, const render_obj_options *options)
 {
-    if (!r->has_normals)
+    if (!r->has_normals || options->smooth)
         r->tallies[OBJ_NORMAL_WITHOUT].count = 0;
+    if (options->smooth)
+        r->tallies[OBJ_NORMAL_ABSENT].count = r->tallies[OBJ_NORMAL_UNUSABLE].count = 0;
     if (!r->has_uvs)
         r->tallies[OBJ_UV_WITHOUT].count = 0;
-    obj_tell(r->tallies, r->in.name, notes);
+    obj_tell(r->tallies, r->in.name, &options->notes);
 }
 
 hnbrdf_result render_obj_decode(const void *data, size_t size, const char *name,
@@ -213,9 +216,11 @@ hnbrdf_result render_obj_decode(const void *data, size_t size, const char *name,
     if (result == HNBRDF_OK)
         result = read_faces(&r);
     if (result == HNBRDF_OK)
-        tell(&r, &o.notes);
+        tell(&r, &o);
     if (result == HNBRDF_OK)
         result = finish(&r, &there);
+    if (result == HNBRDF_OK && o.smooth && render_mesh_smooth(&made))
+        result = obj_no_memory(&r.in);
     free(r.positions);
     free(r.corners);
     free(r.outline);

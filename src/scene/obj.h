@@ -8,6 +8,7 @@
 typedef struct render_obj_options {
     size_t max_bytes;     /* of the file; 0 stands for 512 MiB */
     size_t max_triangles; /* 0 stands for 2^25 */
+    int smooth;           /* render_mesh_smooth() in place of the file's normals */
     hnbrdf_notes notes;   /* told of what was left aside or computed, a line for each kind */
 } render_obj_options;
 
