@@ -38,3 +38,7 @@ if(HNBRDF_WITH_OPENEXR_CXX)
 endif()
 # (cli.cmake, read before, knows how to run the scripts.)
 hnbrdf_cli_test(test_sheet_cli)
+# Some examples write OpenEXR and draw meshes.
+if(HNBRDF_WITH_OPENEXR AND HNBRDF_WITH_EMBREE)
+  hnbrdf_cli_test(test_help_examples ${PROJECT_SOURCE_DIR})
+endif()

@@ -26,10 +26,13 @@ static const cli_command command = {
     "an edit back: the file keeps what a material was fitted with (hnbrdf info shows it). Good up "
     "to\n"
     "3 times or a third of the fitted alpha or so; examples/editing.md has the errors.",
-    "hnbrdf edit model.safetensors --material gold --set alpha=0.2,kd=0.1:0.2:0.3 --as dull-gold\n"
-    "hnbrdf edit model.safetensors --material gold --set alpha=0.1:0.4,rotation=30deg --as "
+    "hnbrdf edit model.safetensors --material gold-two-lobe --set alpha=0.2,kd=0.1:0.2:0.3 --as "
+    "dull-gold\n"
+    "hnbrdf edit model.safetensors --material gold-two-lobe --set alpha=0.1:0.4,rotation=30deg "
+    "--as "
     "brushed-gold\n"
-    "hnbrdf edit model.safetensors --material gold --set alpha*=2,eta+=0.1 -o edited.safetensors",
+    "hnbrdf edit model.safetensors --material gold-two-lobe --set alpha*=2,eta+=0.1 -o "
+    "edited.safetensors",
 };
 
 static void print_values(const float *values, int count)

@@ -52,10 +52,11 @@ static const cli_command command = {
     "materials,\n"
     "a row of texels each, without a header, numbers in the byte order of the machine.",
     "hnbrdf export model.safetensors -o scene.glsl\n"
-    "hnbrdf export model.safetensors --materials gold-paint,velvet --standalone -o scene.glsl\n"
+    "hnbrdf export model.safetensors --materials gold-two-lobe,moon-dust --standalone -o "
+    "scene.glsl\n"
     "hnbrdf export model.safetensors --weights uniform --weights-out weights.bin -o scene.glsl\n"
-    "hnbrdf export model.safetensors --materials velvet --only eval --fixed --standalone -o "
-    "velvet.glsl\n"
+    "hnbrdf export model.safetensors --materials moon-dust --only eval --fixed --standalone -o "
+    "dust.glsl\n"
     "hnbrdf export model.safetensors --pack half --texels materials.bin -o scene.glsl",
 };
 

@@ -15,8 +15,9 @@ static const cli_command command = {
     "code\n"
     "go linearly, the logarithm of the roughness too, the tangent frame turns the short way.\n"
     "They are named PREFIX-T, as in gold-chrome-0.25. FIRST:LAST:STEP is a sweep, ends included.",
-    "hnbrdf mix model.safetensors gold chrome --t 0.5\n"
-    "hnbrdf mix model.safetensors gold chrome --t 0:1:0.25 --as polish -o polish.safetensors",
+    "hnbrdf mix model.safetensors gold-two-lobe rough-clay --t 0.5\n"
+    "hnbrdf mix model.safetensors gold-two-lobe rough-clay --t 0:1:0.25 --as polish -o "
+    "polish.safetensors",
 };
 
 enum { MAX_STEPS = 1000 };
