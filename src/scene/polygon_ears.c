@@ -14,15 +14,18 @@ typedef struct corner {
     int known, gone; /* known: blocker says what was found */
 } corner;
 
-/* Outlines whose edges cross can make is_free() look at all edges for each corner again and again:
- * so many edges for each corner are enough for any that does not cross itself, and end. */
-enum { PATIENCE = 4096 };
+/* What may be spent on an outline whose edges cross, so that it ends: how often no corner can be
+ * cut off rightly and any is, and how many edges is_free() looks at for each corner. Outlines that
+ * only touch themselves need none of the first, and mazes of the tests less than 2 of the second.
+ */
+enum { MOST_CROSSINGS = 64, PATIENCE = 4096 };
 
 typedef struct ring {
     const render_outline *o;
     corner *corners;
     uint32_t first, count;
     uint64_t patience; /* edges that is_free() may still look at */
+    int crossings;     /* how often any corner was cut off */
 } ring;
 
 static int turn(const ring *r, uint32_t a, uint32_t b, uint32_t c)
@@ -194,12 +197,15 @@ static uint32_t find(ring *r, int (*is_such)(ring *, uint32_t))
 }
 
 /* The next corner to cut off. An outline whose edges do not cross has an ear, or one that is free
- * where corners touch the middle of edges; otherwise anything ends it. */
+ * where corners touch the middle of edges; otherwise any will do. */
 static uint32_t choose(ring *r)
 {
-    uint32_t found = find(r, is_ear);
-    if (found == NOBODY)
+    uint32_t found = NOBODY;
+    if (r->crossings < MOST_CROSSINGS)
+        found = find(r, is_ear);
+    if (r->crossings < MOST_CROSSINGS && found == NOBODY)
         found = find(r, is_free);
+    r->crossings += found == NOBODY;
     return found == NOBODY ? r->first : found;
 }
 
