@@ -53,6 +53,7 @@ static void blanks_and_line_ends_do_not_matter(void **state)
     expect_plain(plain, "-Y 0001 +X 1\n");
     expect_plain("#?RADIANCE\r\nFORMAT=32-bit_rle_rgbe\r\n\r\n", "-Y 1 +X 1\r\n");
     expect_plain("#?RADIANCE\nFORMAT=   32-bit_rle_rgbe  \n\n", "-Y 1 +X 1\n");
+    expect_plain("#?RADIANCE\nFORMAT=32-bit_rle_rgbe \n\n", "-Y 1 +X 1\n");
     expect_plain("#?RGBE\nFORMAT=32-bit_rle_rgbe\n\n", "-Y 1 +X 1\n");
     expect_plain("#?RGBE\n\n", "-Y 1 +X 1\n");
     expect_plain("#? any program\n# a comment\n\n", "-Y 1 +X 1\n");
@@ -108,6 +109,13 @@ static void numbers_that_are_none_are_told(void **state)
         snprintf(note, sizeof note, "x.hdr: passed over: %s\n", lines[i]);
         expect_note(header, note);
     }
+}
+
+static void control_characters_are_not_passed_on(void **state)
+{
+    (void)state;
+    expect_note("#?RADIANCE\nEXPOSURE=\033[31m\177\r1\tx\n\n",
+                "x.hdr: passed over: EXPOSURE=?[31m??1 x\n");
 }
 
 /* ---- Colours --------------------------------------------------------------------------------- */
@@ -197,6 +205,7 @@ int main(void)
         cmocka_unit_test(lines_of_cameras_and_programs_are_passed_over),
         cmocka_unit_test(exposures_multiply_up_and_are_told),
         cmocka_unit_test(numbers_that_are_none_are_told),
+        cmocka_unit_test(control_characters_are_not_passed_on),
         cmocka_unit_test(usual_primaries_change_nothing),
         cmocka_unit_test(other_primaries_are_converted),
         cmocka_unit_test(white_stays_white),
