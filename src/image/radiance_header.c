@@ -44,7 +44,7 @@ static int header_line(radiance_input *in, char text[LINE])
             return 1;
         }
         if (length + 1 < LINE)
-            text[length++] = (char)(c == '\t' ? ' ' : c < ' ' || c == 0x7f ? '?' : c);
+            text[length++] = (char)(c == '\t' ? ' ' : c < ' ' ? '?' : c);
     }
     return 0;
 }
