@@ -27,10 +27,10 @@ static const cli_command command = {
     "to\n"
     "3 times or a third of the fitted alpha or so; examples/editing.md has the errors.",
     "hnbrdf edit model.safetensors --material gold-two-lobe --set alpha=0.2,kd=0.1:0.2:0.3 --as "
-    "dull-gold\n"
+    "dull\n"
     "hnbrdf edit model.safetensors --material gold-two-lobe --set alpha=0.1:0.4,rotation=30deg "
     "--as "
-    "brushed-gold\n"
+    "brushed\n"
     "hnbrdf edit model.safetensors --material gold-two-lobe --set alpha*=2,eta+=0.1 -o "
     "edited.safetensors",
 };
