@@ -27,9 +27,11 @@ static int write_edited(const hnbrdf_model *model, const char *name, const char 
     if (!material || !second)
         return fail("the model has no material of this name");
 
-    hnbrdf_material rough = *material, halfway;
+    hnbrdf_material rough = *material, way[HNBRDF_MIX_KNOTS], halfway;
     rough.alpha[0] = rough.alpha[1] = 0.5f;
-    hnbrdf_material_mix(material, second, 0.5f, &halfway);
+    if (hnbrdf_mix_path_fit(model, material, second, way, &error))
+        return fail(error.text);
+    hnbrdf_mix_path_at(way, 0.5f, &halfway);
     snprintf(rough_name, sizeof rough_name, "%s-rough", name);
 
     /* Fitted lobes cost tens of milliseconds and make sampling of the new materials quiet. */

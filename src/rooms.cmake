@@ -62,7 +62,7 @@ hnbrdf_room(gpu
   stability.c timed.c
   verify.c)
 hnbrdf_room(edit
-  fields.c materials.c)
+  fields.c materials.c mix_fit.c mix_goal.c mix_pairs.c mix_path.c)
 hnbrdf_room(bake
   bake.c ggx.c half.c options.c report.c rows.c search.c sizes.c teacher.c tell.c wave.c)
 hnbrdf_room(report

@@ -4,6 +4,9 @@ hnbrdf_test(test_edit test_edit.c)
 hnbrdf_test(test_edit_properties test_edit_properties.c)
 target_compile_definitions(hnbrdf_test_edit_properties PRIVATE
   HNBRDF_EXAMPLE_MODEL="${PROJECT_SOURCE_DIR}/examples/models/rgl_32x2.safetensors")
+hnbrdf_test(test_mix_path test_mix_path.c model_support.c core_support.c)
+target_compile_definitions(hnbrdf_test_mix_path PRIVATE
+  HNBRDF_EXAMPLE_MODEL="${PROJECT_SOURCE_DIR}/examples/models/rgl_32x2.safetensors")
 hnbrdf_test(test_edit_materials test_edit_materials.c model_support.c core_support.c)
 hnbrdf_cli_test(test_edit_cli)
 hnbrdf_cli_test(test_report)

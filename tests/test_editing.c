@@ -1,6 +1,7 @@
 /* test_editing.c: the figures of `report editing` are those that one gets by hand: edits made on
  * fields, errors summed over directions of one's own, albedos of mixtures. */
 #include "hnbrdf/metrics.h"
+#include "hnbrdf/edit.h"
 #include "report/editing.h"
 
 #include <math.h>
@@ -240,7 +241,7 @@ static void mixtures_are_those_found_by_hand(void **state)
     const hnbrdf_model *model = t->r.models[0].model;
     const editing_pairs *set = &t->r.pair_sets[0];
     const hnbrdf_material *ends[2];
-    hnbrdf_material mixed;
+    hnbrdf_material path[HNBRDF_MIX_KNOTS], mixed;
     hnbrdf_family_parameters p;
     int within = 0;
     assert_int_equal(t->r.pair_set_count, 1);
@@ -251,7 +252,8 @@ static void mixtures_are_those_found_by_hand(void **state)
         double beyond = 0.0;
         for (int e = 0; e < 2; e++)
             ends[e] = hnbrdf_model_material(model, x->ends[e]);
-        hnbrdf_material_mix(ends[0], ends[1], (float)x->t, &mixed);
+        assert_int_equal(hnbrdf_mix_path_fit(model, ends[0], ends[1], path, NULL), HNBRDF_OK);
+        hnbrdf_mix_path_at(path, (float)x->t, &mixed);
         for (int v = 0; v < 3; v++) {
             double theta = v * 3.14159265358979323846 / 6, a[3], b[3], between[3];
             const float wo[3] = {(float)sin(theta), 0.0f, (float)cos(theta)};
@@ -270,9 +272,10 @@ static void mixtures_are_those_found_by_hand(void **state)
     assert_int_equal(set->within, within);
 
     assert_int_equal(t->r.half_count, 1);
-    hnbrdf_material_mix(hnbrdf_model_material(model, hnbrdf_model_find(model, "plastic-0.08")),
-                        hnbrdf_model_material(model, hnbrdf_model_find(model, "plastic-0.3")), 0.5f,
-                        &mixed);
+    ends[0] = hnbrdf_model_material(model, hnbrdf_model_find(model, "plastic-0.08"));
+    ends[1] = hnbrdf_model_material(model, hnbrdf_model_find(model, "plastic-0.3"));
+    assert_int_equal(hnbrdf_mix_path_fit(model, ends[0], ends[1], path, NULL), HNBRDF_OK);
+    hnbrdf_mix_path_at(path, 0.5f, &mixed);
     hnbrdf_family_member(family_of("plastic"), sqrt(0.08 * 0.3), &p);
     expect_near(t->r.halves[0].smape, error_by_hand(t, &mixed, 0, &p));
     expect_near(t->r.halves[0].ggx, error_by_hand(t, &mixed, 1, &p));

@@ -179,7 +179,8 @@ HNBRDF_API int hnbrdf_material_is_edited(const hnbrdf_material *material);
  * one end is isotropic and has none to speak of. Lobes go like alpha, their shares linearly;
  * where only one end has such a lobe, all are 0: fit them again. fitted goes like kd, eta and
  * alpha, an end without it counting as unedited. Every field stays between its two ends, so two
- * legal materials give a legal one. out may be a or b. */
+ * legal materials give a legal one. out may be a or b. Cheap, but straight through the latent
+ * space: hnbrdf_mix_path_fit() in edit.h goes around what looks like neither end. */
 HNBRDF_API void hnbrdf_material_mix(const hnbrdf_material *a, const hnbrdf_material *b, float t,
                                     hnbrdf_material *out);
 

@@ -10,10 +10,13 @@
 static const cli_command command = {
     "mix",
     "MODEL A B --t 0:1:0.25 [--as PREFIX] [-o OUT]",
-    "Adds materials on the way from A (t = 0) to B (t = 1) to a model: albedo, reflectance and "
-    "latent "
+    "Adds materials on the way from A (t = 0) to B (t = 1) to a model. Albedo, reflectance and "
+    "the\n"
+    "logarithm of the roughness go linearly, the tangent frame turns the short way; the latent "
     "code\n"
-    "go linearly, the logarithm of the roughness too, the tangent frame turns the short way.\n"
+    "goes around what looks like neither: each step is as near as the network comes to a blend of\n"
+    "both ends edited to the same roughness and colour, and no brighter or darker than both, seen\n"
+    "from 0, 30 and 60 degrees. --straight: the latent code goes linearly too.\n"
     "They are named PREFIX-T, as in gold-chrome-0.25. FIRST:LAST:STEP is a sweep, ends included.",
     "hnbrdf mix model.safetensors gold-two-lobe rough-clay --t 0.5\n"
     "hnbrdf mix model.safetensors gold-two-lobe rough-clay --t 0:1:0.25 --as polish -o "
@@ -77,7 +80,8 @@ static int make_name(char *name, size_t size, const char *const ends[2], const c
 /* What the command is asked for. */
 typedef struct mix_job {
     const char *path, *output, *prefix, *ends[2];
-    int replace; /* materials of the new names may be overwritten */
+    int replace;  /* materials of the new names may be overwritten */
+    int straight; /* the latent code goes linearly */
     sweep sweep;
 } mix_job;
 
@@ -94,10 +98,18 @@ static int mix_all(const mix_job *job, const hnbrdf_model *model, mixtures *m)
         b = a < 0 ? -1 : cli_choose_material(model, job->ends[1]);
     if (a < 0 || b < 0)
         return CLI_FAILURE;
+    const hnbrdf_material *from = hnbrdf_model_material(model, a),
+                          *to = hnbrdf_model_material(model, b);
+    hnbrdf_material path[HNBRDF_MIX_KNOTS];
+    hnbrdf_error error;
+    if (!job->straight && hnbrdf_mix_path_fit(model, from, to, path, &error) != HNBRDF_OK)
+        return cli_fail("%s", error.text);
     for (int k = 0; k < job->sweep.count; k++) {
         double t = fmin(job->sweep.first + k * job->sweep.step, 1.0);
-        hnbrdf_material_mix(hnbrdf_model_material(model, a), hnbrdf_model_material(model, b),
-                            (float)t, &m->materials[k]);
+        if (job->straight)
+            hnbrdf_material_mix(from, to, (float)t, &m->materials[k]);
+        else
+            hnbrdf_mix_path_at(path, (float)t, &m->materials[k]);
         if (!make_name(m->names[k], sizeof m->names[k], job->ends, job->prefix, t))
             return CLI_FAILURE;
         if (!job->replace && hnbrdf_model_find(model, m->names[k]) >= 0)
@@ -153,6 +165,8 @@ int cmd_mix(int argc, char **argv)
         {"t", 't', CLI_TEXT, &t, 0, 0, "T",
          "0 is A, 1 is B; FIRST:LAST:STEP for several (required)"},
         {"as", 0, CLI_TEXT, &job.prefix, 0, 0, "PREFIX", "what the names begin with (default A-B)"},
+        {"straight", 0, CLI_FLAG, &job.straight, 0, 0, NULL,
+         "straight through the latent space, as texture filtering goes"},
         {"replace", 0, CLI_FLAG, &job.replace, 0, 0, NULL, "overwrite materials of these names"},
         {"output", 'o', CLI_WRITE_MODEL, &job.output, 0, 0, "OUT",
          "the model file to write (default: MODEL, rewritten)"},

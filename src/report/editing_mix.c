@@ -1,5 +1,6 @@
 /* editing_mix.c: how far mixtures go astray: half way between two members of a family, and over
  * all pairs of a model's materials. */
+#include "hnbrdf/edit.h"
 #include "report/editing.h"
 
 #include "base/error.h"
@@ -30,7 +31,7 @@ static hnbrdf_result measure_half(editing_report *r, const hnbrdf_material *cons
     const hnbrdf_model *model = r->models[half->model].model;
     hnbrdf_family_parameters parameters;
     hnbrdf_measured *truth;
-    hnbrdf_material mixed, frozen;
+    hnbrdf_material path[HNBRDF_MIX_KNOTS], mixed, frozen;
     hnbrdf_comparison comparison;
     char name[64];
     double middle = sqrt(editing_alphas[0] * editing_alphas[EDITING_ALPHAS - 1]);
@@ -39,11 +40,14 @@ static hnbrdf_result measure_half(editing_report *r, const hnbrdf_material *cons
     hnbrdf_result result = hnbrdf_family_open(half->family, &parameters, name, &truth, r->error);
     if (result)
         return result;
-    hnbrdf_material_mix(ends[0], ends[1], 0.5f, &mixed);
-    result = editing_fit_frozen(r, half->model, &truth, 1, &frozen);
+    result = hnbrdf_mix_path_fit(model, ends[0], ends[1], path, r->error);
     if (!result)
+        result = editing_fit_frozen(r, half->model, &truth, 1, &frozen);
+    if (!result) {
+        hnbrdf_mix_path_at(path, 0.5f, &mixed);
         result = hnbrdf_compare(model, &mixed, truth, (hnbrdf_sampler)r->sampler, (size_t)r->pairs,
                                 (uint64_t)r->seed, &comparison, r->error);
+    }
     if (!result) {
         half->smape = comparison.smape;
         half->ggx = comparison.smape_analytic;
@@ -101,6 +105,7 @@ typedef struct pair_job {
     const hnbrdf_model *model;
     albedos *ends; /* [materials] */
     editing_pairs *set;
+    hnbrdf_result *results; /* [pairs] */
 } pair_job;
 
 static void fill_end(void *context, int index, int worker)
@@ -120,17 +125,11 @@ static double beyond(double value, double a, double b)
     return fmax(value / high, low / value);
 }
 
-static void measure_mixture(void *context, int index, int worker)
+static void measure_mixture(const pair_job *job, const hnbrdf_material *mixed, editing_mixture *m)
 {
-    pair_job *job = context;
-    editing_mixture *m = &job->set->list[index];
     const albedos *a = &job->ends[m->ends[0]], *b = &job->ends[m->ends[1]];
-    hnbrdf_material mixed;
     albedos between;
-    (void)worker;
-    hnbrdf_material_mix(hnbrdf_model_material(job->model, m->ends[0]),
-                        hnbrdf_model_material(job->model, m->ends[1]), (float)m->t, &mixed);
-    fill_albedos(job->model, &mixed, &between);
+    fill_albedos(job->model, mixed, &between);
     for (int v = 0; v < VIEWS; v++)
         for (int c = 0; c < 3; c++) {
             double factor = beyond(between.at[v][c], a->at[v][c], b->at[v][c]);
@@ -139,6 +138,22 @@ static void measure_mixture(void *context, int index, int worker)
                 m->channel = c;
             }
         }
+}
+
+/* All mixtures of a pair. */
+static void measure_pair(void *context, int index, int worker)
+{
+    pair_job *job = context;
+    editing_mixture *list = &job->set->list[index * EDITING_STEPS];
+    hnbrdf_material path[HNBRDF_MIX_KNOTS], mixed;
+    (void)worker;
+    job->results[index] =
+        hnbrdf_mix_path_fit(job->model, hnbrdf_model_material(job->model, list->ends[0]),
+                            hnbrdf_model_material(job->model, list->ends[1]), path, NULL);
+    for (int t = 0; t < EDITING_STEPS && !job->results[index]; t++) {
+        hnbrdf_mix_path_at(path, (float)list[t].t, &mixed);
+        measure_mixture(job, &mixed, &list[t]);
+    }
 }
 
 static void list_mixtures(editing_pairs *set, int materials)
@@ -162,20 +177,27 @@ static void count_within(editing_pairs *set)
 }
 
 /* In rounds, to show how far they are. */
-static hnbrdf_result run_mixtures(editing_report *r, hnbrdf_threads *workers, pair_job *job)
+static hnbrdf_result run_pairs(editing_report *r, hnbrdf_threads *workers, pair_job *job)
 {
-    enum { ROUND = 64 };
+    enum { ROUND = 16 };
     editing_pairs *set = job->set;
     editing_mixture *all = set->list;
-    for (int first = 0; first < set->mixtures; first += ROUND) {
-        int count = set->mixtures - first < ROUND ? set->mixtures - first : ROUND;
-        set->list = all + first;
-        hnbrdf_threads_run(workers, count, measure_mixture, job);
+    hnbrdf_result *results = job->results;
+    for (int first = 0; first < set->pairs; first += ROUND) {
+        int count = set->pairs - first < ROUND ? set->pairs - first : ROUND;
+        set->list = all + first * EDITING_STEPS;
+        job->results = results + first;
+        hnbrdf_threads_run(workers, count, measure_pair, job);
         set->list = all;
-        editing_show(r, 0.7 + 0.3 * first / set->mixtures);
+        job->results = results;
+        editing_show(r, 0.7 + 0.3 * first / set->pairs);
         if (report_stop(&r->watch))
             return editing_interrupted(r);
     }
+    for (int p = 0; p < set->pairs; p++)
+        if (results[p])
+            return hnbrdf_fail(r->error, results[p], "a path between two materials: %s",
+                               hnbrdf_strerror(results[p]));
     return HNBRDF_OK;
 }
 
@@ -190,19 +212,21 @@ static hnbrdf_result measure_pairs(editing_report *r, int model)
     set->mixtures = set->pairs * EDITING_STEPS;
     set->list = calloc((size_t)set->mixtures + 1, sizeof *set->list);
     job.ends = calloc((size_t)materials, sizeof *job.ends);
+    job.results = calloc((size_t)set->pairs + 1, sizeof *job.results);
     hnbrdf_threads *workers = hnbrdf_threads_start((int)r->threads);
-    if (!set->list || !job.ends || !workers)
+    if (!set->list || !job.ends || !job.results || !workers)
         result = hnbrdf_fail(r->error, HNBRDF_ERROR_MEMORY, "out of memory");
     if (!result) {
         list_mixtures(set, materials);
         hnbrdf_threads_run(workers, materials, fill_end, &job);
-        result = run_mixtures(r, workers, &job);
+        result = run_pairs(r, workers, &job);
     }
     if (!result) {
         count_within(set);
         r->pair_set_count++;
     }
     hnbrdf_threads_stop(workers);
+    free(job.results);
     free(job.ends);
     return result;
 }

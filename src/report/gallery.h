@@ -29,8 +29,9 @@ void report_strip_alpha(const hnbrdf_material *material, report_strip *strip);
 void report_strip_kd(const hnbrdf_material *material, report_strip *strip);
 void report_strip_eta(const hnbrdf_material *material, report_strip *strip);
 void report_strip_anisotropy(const hnbrdf_material *material, report_strip *strip);
-/* From a to b. */
-void report_strip_mix(const hnbrdf_material *a, const hnbrdf_material *b, report_strip *strip);
+/* From a to b, on a path of hnbrdf_mix_path_fit(). */
+hnbrdf_result report_strip_mix(const hnbrdf_model *model, const hnbrdf_material *a,
+                               const hnbrdf_material *b, report_strip *strip, hnbrdf_error *error);
 
 /* ---- gallery_choose.c ------------------------------------------------------------------------ */
 

@@ -82,21 +82,23 @@ static void plan_anisotropy(const report_gallery *g, page *p)
     }
 }
 
-static void plan_mixes(const report_gallery *g, page *p)
+static hnbrdf_result plan_mixes(const report_gallery *g, page *p, hnbrdf_error *error)
 {
+    hnbrdf_result result = HNBRDF_OK;
     memset(p, 0, sizeof *p);
     snprintf(p->file, sizeof p->file, "mixes");
     snprintf(p->title, sizeof p->title, "Between two materials");
-    p->about = "albedo, reflectance and latent code go linearly, roughness in its logarithm";
-    for (int k = 0; k < g->pair_count; k++) {
+    p->about = "on a path through the latent space on which albedo stays between the ends'";
+    for (int k = 0; k < g->pair_count && !result; k++) {
         int a = g->pairs[k][0], b = g->pairs[k][1];
-        report_strip_mix(hnbrdf_model_material(g->model, a), hnbrdf_model_material(g->model, b),
-                         &p->strips[k]);
+        result = report_strip_mix(g->model, hnbrdf_model_material(g->model, a),
+                                  hnbrdf_model_material(g->model, b), &p->strips[k], error);
         p->materials[k] = -1;
         snprintf(p->subjects[k], sizeof p->subjects[k], "%s to %s",
                  hnbrdf_model_material_name(g->model, a), hnbrdf_model_material_name(g->model, b));
     }
     p->count = g->pair_count;
+    return result;
 }
 
 static const hnbrdf_measured *measurement(const report_gallery *g, int material)
@@ -309,10 +311,10 @@ static hnbrdf_result make_pages(report_gallery *g, page *p, FILE *file, hnbrdf_e
         plan_anisotropy(g, p);
         result = finish_page(g, p, file, error);
     }
-    if (!result) {
-        plan_mixes(g, p);
+    if (!result)
+        result = plan_mixes(g, p, error);
+    if (!result)
         result = finish_page(g, p, file, error);
-    }
     return result;
 }
 

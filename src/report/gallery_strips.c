@@ -2,6 +2,8 @@
  * mixing. */
 #include "report/gallery.h"
 
+#include "hnbrdf/edit.h"
+
 #include <math.h>
 #include <stdio.h>
 
@@ -98,14 +100,20 @@ void report_strip_anisotropy(const hnbrdf_material *material, report_strip *stri
     }
 }
 
-void report_strip_mix(const hnbrdf_material *a, const hnbrdf_material *b, report_strip *strip)
+hnbrdf_result report_strip_mix(const hnbrdf_model *model, const hnbrdf_material *a,
+                               const hnbrdf_material *b, report_strip *strip, hnbrdf_error *error)
 {
+    hnbrdf_material path[HNBRDF_MIX_KNOTS];
+    hnbrdf_result result = hnbrdf_mix_path_fit(model, a, b, path, error);
+    if (result)
+        return result;
     begin(strip, a);
     for (int k = 0; k < REPORT_GALLERY_EDITS; k++) {
         float t = (float)k / (REPORT_GALLERY_EDITS - 1);
-        hnbrdf_material_mix(a, b, t, &strip->materials[k]);
+        hnbrdf_mix_path_at(path, t, &strip->materials[k]);
         snprintf(strip->captions[k], sizeof strip->captions[k], "t = %.2f", (double)t);
     }
     snprintf(strip->command, sizeof strip->command, "--t 0:1:%.4g",
              1.0 / (REPORT_GALLERY_EDITS - 1));
+    return HNBRDF_OK;
 }
