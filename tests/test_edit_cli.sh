@@ -93,6 +93,13 @@ values mixed.safetensors "$first-$second-0" >a_mixed
 values hybrid.safetensors "$second" >b
 values mixed.safetensors "$first-$second-1" >b_mixed
 cmp -s a a_mixed && cmp -s b b_mixed || fail "the ends of a mix are not the materials"
+run "$HNBRDF" mix mixed.safetensors "$first" "$second" --t 0:1:0.5 --straight --as s
+expect_ok "mix --straight"
+for name in s-0.5 "$first-$second-0.5" s-0 s-1; do
+    values mixed.safetensors "$name" >"$name.values"
+done
+cmp -s a s-0.values && cmp -s b s-1.values || fail "the ends of a straight mix are not the materials"
+! cmp -s s-0.5.values "$first-$second-0.5.values" || fail "mix --straight mixes as without"
 run "$HNBRDF" mix hybrid.safetensors "$first" "$second" --t 0:1:0.1 --as p -o mixed.safetensors
 [ "$(grep -c '^  p-' out)" -eq 11 ] || fail "mix 0:1:0.1 has not 11 steps"
 run "$HNBRDF" mix mixed.safetensors "$first" "$second" --t 0.5 --as p

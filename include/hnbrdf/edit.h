@@ -88,7 +88,7 @@ HNBRDF_EXPERIMENTAL hnbrdf_result hnbrdf_material_set(hnbrdf_material *material,
 #define HNBRDF_MIX_KNOTS 33
 
 /* Finds a path from a to b, two legal materials, which need not belong to the model. Always the
- * same bits for the same ends; a fifth of a second for a network of 32x2, so keep it while somebody
+ * same bits for the same ends; a tenth of a second for a network of 32x2, so keep it while somebody
  * walks on it. A GGX model has no network to go astray: its path is the straight line. In a neural
  * model only the latent code can move. The lobes are those of the straight mixture; fit
  * them again where samples count. Memory comes from the model's allocator. path is untouched on

@@ -59,7 +59,10 @@ static double value_share(const mix_goal *goal)
     return 1.0 / (3.0 * goal->pairs.count);
 }
 
-static const double albedo_share = albedo_weight / (3.0 * MIX_BOUNDED);
+static double albedo_share(void)
+{
+    return albedo_weight / (3.0 * MIX_BOUNDED);
+}
 
 /* Fills everything of the place but the shift. */
 static void look(const mix_goal *goal, const mix_prior *prior, place *p)
@@ -80,7 +83,7 @@ static void look(const mix_goal *goal, const mix_prior *prior, place *p)
         }
     for (int i = 0; i < goal->unknowns; i++)
         away += (p->shift[i] - prior->shift[i]) * (p->shift[i] - prior->shift[i]);
-    p->cost = values * value_share(goal) + albedos * albedo_share + away * prior->weight;
+    p->cost = values * value_share(goal) + albedos * albedo_share() + away * prior->weight;
 }
 
 /* ---- Normal equations ------------------------------------------------------------------------ */
@@ -122,11 +125,12 @@ static void add_value(const mix_goal *goal, mix_work *w, int n, int channel, con
 static void add_albedo(const mix_goal *goal, mix_work *w, int view, int channel)
 {
     double slope, r = albedo_residual(goal, &w->now.albedo, view, channel, &slope);
+    const double share = albedo_share();
     const double *of = w->slope[view][channel];
     for (int i = 0; slope != 0.0 && i < goal->unknowns; i++) {
-        w->gradient[i] += albedo_share * r * slope * of[i];
+        w->gradient[i] += share * r * slope * of[i];
         for (int k = 0; k <= i; k++)
-            w->normal[i][k] += albedo_share * slope * slope * of[i] * of[k];
+            w->normal[i][k] += share * slope * slope * of[i] * of[k];
     }
 }
 
