@@ -69,6 +69,6 @@ endif()
 if(HNBRDF_SANITIZE)
   target_compile_options(hnbrdf_flags INTERFACE
     -fsanitize=address,undefined,float-divide-by-zero,float-cast-overflow
-    -fno-sanitize-recover=all -fno-omit-frame-pointer -g)
+    -fno-sanitize-recover=all -fno-omit-frame-pointer -g1)
   add_link_options(-fsanitize=address,undefined)
 endif()

@@ -15,7 +15,7 @@ jobs=$(getconf _NPROCESSORS_ONLN 2> /dev/null || echo 2)
 start=$(date +%s)
 everything="-DHNBRDF_BUILD_FIT=ON -DHNBRDF_BUILD_CLI=ON -DHNBRDF_BUILD_TESTS=ON
     -DHNBRDF_BUILD_EXAMPLES=ON -DHNBRDF_WITH_OPENEXR=ON -DHNBRDF_WITH_VULKAN=ON -DHNBRDF_WERROR=ON"
-steps=7 step=0 quick=0
+steps=7 step=0 quick=0 targets=""
 case ${1:-} in
 "") ;;
 quick) quick=1 steps=2 ;;
@@ -37,16 +37,18 @@ fail() {
     echo "run.sh: FAILED in step $step/$steps: $1" >&2
     exit 1
 }
-# build COMPILER DIRECTORY cmake-arguments...: configures and builds; what was printed is shown on
-# failure.
+# build COMPILER DIRECTORY cmake-arguments...: configures and builds, with Ninja where it is installed
+# and the folder new (make starts two processes more for each of 300 targets); what was printed is
+# shown on failure.
 build() {
     compiler=$1 directory=$2
     shift 2
     mkdir -p "$directory"
+    [ -e "$directory/CMakeCache.txt" ] || ! command -v ninja > /dev/null || set -- -G Ninja "$@"
     log=$directory/build.log
     # shellcheck disable=SC2086 # $everything is words; what comes later wins
     { CC=$compiler cmake -S . -B "$directory" $everything "$@" &&
-        cmake --build "$directory" -j "$jobs"; } > "$log" 2>&1 || {
+        cmake --build "$directory" -j "$jobs" ${targets:+--target $targets}; } > "$log" 2>&1 || {
         grep -E -A 12 'error:|warning:|Error at|undefined' "$log" | head -n 60 >&2
         tail -n 10 "$log" >&2
         fail "building $directory, all of it in $log"
@@ -67,7 +69,19 @@ announce "formatting and static analysis"
 sh tests/lint.sh || fail "formatting and static analysis"
 
 announce "clang, warnings are errors"
+# Built is what runs here; all files are compiled once for their warnings, which need no code, but for
+# what is generated. (The commands are words of JSON.)
+targets=$(ls tests/test_math*.c tests/test_core_*.c | sed 's,^tests/\(.*\)\.c$,hnbrdf_\1,')
 build clang build/clang -DCMAKE_BUILD_TYPE=Release
+targets=""
+sed -n 's/^  "command": "\(.*\)",\{0,1\}$/\1/p' build/clang/compile_commands.json |
+    sed '/-c [^ ]*\/generated\//d; s/\\"/"/g; s/\\\\/\\/g' > build/clang/commands
+[ "$(wc -l < build/clang/commands)" -gt 400 ] || fail "no commands in build/clang/compile_commands.json"
+tr '\n' '\0' < build/clang/commands |
+    xargs -0 -n 1 -P "$jobs" sh -c 'eval "$1 -fsyntax-only"' sh > build/clang/warnings.log 2>&1 || {
+    grep -E -A 12 'error:|warning:' build/clang/warnings.log | head -n 60 >&2
+    fail "compiling with clang, all of it in build/clang/warnings.log"
+}
 ctest --test-dir build/clang -R '^test_(math|core_)' -j "$jobs" --output-on-failure \
     > build/clang/test.log 2>&1 || {
     cat build/clang/test.log

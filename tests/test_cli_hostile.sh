@@ -81,13 +81,16 @@ spoil() {
     esac
     rm "$bad"
     [ "$size" -lt 1000000 ] || return 0
+    # One byte of three a place, in turn; what every byte does to a reader is for fuzz_replay_*.
     step=$((size / 40 + 1)) at=1
+    set -- '\377' '\000' '9' "$@"
     while [ "$at" -lt "$size" ]; do
-        for byte in '\377' '\000' '9'; do
-            cp "$good" "$bad"
-            put_bytes "$bad" "$at" "$byte"
-            must_not_crash "$kind: byte $at is $byte" "$bad" "$@"
-        done
+        byte=$1 second=$2 third=$3
+        shift 3
+        cp "$good" "$bad"
+        put_bytes "$bad" "$at" "$byte"
+        must_not_crash "$kind: byte $at is $byte" "$bad" "$@"
+        set -- "$second" "$third" "$byte" "$@"
         at=$((at + step))
     done
     rm "$bad"
@@ -166,13 +169,13 @@ grep -q '"materials": \["a", "b"\]' out || fail "import: names"
 cp a.brdf Ours_ld4_32x2_lambert_rgb.brdf
 sed 's/float alpha .*/float alpha 0 1 1.005/' b.brdf >Ours_ld4_32x2_b.brdf
 run "$HNBRDF" import a.brdf Ours_ld4_32x2_lambert_rgb.brdf Ours_ld4_32x2_b.brdf -o imported.safetensors
-[ "$rc" -eq 0 ] && [ "$(wc -l <err)" -eq 1 ] &&
+[ "$rc" -eq 0 ] && [ "$(grep -c warning: err)" -eq 1 ] &&
     grep -q "warning: Ours_ld4_32x2_b.brdf: line [0-9]*: alpha of b is 1.005" err ||
     fail "import: alpha above 1"
 grep -q "^2 of 3 materials are named .* as lambert of Ours_ld4_32x2_lambert_rgb.brdf$" out ||
     fail "import: what was renamed"
 run "$HNBRDF" compare imported.safetensors lambert_rgb.bsdf --pairs 16
-expect_ok "import: the measurement of a published name is found"
+[ "$rc" -eq 0 ] && grep -q '^lambert ' out || fail "import: the measurement of a published name is not found"
 run "$HNBRDF" import b.brdf Ours_ld4_32x2_b.brdf -o imported.safetensors
 expect_failure "import: two that become one name" "two materials have the name b: b.brdf and Ours_ld4_32x2_b.brdf"
 run "$HNBRDF" import lambert_rgb.bsdf -o imported.safetensors

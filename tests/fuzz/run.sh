@@ -45,6 +45,7 @@ for target in $targets; do
 done
 
 mkdir -p "$build"
+[ -e "$build/CMakeCache.txt" ] || ! command -v ninja > /dev/null || options="$options -G Ninja"
 {
     # shellcheck disable=SC2086 # $options is words
     CC=clang CXX=clang++ cmake -S "$root" -B "$build" $options -DHNBRDF_BUILD_FUZZERS=ON -DHNBRDF_BUILD_FIT=ON -DHNBRDF_BUILD_CLI=ON \
