@@ -454,6 +454,15 @@ HNBRDF_PRECISE hnbrdf_edit hnbrdf_edit_make(vec3 kd, vec3 eta, vec2 alpha, hnbrd
     return m;
 }
 
+// How much of f_a, carried + specular, is specular, over the channels: in [0, 1].
+HNBRDF_PRECISE float hnbrdf_specular_part(vec3 specular, vec3 carried)
+{
+    HNBRDF_PRECISE float shine = (specular.x + specular.y) + specular.z;
+    HNBRDF_PRECISE float diffuse = (carried.x + carried.y) + carried.z;
+    HNBRDF_PRECISE float part = shine / (shine + diffuse);
+    return hnbrdf_clamp(part, 0.0, 1.0);
+}
+
 // s' of the same length as s, its tangents times those of `warp`. It comes no nearer to the horizon than s is, or
 // than 45 degrees where s is higher.
 HNBRDF_PRECISE vec3 hnbrdf_warp(hnbrdf_pair p, vec2 warp)
@@ -470,10 +479,12 @@ HNBRDF_PRECISE vec3 hnbrdf_warp(hnbrdf_pair p, vec2 warp)
     return vec3(w, p.s.z) * stretch;
 }
 
-// The pair that the network sees: that of s', its angles of incidence and difference as they are.
-hnbrdf_pair hnbrdf_warped(hnbrdf_pair p, vec2 warp)
+// The pair that the network sees: that of s', its angles of incidence and difference as they are. warp: the factors
+// where all of f_a is specular.
+hnbrdf_pair hnbrdf_warped(hnbrdf_pair p, vec2 warp, float part)
 {
-    p.s = hnbrdf_warp(p, warp);
+    HNBRDF_PRECISE vec2 by = 1.0 + part * (warp - 1.0);
+    p.s = hnbrdf_warp(p, by);
     return p;
 }
 
@@ -482,11 +493,12 @@ hnbrdf_pair hnbrdf_warped(hnbrdf_pair p, vec2 warp)
 HNBRDF_PRECISE hnbrdf_pair hnbrdf_turn_pair(hnbrdf_pair p, hnbrdf_pair q)
 {
     HNBRDF_PRECISE vec3 d = p.wi - p.wo;
-    HNBRDF_PRECISE float along = (d.x * q.s.x + d.y * q.s.y) + d.z * q.s.z;
+    HNBRDF_PRECISE float along = (d.x * p.s.x + d.y * p.s.y) + d.z * p.s.z;
+    HNBRDF_PRECISE float across = (d.x * q.s.x + d.y * q.s.y) + d.z * q.s.z;
     HNBRDF_PRECISE float both = p.length2 + ((p.s.x * q.s.x + p.s.y * q.s.y) + p.s.z * q.s.z);
-    HNBRDF_PRECISE float k = along / both;
-    HNBRDF_PRECISE vec3 s = p.s + q.s;
-    HNBRDF_PRECISE vec3 turned = d - k * s;
+    HNBRDF_PRECISE float k = (along + across) / both;
+    HNBRDF_PRECISE float j = (2.0 * along) / p.length2;
+    HNBRDF_PRECISE vec3 turned = (d - k * (p.s + q.s)) + j * q.s;
     if (q.s == p.s)
         return q;
     q.wi = 0.5 * (q.s + turned);

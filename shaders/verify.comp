@@ -45,7 +45,8 @@ void main()
         vec3 x0, x1;
         hnbrdf_pair p = hnbrdf_scene_pair(m, wi, wo);
 #ifdef HNBRDF_SCENE_EDITED
-        p = hnbrdf_scene_seen(hnbrdf_scene_edit(m), p);
+        hnbrdf_edit edit = hnbrdf_scene_edit(m);
+        p = hnbrdf_scene_seen(edit, p, hnbrdf_scene_specular(m, p));
 #endif
         HNBRDF_SCENE_ENCODE(p, x0, x1);
         store3(at, x0);

@@ -16,7 +16,7 @@ if(NOT MSVC)
   set_source_files_properties(src/core/kernel_plain.c PROPERTIES COMPILE_OPTIONS "${_kernel_flags}")
   # What runs once a material, not once an evaluation, need not be unrolled.
   set_source_files_properties(src/core/material.c src/core/pack.c src/core/sample.c
-    src/core/prepare.c PROPERTIES COMPILE_OPTIONS
+    src/core/edited.c src/core/prepare.c PROPERTIES COMPILE_OPTIONS
     "$<$<CONFIG:Release>:-O2>")
   set_source_files_properties(src/fit/kernel.c src/fit/kernel_double.c PROPERTIES COMPILE_OPTIONS
     "${_fit_kernel_flags}")

@@ -16,7 +16,7 @@ set(HNBRDF_BASE_HNBRDF src/base/files.c src/base/files_posix.c src/base/files_wi
 set(HNBRDF_BASE_FIT src/base/clock.c src/base/threads.c)
 set(HNBRDF_BASE_BAKE src/base/probe.c)
 hnbrdf_room(core
-  eval.c kernel_plain.c material.c model.c network.c pack.c prepare.c sample.c
+  edited.c eval.c kernel_plain.c material.c model.c network.c pack.c prepare.c sample.c
   names.c strerror.c variant.c)
 hnbrdf_room(model check_name.c choose_kernel.c create.c)
 hnbrdf_room(file

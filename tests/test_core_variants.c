@@ -65,6 +65,21 @@ static float edited_by_definition(const hnbrdf_model_desc *desc, const hnbrdf_ma
                                  desc->scale, desc->shift, desc->floor);
 }
 
+/* What its network sees. */
+static hnbrdf_pair seen_by_definition(const hnbrdf_model_desc *desc, const hnbrdf_material *m,
+                                      const hnbrdf_pair *pair, float specular)
+{
+    const hnbrdf_fitted *fitted = &m->fitted;
+    float shine[3], carried[3];
+    for (int c = 0; c < 3; c++) {
+        carried[c] = hnbrdf_carried_kd(m->kd[c], fitted->kd[c]) * HNBRDF_INV_PI;
+        shine[c] = hnbrdf_fresnel_dielectric(m->eta[c], pair->c) * specular;
+    }
+    return hnbrdf_seen(desc->encoding, pair, hnbrdf_warp_factor(m->alpha[0], fitted->alpha[0]),
+                       hnbrdf_warp_factor(m->alpha[1], fitted->alpha[1]),
+                       hnbrdf_specular_part(shine, carried));
+}
+
 /* f and f_a term by term, as the headers of src/core define them. */
 static void by_definition(const hnbrdf_model *model, const hnbrdf_material *m, const float wi[3],
                           const float wo[3], float f[3], float f_a[3])
@@ -79,12 +94,10 @@ static void by_definition(const hnbrdf_model *model, const hnbrdf_material *m, c
     hnbrdf_to_tangent(hnbrdf_frame_of(m), wo, o);
     hnbrdf_pair pair = hnbrdf_pair_make(i, o);
     const int edited = desc->kind == HNBRDF_KIND_HYBRID && hnbrdf_material_is_edited(m);
+    float specular = hnbrdf_specular(&pair, m->alpha[0], m->alpha[1]);
     hnbrdf_pair seen = pair;
     if (edited)
-        seen =
-            hnbrdf_seen(desc->encoding, &pair, hnbrdf_warp_factor(m->alpha[0], m->fitted.alpha[0]),
-                        hnbrdf_warp_factor(m->alpha[1], m->fitted.alpha[1]));
-    float specular = hnbrdf_specular(&pair, m->alpha[0], m->alpha[1]);
+        seen = seen_by_definition(desc, m, &pair, specular);
     for (int c = 0; c < 3; c++)
         f_a[c] = hnbrdf_microfacet(m->kd[c], m->eta[c], pair.c, specular);
     if (desc->kind != HNBRDF_KIND_GGX) {

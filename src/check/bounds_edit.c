@@ -8,13 +8,30 @@ static num quotient_or_1(num quotient, int is_one, int is_certain)
     return (num){is_one ? 1.0f : quotient.v, is_one && is_certain ? 0.0 : quotient.e};
 }
 
+/* hnbrdf_specular_part(). */
+static num specular_part(const check_rules *k, const num specular[3], const num carried[3])
+{
+    num shine = add(k, add(k, specular[0], specular[1]), specular[2]);
+    num diffuse = add(k, add(k, carried[0], carried[1]), carried[2]);
+    return clamp(divide(k, shine, add(k, shine, diffuse)), 0.0f, 1.0f);
+}
+
+/* 1 + part (factor - 1) of one axis. */
+static num warp_factor(const check_rules *k, const hnbrdf_material *m, int axis, num part)
+{
+    num factor = same(1.0f), one = same(1.0f);
+    if (m->alpha[axis] != m->fitted.alpha[axis])
+        factor = divide(k, same(m->fitted.alpha[axis]), same(m->alpha[axis]));
+    return add(k, one, multiply(k, part, subtract(k, factor, one)));
+}
+
 /* hnbrdf_warp(). */
-static void warp(const check_rules *k, const hnbrdf_material *m, const pair *p, num s[3])
+static void warp(const check_rules *k, const hnbrdf_material *m, num part, const pair *p, num s[3])
 {
     num r2 = add(k, multiply(k, p->s[0], p->s[0]), multiply(k, p->s[1], p->s[1]));
     num most = largest(r2, multiply(k, p->s[2], p->s[2])), w[2];
     for (int i = 0; i < 2; i++)
-        w[i] = multiply(k, p->s[i], divide(k, same(m->fitted.alpha[i]), same(m->alpha[i])));
+        w[i] = multiply(k, p->s[i], warp_factor(k, m, i, part));
     num w2 = add(k, multiply(k, w[0], w[0]), multiply(k, w[1], w[1]));
     num shrink = root(k, quotient_or_1(divide(k, most, w2), !(w2.v > most.v),
                                        (double)w2.v + w2.e < (double)most.v - most.e));
@@ -35,29 +52,35 @@ static num either(num taken, num other, int certain)
     return (num){taken.v, certain ? taken.e : fmax(taken.e, away)};
 }
 
+static num dot(const check_rules *k, const num a[3], const num b[3])
+{
+    num sum = add(k, multiply(k, a[0], b[0]), multiply(k, a[1], b[1]));
+    return add(k, sum, multiply(k, a[2], b[2]));
+}
+
 /* hnbrdf_turn_pair(). */
 static void turn(const check_rules *k, const pair *p, pair *q)
 {
-    num d[3], sums[3], products[3];
+    num d[3];
+    int moved = 0, exact = 1, far = 0; /* far: moved on any device */
     for (int i = 0; i < 3; i++) {
+        double by = fabs((double)q->s[i].v - (double)p->s[i].v);
         d[i] = subtract(k, p->wi[i], p->wo[i]);
-        products[i] = multiply(k, d[i], q->s[i]);
-        sums[i] = multiply(k, p->s[i], q->s[i]);
+        moved |= by > 0.0;
+        far |= by > q->s[i].e + p->s[i].e;
+        exact &= q->s[i].e == 0.0 && p->s[i].e == 0.0;
     }
-    num along = add(k, add(k, products[0], products[1]), products[2]);
-    num both = add(k, p->length2, add(k, add(k, sums[0], sums[1]), sums[2]));
-    num by = divide(k, along, both);
-    int moved = 0, certain = 1;
-    for (int i = 0; i < 3; i++) {
-        moved |= q->s[i].v != p->s[i].v;
-        certain &= q->s[i].e == 0.0 && p->s[i].e == 0.0;
-    }
+    const int certain = exact || far;
+    num along = dot(k, d, p->s), both = add(k, p->length2, dot(k, p->s, q->s));
+    num by = divide(k, add(k, along, dot(k, d, q->s)), both);
+    num back = divide(k, multiply(k, same(2.0f), along), p->length2);
     for (int i = 0; i < 3; i++) {
         num turned = subtract(k, d[i], multiply(k, by, add(k, p->s[i], q->s[i])));
+        turned = add(k, turned, multiply(k, back, q->s[i]));
         num wi = multiply(k, same(0.5f), add(k, q->s[i], turned));
         num wo = multiply(k, same(0.5f), subtract(k, q->s[i], turned));
-        q->wi[i] = moved ? wi : either(p->wi[i], wi, certain);
-        q->wo[i] = moved ? wo : either(p->wo[i], wo, certain);
+        q->wi[i] = moved ? either(wi, p->wi[i], certain) : either(p->wi[i], wi, certain);
+        q->wo[i] = moved ? either(wo, p->wo[i], certain) : either(p->wo[i], wo, certain);
     }
 }
 
@@ -80,24 +103,29 @@ void check_edit_make(const check_rules *k, hnbrdf_encoding encoding,
                      const hnbrdf_material *material, const pair *p, check_edit *edit)
 {
     const hnbrdf_fitted *fitted = &material->fitted;
+    num now = masked(k, p, p, material->alpha), carried_kd[3], carried[3], specular[3];
+    for (int c = 0; c < 3; c++) {
+        num most = multiply(k, same(4.0f), given(k, fitted->kd[c]));
+        carried_kd[c] = smallest(given(k, material->kd[c]), most);
+        carried[c] = multiply(k, carried_kd[c], same(HNBRDF_INV_PI));
+        specular[c] = multiply(k, fresnel_dielectric(k, same(material->eta[c]), p->c), now);
+        edit->edited[c] = add(k, carried[c], specular[c]);
+    }
     pair at_half = *p; /* D is asked at s', angles of incidence are as they were */
-    warp(k, material, p, at_half.s);
+    warp(k, material, specular_part(k, specular, carried), p, at_half.s);
     edit->seen = at_half;
     if (encoding == HNBRDF_ENCODING_DIRECTIONS)
         turn(k, p, &edit->seen);
-    num now = masked(k, p, p, material->alpha), before = masked(k, p, &at_half, fitted->alpha);
+    num before = masked(k, p, &at_half, fitted->alpha);
     for (int c = 0; c < 3; c++) {
         num kd = given(k, material->kd[c]);
-        num carried = smallest(kd, multiply(k, same(4.0f), given(k, fitted->kd[c])));
         num diffuse = multiply(k, given(k, fitted->kd[c]), same(HNBRDF_INV_PI));
-        num f = fresnel_dielectric(k, same(material->eta[c]), p->c);
         num f0 = fresnel_dielectric(k, fitted_eta(k, material->eta[c], fitted->eta[c]), p->c);
         num then = add(k, diffuse, multiply(k, f0, before));
-        edit->edited[c] = add(k, multiply(k, carried, same(HNBRDF_INV_PI)), multiply(k, f, now));
         num quotient = divide(k, edit->edited[c], then);
         edit->ratio[c] =
             clamp(quotient_or_1(quotient, edit->edited[c].v == then.v, 0), 0.0f, HNBRDF_MAX_VALUE);
-        edit->added[c] = multiply(k, subtract(k, kd, carried), same(HNBRDF_INV_PI));
+        edit->added[c] = multiply(k, subtract(k, kd, carried_kd[c]), same(HNBRDF_INV_PI));
     }
 }
 

@@ -140,13 +140,13 @@ void check_half_eval(const hnbrdf_model *model, const hnbrdf_material *material,
     float x[HNBRDF_ENCODING_SIZE], out[HNBRDF_MAX_OUTPUTS], f_a[4], fitted[4];
     hnbrdf_prepare_analytic(model, material, &prepared);
     hnbrdf_pair pair = hnbrdf_pair_in_frame(&prepared, wi, wo);
-    hnbrdf_pair seen = hnbrdf_prepared_seen(&prepared, &pair);
-    hnbrdf_encode(desc->encoding, &seen, x);
-    check_half_network(desc, material->latent, x, out);
+    hnbrdf_pair seen = pair;
     if (prepared.edited)
-        hnbrdf_prepared_edited(&prepared, &pair, &seen, f_a, fitted);
+        seen = hnbrdf_prepared_edited(&prepared, &pair, f_a, fitted);
     else
         hnbrdf_prepared_analytic(&prepared, &pair, f_a);
+    hnbrdf_encode(desc->encoding, &seen, x);
+    check_half_network(desc, material->latent, x, out);
     for (int c = 0; c < 3; c++)
         f[c] = desc->kind == HNBRDF_KIND_NEURAL
                    ? hnbrdf_compose_neural(out[c], desc->scale, desc->shift, desc->floor)

@@ -209,11 +209,30 @@ double oracle_pdf(hnbrdf_kind kind, const hnbrdf_material *material, const float
 
 /* ---- Edits ----------------------------------------------------------------------------------- */
 
-/* h with its tangents times the ratios of fitted to present roughness, no nearer to the horizon
- * than h itself or 45 degrees. */
-static vec fitted_half(const hnbrdf_material *m, vec h)
+static real carried_kd(const hnbrdf_material *m, int k)
 {
-    vec q = {h.x * m->fitted.alpha[0] / m->alpha[0], h.y * m->fitted.alpha[1] / m->alpha[1], h.z};
+    real most = 4 * (real)m->fitted.kd[k];
+    return m->kd[k] < most ? (real)m->kd[k] : most;
+}
+
+/* The specular share of f_a, over the channels, of the carried kd. */
+static real specular_part(const hnbrdf_material *m, real c, real specular)
+{
+    real shine = 0, diffuse = 0;
+    for (int k = 0; k < 3; k++) {
+        diffuse += carried_kd(m, k) / pi();
+        shine += F(m->eta[k], c) * specular;
+    }
+    return shine / (shine + diffuse);
+}
+
+/* h with its tangents times the ratios of fitted to present roughness, as far as f_a is specular,
+ * no nearer to the horizon than h itself or 45 degrees. */
+static vec fitted_half(const hnbrdf_material *m, vec h, real part)
+{
+    real x = 1 + part * ((real)m->fitted.alpha[0] / m->alpha[0] - 1);
+    real y = 1 + part * ((real)m->fitted.alpha[1] / m->alpha[1] - 1);
+    vec q = {h.x * x, h.y * y, h.z};
     real tan2 = (q.x * q.x + q.y * q.y) / (h.z * h.z), of_h = (h.x * h.x + h.y * h.y) / (h.z * h.z);
     real most = of_h > 1 ? of_h : 1, shrink = tan2 > most ? real_sqrt(most / tan2) : 1;
     q.x *= shrink;
@@ -227,16 +246,18 @@ static vec fitted_half(const hnbrdf_material *m, vec h)
 static void turn(vec *i, vec *o, vec s, vec to)
 {
     vec d = minus(*i, *o), both = sum(s, to);
-    real k = dot(d, to) / (dot(s, s) + dot(s, to));
-    d = (vec){d.x - k * both.x, d.y - k * both.y, d.z - k * both.z};
+    real k = dot(d, both) / (dot(s, s) + dot(s, to)), j = 2 * dot(d, s) / dot(s, s);
+    d = (vec){d.x - k * both.x + j * to.x, d.y - k * both.y + j * to.y,
+              d.z - k * both.z + j * to.z};
     *i = (vec){(to.x + d.x) / 2, (to.y + d.y) / 2, (to.z + d.z) / 2};
     *o = (vec){(to.x - d.x) / 2, (to.y - d.y) / 2, (to.z - d.z) / 2};
 }
 
 /* What the network sees of an edited material in place of i and o, and of their angles. */
-static void warp(const hnbrdf_model_desc *desc, const hnbrdf_material *m, vec *i, vec *o, angles *a)
+static void warp(const hnbrdf_model_desc *desc, const hnbrdf_material *m, real specular, vec *i,
+                 vec *o, angles *a)
 {
-    vec s = sum(*i, *o), h = fitted_half(m, a->h);
+    vec s = sum(*i, *o), h = fitted_half(m, a->h, specular_part(m, a->c, specular));
     real length = real_sqrt(dot(s, s));
     a->h = h;
     a->sine = real_sqrt(h.x * h.x + h.y * h.y);
@@ -270,7 +291,7 @@ typedef struct edit {
 static edit edit_of(const hnbrdf_material *m, int k, real c, real specular, real fitted_specular,
                     real *f_a)
 {
-    real kd0 = m->fitted.kd[k], kd = m->kd[k] < 4 * kd0 ? (real)m->kd[k] : 4 * kd0;
+    real kd0 = m->fitted.kd[k], kd = carried_kd(m, k);
     real fitted = kd0 / pi() + F(fitted_eta(m, k), c) * fitted_specular;
     *f_a = kd / pi() + F(m->eta[k], c) * specular;
     return (edit){limited(*f_a / fitted, 0, HNBRDF_MAX_VALUE), (m->kd[k] - kd) / pi()};
@@ -288,13 +309,14 @@ void oracle_evaluate(const hnbrdf_model_desc *desc, const hnbrdf_material *mater
     angles a = angles_of(i, o);
     point->pdf = oracle_pdf(desc->kind, material, wi, wo);
 
+    real gg = G1(i, ax, ay) * G1(o, ax, ay) / (4 * i.z * o.z), d = D(a.h, ax, ay);
     real x[6] = {0}, out[6] = {0};
     const int edited = is_edited(desc, material);
     angles seen = a;
     if (desc->kind != HNBRDF_KIND_GGX) {
         vec seen_i = i, seen_o = o;
         if (edited)
-            warp(desc, material, &seen_i, &seen_o, &seen);
+            warp(desc, material, d * gg, &seen_i, &seen_o, &seen);
         encode(desc->encoding, seen_i, seen_o, &seen, x);
         network(desc, material->latent, x, out);
     }
@@ -302,7 +324,7 @@ void oracle_evaluate(const hnbrdf_model_desc *desc, const hnbrdf_material *mater
         point->encoded[k] = (double)x[k];
         point->outputs[k] = (double)out[k];
     }
-    real gg = G1(i, ax, ay) * G1(o, ax, ay) / (4 * i.z * o.z), d = D(a.h, ax, ay), before = 0;
+    real before = 0;
     if (edited) {
         real bx = material->fitted.alpha[0], by = material->fitted.alpha[1];
         before = D(seen.h, bx, by) * G1(i, bx, by) * G1(o, bx, by) / (4 * i.z * o.z);

@@ -3,7 +3,8 @@
  * A material that was fitted with (kd0, eta0, alpha0) and is now (kd, eta, alpha) shows the network
  * the half vector that had its place before: D(h) of GGX, and of every distribution that only
  * scales with roughness, depends on tan th / alpha, so that the two tangents of s = wi + wo are
- * multiplied by alpha0/alpha, each by its own. The correction less the floor then changes as f_a
+ * multiplied by alpha0/alpha, each by its own, as far as f_a is specular there: diffuse light does
+ * not move with roughness. The correction less the floor then changes as f_a
  * does, by f_a of the edited material at s over f_a of the fitted one at the warped s.
  * `hnbrdf report editing` measures it. Unedited, every ratio is x/x: the same bits.
  *
@@ -64,6 +65,16 @@ static inline float hnbrdf_warp_factor(float alpha, float fitted_alpha)
     return alpha != fitted_alpha ? fitted_alpha / alpha : 1.0f;
 }
 
+/* How much of f_a is specular, over the channels: in [0, 1]. f_a is carried + specular. Not as a
+ * difference: what is left would be multiplied by up to 1e4. */
+HNBRDF_DIVIDES_AS_IEEE
+static inline float hnbrdf_specular_part(const float specular[3], const float carried[3])
+{
+    float shine = (specular[0] + specular[1]) + specular[2];
+    float diffuse = (carried[0] + carried[1]) + carried[2];
+    return hnbrdf_clamp(shine / (shine + diffuse), 0.0f, 1.0f);
+}
+
 /* s' of the same length as s, its tangents times x and y. It comes no nearer to the horizon than s
  * is, or than 45 degrees where s is higher: the network never saw much beyond, and is asked there
  * only by edits to a smaller alpha, whose highlight is far away. */
@@ -85,33 +96,33 @@ static inline void hnbrdf_warp(const hnbrdf_pair *p, float x, float y, float s[3
 }
 
 /* The pair that the network sees: that of s', its angles of incidence and difference as they
- * are. */
-static inline hnbrdf_pair hnbrdf_warped(const hnbrdf_pair *p, float x, float y)
+ * are. x, y: the factors where all is specular. */
+static inline hnbrdf_pair hnbrdf_warped(const hnbrdf_pair *p, float x, float y, float part)
 {
     hnbrdf_pair q = *p;
     float s[3];
-    hnbrdf_warp(p, x, y, s);
+    hnbrdf_warp(p, 1.0f + part * (x - 1.0f), 1.0f + part * (y - 1.0f), s);
     q.sx = s[0];
     q.sy = s[1];
     q.sz = s[2];
     return q;
 }
 
-/* For encodings that see the directions themselves: both turned with s to s', the shortest way.
- * d = wi - wo is at right angles to s. One of them may go below the horizon. Where s' is s, both
- * stay as they are. */
+/* For encodings that see the directions themselves: both turned with s to s', the shortest way. One
+ * of them may go below the horizon. Where s' is s, both stay as they are. d = wi - wo is at right
+ * angles to s for unit vectors, but need not be. */
 HNBRDF_DIVIDES_AS_IEEE
 static inline void hnbrdf_turn_pair(const hnbrdf_pair *p, hnbrdf_pair *q)
 {
     float d[3] = {p->wi[0] - p->wo[0], p->wi[1] - p->wo[1], p->wi[2] - p->wo[2]};
-    float along = (d[0] * q->sx + d[1] * q->sy) + d[2] * q->sz;
-    float both = p->length2 + ((p->sx * q->sx + p->sy * q->sy) + p->sz * q->sz);
-    float k = along / both;
-    float s[3] = {p->sx + q->sx, p->sy + q->sy, p->sz + q->sz};
-    float to[3] = {q->sx, q->sy, q->sz};
-    int moved = (q->sx != p->sx) | (q->sy != p->sy) | (q->sz != p->sz);
+    float from[3] = {p->sx, p->sy, p->sz}, to[3] = {q->sx, q->sy, q->sz};
+    float along = (d[0] * from[0] + d[1] * from[1]) + d[2] * from[2];
+    float across = (d[0] * to[0] + d[1] * to[1]) + d[2] * to[2];
+    float both = p->length2 + ((from[0] * to[0] + from[1] * to[1]) + from[2] * to[2]);
+    float k = (along + across) / both, j = (2.0f * along) / p->length2;
+    int moved = (to[0] != from[0]) | (to[1] != from[1]) | (to[2] != from[2]);
     for (int i = 0; i < 3; i++) {
-        float turned = d[i] - k * s[i];
+        float turned = (d[i] - k * (from[i] + to[i])) + j * to[i];
         q->wi[i] = moved ? 0.5f * (to[i] + turned) : p->wi[i];
         q->wo[i] = moved ? 0.5f * (to[i] - turned) : p->wo[i];
     }

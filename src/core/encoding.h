@@ -100,12 +100,13 @@ static inline void hnbrdf_encode_angles_anisotropic(const hnbrdf_pair *p, float 
     x[3] = fabsf(p->sy) / length;
 }
 
-/* The pair of an edited material as its network sees it, the tangents of s times x and y: the
- * angles of incidence and difference stay, but for what sees the directions themselves. */
+/* The pair of an edited material as its network sees it, the tangents of s times x and y where f_a
+ * is specular: the angles of incidence and difference stay, but for what sees the directions
+ * themselves. */
 static inline hnbrdf_pair hnbrdf_seen(hnbrdf_encoding encoding, const hnbrdf_pair *p, float x,
-                                      float y)
+                                      float y, float part)
 {
-    hnbrdf_pair q = hnbrdf_warped(p, x, y);
+    hnbrdf_pair q = hnbrdf_warped(p, x, y, part);
     if (encoding == HNBRDF_ENCODING_DIRECTIONS)
         hnbrdf_turn_pair(p, &q);
     return q;

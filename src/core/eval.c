@@ -6,11 +6,20 @@
 
 /* ---- One pair -------------------------------------------------------------------------------- */
 
+static void eval_above(const hnbrdf_prepared *prepared, const float wi[3], const float wo[3],
+                       float f[3])
+{
+    if (prepared->edited)
+        hnbrdf_edited_eval(prepared, wi, wo, f);
+    else
+        prepared->model->kernel->single(prepared, wi, wo, f);
+}
+
 void hnbrdf_prepared_eval(const hnbrdf_prepared *prepared, const float wi[3], const float wo[3],
                           float f[3])
 {
     if (hnbrdf_above_horizon(wi, wo))
-        prepared->model->kernel->single(prepared, wi, wo, f);
+        eval_above(prepared, wi, wo, f);
     else
         f[0] = f[1] = f[2] = 0.0f;
 }
@@ -21,7 +30,7 @@ void hnbrdf_eval(const hnbrdf_model *model, const hnbrdf_material *material, con
     if (hnbrdf_above_horizon(wi, wo)) {
         hnbrdf_prepared prepared;
         hnbrdf_prepare_eval(model, material, &prepared);
-        model->kernel->single(&prepared, wi, wo, f);
+        eval_above(&prepared, wi, wo, f);
     } else {
         f[0] = f[1] = f[2] = 0.0f;
     }

@@ -35,9 +35,11 @@ typedef struct hnbrdf_kernel {
     hnbrdf_variant variant;
     /* prepared->first from the latent code; models with a network only. */
     void (*fold)(const hnbrdf_model *model, const float *latent, float *first);
-    /* One pair, both above the horizon. */
+    /* One pair, both above the horizon, of an unedited material. */
     void (*single)(const hnbrdf_prepared *prepared, const float wi[3], const float wo[3],
                    float f[3]);
+    /* The network alone, of one pair that is encoded; out has room for HNBRDF_MAX_HIDDEN. */
+    void (*outputs)(const hnbrdf_prepared *prepared, const float *x, float *out);
     void (*eval)(const hnbrdf_materials *of, const hnbrdf_pairs *pairs);
     /* The analytic part alone, of any kind of model. */
     void (*analytic)(const hnbrdf_prepared *prepared, const hnbrdf_pairs *pairs);
@@ -51,6 +53,10 @@ typedef struct hnbrdf_kernel {
 /* Which of these exist is the build's choice, see HNBRDF_WITH_VARIANTS. */
 extern const hnbrdf_kernel hnbrdf_kernel_plain, hnbrdf_kernel_sse2, hnbrdf_kernel_avx2,
     hnbrdf_kernel_avx512, hnbrdf_kernel_neon;
+
+/* As `single` of an edited material; only a hybrid has those. */
+void hnbrdf_edited_eval(const hnbrdf_prepared *prepared, const float wi[3], const float wo[3],
+                        float f[3]);
 
 /* NULL where hnbrdf_variant_available() says 0; the fastest for HNBRDF_VARIANT_AUTO. */
 const hnbrdf_kernel *hnbrdf_kernel_of(hnbrdf_variant variant);

@@ -10,23 +10,6 @@
 
 /* ---- One pair -------------------------------------------------------------------------------- */
 
-/* The same of an edited material; only a hybrid has those. */
-KERNEL_APART void edited_single(const hnbrdf_prepared *prepared, const float wi[3],
-                                const float wo[3], float f[3])
-{
-    const hnbrdf_model_desc *desc = &prepared->model->desc;
-    float edited[4], fitted[4], out[HNBRDF_MAX_HIDDEN], x[HNBRDF_ENCODING_SIZE];
-    hnbrdf_pair pair = hnbrdf_pair_in_frame(prepared, wi, wo);
-    hnbrdf_pair seen = hnbrdf_prepared_seen(prepared, &pair);
-    hnbrdf_encode(desc->encoding, &seen, x);
-    network_single(prepared, x, out);
-    hnbrdf_prepared_edited(prepared, &pair, &seen, edited, fitted);
-    for (int c = 0; c < 3; c++)
-        f[c] =
-            hnbrdf_compose_edited(out[c], out[c + 3], edited[c], fitted[c], prepared->edit.added[c],
-                                  desc->scale, desc->shift, desc->floor);
-}
-
 /* The network first: its sums are one long wait, and f_a is worked out in its shadow. */
 static void kernel_single(const hnbrdf_prepared *prepared, const float wi[3], const float wo[3],
                           float f[3])
@@ -34,10 +17,6 @@ static void kernel_single(const hnbrdf_prepared *prepared, const float wi[3], co
     const hnbrdf_model_desc *desc = &prepared->model->desc;
     const float scale = desc->scale, shift = desc->shift, lowest = desc->floor;
     float f_a[4], value[4], out[HNBRDF_MAX_HIDDEN]; /* the fourth channel is filling */
-    if (prepared->edited) {
-        edited_single(prepared, wi, wo, f);
-        return;
-    }
     hnbrdf_pair pair = hnbrdf_pair_in_frame(prepared, wi, wo);
     if (desc->kind != HNBRDF_KIND_GGX) {
         float x[HNBRDF_ENCODING_SIZE];
@@ -192,8 +171,10 @@ KERNEL_APART void evaluate_edited_lanes(const hnbrdf_model *model, const block_m
 {
     const hnbrdf_model_desc *desc = &model->desc;
     lane_pairs seen;
-    seen_lanes(desc->encoding, &m->edits, b, &seen);
-    edited_lanes(&m->by_lane, &m->edits, b, &seen);
+    lane part;
+    edited_lanes(&m->by_lane, &m->edits, b, part);
+    seen_lanes(desc->encoding, &m->edits, part, b, &seen);
+    fitted_lanes(&m->edits, b, &seen);
     encode_lanes(desc->encoding, &seen, b->x + desc->latent);
     block_network(model, m, b);
     compose_edited_lanes(desc, &m->edits, &seen, b);
@@ -291,6 +272,7 @@ static void kernel_sample(const hnbrdf_materials *of, const hnbrdf_draws *draws)
 const hnbrdf_kernel KERNEL_TABLE = {.variant = KERNEL_VARIANT,
                                     .fold = kernel_fold,
                                     .single = kernel_single,
+                                    .outputs = network_single,
                                     .eval = kernel_eval,
                                     .analytic = kernel_analytic,
                                     .pdf = kernel_pdf,

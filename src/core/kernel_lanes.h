@@ -266,13 +266,31 @@ static void encode_lanes(hnbrdf_encoding encoding, lane_pairs *restrict b, lane 
 #undef ENCODE_CASE
 }
 
+/* b->f: f_a of the materials, kd only as far as it carries the correction along; part: how much of
+ * it is specular. */
+KERNEL_APART void edited_lanes(const lane_materials *restrict m, const lane_edits *restrict edits,
+                               lane_pairs *restrict b, float *restrict part)
+{
+    for (int l = 0; l < LANES; l++) {
+        const float carried[3] = {edits->carried[0][l], edits->carried[1][l], edits->carried[2][l]};
+        const hnbrdf_pair p = pair_of(b, l);
+        float now = hnbrdf_specular_of_area(&p, m->ax[l], m->ay[l], m->area[l]), specular[3];
+        for (int c = 0; c < 3; c++) {
+            specular[c] = hnbrdf_fresnel_of_e(m->e[c][l], p.c) * now;
+            b->f[c][l] = carried[c] + specular[c];
+        }
+        part[l] = hnbrdf_specular_part(specular, carried);
+    }
+}
+
 /* seen: the pairs as the networks of edited materials see them. */
 KERNEL_APART void seen_lanes(hnbrdf_encoding encoding, const lane_edits *restrict m,
-                             const lane_pairs *restrict b, lane_pairs *restrict seen)
+                             const float *restrict part, const lane_pairs *restrict b,
+                             lane_pairs *restrict seen)
 {
     memcpy(seen, b, offsetof(lane_pairs, f));
     for (int l = 0; l < LANES; l++) {
-        const hnbrdf_pair p = pair_of(b, l), q = hnbrdf_warped(&p, m->x[l], m->y[l]);
+        const hnbrdf_pair p = pair_of(b, l), q = hnbrdf_warped(&p, m->x[l], m->y[l], part[l]);
         seen->sx[l] = q.sx;
         seen->sy[l] = q.sy;
         seen->sz[l] = q.sz;
@@ -290,18 +308,15 @@ KERNEL_APART void seen_lanes(hnbrdf_encoding encoding, const lane_edits *restric
     }
 }
 
-/* As hnbrdf_prepared_edited(): b->f and seen->f. */
-KERNEL_APART void edited_lanes(const lane_materials *restrict m, const lane_edits *restrict edits,
-                               lane_pairs *restrict b, lane_pairs *restrict seen)
+/* seen->f: f_a of the fitted materials, at s' and the directions as they are. */
+KERNEL_APART void fitted_lanes(const lane_edits *restrict edits, const lane_pairs *restrict b,
+                               lane_pairs *restrict seen)
 {
     for (int l = 0; l < LANES; l++) {
         const hnbrdf_pair p = pair_of(b, l), q = pair_of(seen, l);
-        float now = hnbrdf_specular_of_area(&p, m->ax[l], m->ay[l], m->area[l]);
         float before = hnbrdf_fitted_specular(&p, &q, edits->ax[l], edits->ay[l], edits->area[l]);
-        for (int c = 0; c < 3; c++) {
-            b->f[c][l] = hnbrdf_microfacet_of(edits->carried[c][l], m->e[c][l], p.c, now);
+        for (int c = 0; c < 3; c++)
             seen->f[c][l] = hnbrdf_microfacet_of(edits->diffuse[c][l], edits->e[c][l], p.c, before);
-        }
     }
 }
 

@@ -43,29 +43,36 @@ static inline hnbrdf_pair hnbrdf_pair_in_frame(const hnbrdf_prepared *prepared, 
     return hnbrdf_pair_make(i, o);
 }
 
-/* The pair that the network sees: as it is, but of an edited material. */
-static inline hnbrdf_pair hnbrdf_prepared_seen(const hnbrdf_prepared *prepared,
-                                               const hnbrdf_pair *pair)
-{
-    const float *warp = prepared->edit.warp;
-    return prepared->edited ? hnbrdf_seen(prepared->model->desc.encoding, pair, warp[0], warp[1])
-                            : *pair;
-}
-
-/* f_a of the three channels, kd only as far as it carries the correction along; and f_a of the
- * fitted material at the warped pair, the angles of incidence being those of `pair`. */
-static inline void hnbrdf_prepared_edited(const hnbrdf_prepared *prepared, const hnbrdf_pair *pair,
-                                          const hnbrdf_pair *warped, float edited[4],
-                                          float fitted[4])
+/* The pair that the network of an edited material sees; f_a of the three channels, kd only as far as
+ * it carries the correction along, and of the fitted material at that pair, the angles of
+ * incidence being those of `pair`. The fourth fills a vector. */
+static inline hnbrdf_pair hnbrdf_prepared_edited(const hnbrdf_prepared *prepared,
+                                                 const hnbrdf_pair *pair, float edited[4],
+                                                 float fitted[4])
 {
     const hnbrdf_prepared_edit *edit = &prepared->edit;
     float now =
         hnbrdf_specular_of_area(pair, prepared->alpha[0], prepared->alpha[1], prepared->area);
-    float before = hnbrdf_fitted_specular(pair, warped, edit->alpha[0], edit->alpha[1], edit->area);
+    float specular[4];
     for (int c = 0; c < 4; c++) {
-        edited[c] = hnbrdf_microfacet_of(edit->carried[c], prepared->e[c], pair->c, now);
-        fitted[c] = hnbrdf_microfacet_of(edit->diffuse[c], edit->e[c], pair->c, before);
+        specular[c] = hnbrdf_fresnel_of_e(prepared->e[c], pair->c) * now;
+        edited[c] = edit->carried[c] + specular[c];
     }
+    const hnbrdf_pair seen =
+        hnbrdf_seen(prepared->model->desc.encoding, pair, edit->warp[0], edit->warp[1],
+                    hnbrdf_specular_part(specular, edit->carried));
+    float before = hnbrdf_fitted_specular(pair, &seen, edit->alpha[0], edit->alpha[1], edit->area);
+    for (int c = 0; c < 4; c++)
+        fitted[c] = hnbrdf_microfacet_of(edit->diffuse[c], edit->e[c], pair->c, before);
+    return seen;
+}
+
+/* The pair that the network sees, edited or not. */
+static inline hnbrdf_pair hnbrdf_prepared_seen(const hnbrdf_prepared *prepared,
+                                               const hnbrdf_pair *pair)
+{
+    float edited[4], fitted[4];
+    return prepared->edited ? hnbrdf_prepared_edited(prepared, pair, edited, fitted) : *pair;
 }
 
 /* The edit of a material, or of an unedited one what changes no bit: for where both kinds are

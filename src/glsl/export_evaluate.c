@@ -66,7 +66,8 @@ static void put_eval_analytic(hnbrdf_printer *out, const hnbrdf_scene *s)
         hnbrdf_put(out, "    return vec3(0.0);\n}\n\n");
 }
 
-/* What an edit of a material comes to, and the pair that its network then sees. */
+/* What an edit of a material comes to; the specular part of f_a; and the pair that its network then
+ * sees. */
 static void put_edits(hnbrdf_printer *out, const hnbrdf_scene *s)
 {
     hnbrdf_put(out, "hnbrdf_edit hnbrdf_scene_edit(hnbrdf_material m)\n{\n    return ");
@@ -74,25 +75,28 @@ static void put_edits(hnbrdf_printer *out, const hnbrdf_scene *s)
                     : s->anisotropic
                         ? "hnbrdf_edit_make(m.kd, m.eta, m.alpha, m.fitted);\n}\n\n"
                         : "hnbrdf_edit_make(m.kd, m.eta, vec2(m.alpha), m.fitted);\n}\n\n");
+    hnbrdf_put(out, "vec3 hnbrdf_scene_specular(hnbrdf_material m, hnbrdf_pair p)\n{\n");
+    hnbrdf_put(out, s->fixed ? "    HNBRDF_PRECISE vec3 f = hnbrdf_fresnel_of_e(m.e, p.c) * "
+                               "hnbrdf_specular_of_area(p, m.alpha, m.area);\n"
+                             : "    HNBRDF_PRECISE vec3 f = hnbrdf_fresnel_dielectric(m.eta, p.c) "
+                               "* hnbrdf_specular(p, m.alpha);\n");
+    hnbrdf_put(out, "    return f;\n}\n\n");
     hnbrdf_put(out,
-               "hnbrdf_pair hnbrdf_scene_seen(hnbrdf_edit edit, hnbrdf_pair p)\n{\n    return ");
+               "hnbrdf_pair hnbrdf_scene_seen(hnbrdf_edit edit, hnbrdf_pair p, vec3 specular)\n{\n"
+               "    float part = hnbrdf_specular_part(specular, edit.carried);\n    return ");
     hnbrdf_put(out, s->desc->encoding == HNBRDF_ENCODING_DIRECTIONS
-                        ? "hnbrdf_turn_pair(p, hnbrdf_warped(p, edit.warp));\n}\n\n"
-                        : "hnbrdf_warped(p, edit.warp);\n}\n\n");
+                        ? "hnbrdf_turn_pair(p, hnbrdf_warped(p, edit.warp, part));\n}\n\n"
+                        : "hnbrdf_warped(p, edit.warp, part);\n}\n\n");
 }
 
 /* In hnbrdf_eval(): f_a of what the material is and of what it was fitted with. */
-static void put_edited(hnbrdf_printer *out, const hnbrdf_scene *s)
+static void put_edited(hnbrdf_printer *out)
 {
     hnbrdf_put(out, "    hnbrdf_edit edit = hnbrdf_scene_edit(m);\n"
-                    "    hnbrdf_pair seen = hnbrdf_scene_seen(edit, p);\n");
-    hnbrdf_put(out, s->fixed ? "    float specular = hnbrdf_specular_of_area(p, m.alpha, m.area);\n"
-                               "    vec3 edited = hnbrdf_microfacet_of(edit.carried, m.e, p.c, "
-                               "specular);\n"
-                             : "    float specular = hnbrdf_specular(p, m.alpha);\n"
-                               "    vec3 edited = hnbrdf_microfacet_of(edit.carried, "
-                               "hnbrdf_fresnel_e(m.eta), p.c, specular);\n");
-    hnbrdf_put(out, "    vec3 fitted = hnbrdf_microfacet_fitted(p, seen, edit);\n");
+                    "    vec3 specular = hnbrdf_scene_specular(m, p);\n"
+                    "    HNBRDF_PRECISE vec3 edited = edit.carried + specular;\n"
+                    "    hnbrdf_pair seen = hnbrdf_scene_seen(edit, p, specular);\n"
+                    "    vec3 fitted = hnbrdf_microfacet_fitted(p, seen, edit);\n");
 }
 
 static void put_eval(hnbrdf_printer *out, const hnbrdf_scene *s)
@@ -105,7 +109,7 @@ static void put_eval(hnbrdf_printer *out, const hnbrdf_scene *s)
     }
     int hybrid = s->desc->kind == HNBRDF_KIND_HYBRID;
     if (s->edited)
-        put_edited(out, s);
+        put_edited(out);
     hnbrdf_put(out, "    vec3 x0, x1, c%s;\n", hybrid ? ", g" : "");
     hnbrdf_put(out, "    HNBRDF_SCENE_ENCODE(%s, x0, x1);\n", s->edited ? "seen" : "p");
     hnbrdf_put(out, "    hnbrdf_network(m, x0, x1, c%s);\n", hybrid ? ", g" : "");
