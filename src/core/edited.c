@@ -1,4 +1,5 @@
-/* edited.c: f of one pair of an edited material: carry.h around the network of the model's kernel. */
+/* edited.c: f of one pair of an edited material: carry.h around the network of the model's
+ * kernel. */
 #include "core/encoding.h"
 #include "core/kernel.h"
 #include "core/prepared.h"

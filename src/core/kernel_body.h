@@ -171,10 +171,10 @@ KERNEL_APART void evaluate_edited_lanes(const hnbrdf_model *model, const block_m
 {
     const hnbrdf_model_desc *desc = &model->desc;
     lane_pairs seen;
-    lane part;
-    edited_lanes(&m->by_lane, &m->edits, b, part);
-    seen_lanes(desc->encoding, &m->edits, part, b, &seen);
-    fitted_lanes(&m->edits, b, &seen);
+    lane_shine shine;
+    edited_lanes(&m->by_lane, &m->edits, b, &shine);
+    seen_lanes(desc->encoding, &m->edits, &shine, b, &seen);
+    fitted_lanes(&m->edits, &shine, b, &seen);
     encode_lanes(desc->encoding, &seen, b->x + desc->latent);
     block_network(model, m, b);
     compose_edited_lanes(desc, &m->edits, &seen, b);

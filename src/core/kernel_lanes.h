@@ -35,11 +35,13 @@ static void put_material(const hnbrdf_prepared *prepared, int l, lane_materials 
  * change no bit. */
 typedef struct lane_edits {
     lane x, y, ax, ay, area, diffuse[3], e[3], carried[3], added[3];
+    int other_eta; /* 1: the eta of some lane is edited */
 } lane_edits;
 
 static void put_edit(const hnbrdf_prepared *prepared, int l, lane_edits *m)
 {
     const hnbrdf_prepared_edit edit = hnbrdf_edit_of(prepared);
+    m->other_eta = l > 0 && m->other_eta; /* lanes come in order */
     m->x[l] = edit.warp[0];
     m->y[l] = edit.warp[1];
     m->ax[l] = edit.alpha[0];
@@ -48,6 +50,7 @@ static void put_edit(const hnbrdf_prepared *prepared, int l, lane_edits *m)
     for (int c = 0; c < 3; c++) {
         m->diffuse[c][l] = edit.diffuse[c];
         m->e[c][l] = edit.e[c];
+        m->other_eta |= edit.e[c] != prepared->e[c];
         m->carried[c][l] = edit.carried[c];
         m->added[c][l] = edit.added[c];
     }
@@ -266,31 +269,39 @@ static void encode_lanes(hnbrdf_encoding encoding, lane_pairs *restrict b, lane 
 #undef ENCODE_CASE
 }
 
-/* b->f: f_a of the materials, kd only as far as it carries the correction along; part: how much of
- * it is specular. */
+/* What a block of which some lanes are edited is worked out by: Fresnel terms of the materials as
+ * they are, and how much of f_a is specular. */
+typedef struct lane_shine {
+    lane fresnel[3], part;
+} lane_shine;
+
+/* b->f: f_a of the materials, kd only as far as it carries the correction along. */
 KERNEL_APART void edited_lanes(const lane_materials *restrict m, const lane_edits *restrict edits,
-                               lane_pairs *restrict b, float *restrict part)
+                               lane_pairs *restrict b, lane_shine *restrict shine)
 {
     for (int l = 0; l < LANES; l++) {
         const float carried[3] = {edits->carried[0][l], edits->carried[1][l], edits->carried[2][l]};
         const hnbrdf_pair p = pair_of(b, l);
         float now = hnbrdf_specular_of_area(&p, m->ax[l], m->ay[l], m->area[l]), specular[3];
         for (int c = 0; c < 3; c++) {
-            specular[c] = hnbrdf_fresnel_of_e(m->e[c][l], p.c) * now;
+            float fresnel = hnbrdf_fresnel_of_e(m->e[c][l], p.c);
+            shine->fresnel[c][l] = fresnel;
+            specular[c] = fresnel * now;
             b->f[c][l] = carried[c] + specular[c];
         }
-        part[l] = hnbrdf_specular_part(specular, carried);
+        shine->part[l] = hnbrdf_specular_part(specular, carried);
     }
 }
 
 /* seen: the pairs as the networks of edited materials see them. */
 KERNEL_APART void seen_lanes(hnbrdf_encoding encoding, const lane_edits *restrict m,
-                             const float *restrict part, const lane_pairs *restrict b,
+                             const lane_shine *restrict shine, const lane_pairs *restrict b,
                              lane_pairs *restrict seen)
 {
     memcpy(seen, b, offsetof(lane_pairs, f));
     for (int l = 0; l < LANES; l++) {
-        const hnbrdf_pair p = pair_of(b, l), q = hnbrdf_warped(&p, m->x[l], m->y[l], part[l]);
+        const hnbrdf_pair p = pair_of(b, l);
+        const hnbrdf_pair q = hnbrdf_warped(&p, m->x[l], m->y[l], shine->part[l]);
         seen->sx[l] = q.sx;
         seen->sy[l] = q.sy;
         seen->sz[l] = q.sz;
@@ -308,15 +319,19 @@ KERNEL_APART void seen_lanes(hnbrdf_encoding encoding, const lane_edits *restric
     }
 }
 
-/* seen->f: f_a of the fitted materials, at s' and the directions as they are. */
-KERNEL_APART void fitted_lanes(const lane_edits *restrict edits, const lane_pairs *restrict b,
-                               lane_pairs *restrict seen)
+/* seen->f: f_a of the fitted materials, at s' and the directions as they are. Where no eta is
+ * edited, shine has their Fresnel terms. */
+KERNEL_APART void fitted_lanes(const lane_edits *restrict edits, lane_shine *restrict shine,
+                               const lane_pairs *restrict b, lane_pairs *restrict seen)
 {
+    for (int c = 0; c < 3 && edits->other_eta; c++)
+        for (int l = 0; l < LANES; l++)
+            shine->fresnel[c][l] = hnbrdf_fresnel_of_e(edits->e[c][l], b->c[l]);
     for (int l = 0; l < LANES; l++) {
         const hnbrdf_pair p = pair_of(b, l), q = pair_of(seen, l);
         float before = hnbrdf_fitted_specular(&p, &q, edits->ax[l], edits->ay[l], edits->area[l]);
         for (int c = 0; c < 3; c++)
-            seen->f[c][l] = hnbrdf_microfacet_of(edits->diffuse[c][l], edits->e[c][l], p.c, before);
+            seen->f[c][l] = edits->diffuse[c][l] + shine->fresnel[c][l] * before;
     }
 }
 

@@ -43,8 +43,8 @@ static inline hnbrdf_pair hnbrdf_pair_in_frame(const hnbrdf_prepared *prepared, 
     return hnbrdf_pair_make(i, o);
 }
 
-/* The pair that the network of an edited material sees; f_a of the three channels, kd only as far as
- * it carries the correction along, and of the fitted material at that pair, the angles of
+/* The pair that the network of an edited material sees; f_a of the three channels, kd only as far
+ * as it carries the correction along, and of the fitted material at that pair, the angles of
  * incidence being those of `pair`. The fourth fills a vector. */
 static inline hnbrdf_pair hnbrdf_prepared_edited(const hnbrdf_prepared *prepared,
                                                  const hnbrdf_pair *pair, float edited[4],
