@@ -1,6 +1,7 @@
 /* gpu_run.c: a compute shader of a test, with an exported scene, on every Vulkan device of this
  * machine. */
 #include "gpu_run.h"
+#include "sanitized.h"
 
 #include "gpu/compile.h"
 #include "gpu/compute.h"
@@ -166,14 +167,6 @@ void gpu_run_assert_same(const char *what, const float *on_device, const float *
 
 /* ---- Devices --------------------------------------------------------------------------------- */
 
-#if defined(__SANITIZE_ADDRESS__)
-#define HAS_LEAK_CHECK 1
-#elif defined(__has_feature)
-#define HAS_LEAK_CHECK __has_feature(address_sanitizer)
-#else
-#define HAS_LEAK_CHECK 0
-#endif
-
 static int run_on(const gpu_instance *instance, int index, const struct CMUnitTest *tests,
                   size_t count)
 {
@@ -201,7 +194,7 @@ int gpu_run_tests(const struct CMUnitTest *tests, size_t count)
     }
     /* Kept loaded, or LeakSanitizer cannot tell what the driver still holds from a leak. */
     dlopen("libvulkan_lvp.so", RTLD_NOW | RTLD_NODELETE);
-    if (gpu_open(HAS_LEAK_CHECK ? GPU_VALIDATED : GPU_VALIDATED_SYNC, &instance, &error) &&
+    if (gpu_open(SANITIZED ? GPU_VALIDATED : GPU_VALIDATED_SYNC, &instance, &error) &&
         gpu_open(GPU_NOT_VALIDATED, &instance, &error)) {
         printf("%s\n", error.text);
         return 1;

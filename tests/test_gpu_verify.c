@@ -1,6 +1,7 @@
 /* test_gpu_verify.c: exported shaders against the C library on every Vulkan device of this machine.
  * Skipped where there is no device or no glslangValidator. */
 #include "gpu_support.h"
+#include "sanitized.h"
 
 #include "gpu/compile.h"
 #include "gpu/verify.h"
@@ -23,16 +24,8 @@ static int validated;
 static const hnbrdf_encoding DIRECTIONS = HNBRDF_ENCODING_DIRECTIONS,
                              HALF = HNBRDF_ENCODING_HALF_DIFFERENCE;
 
-enum { PAIRS = 2048 };
-
-#if defined(__SANITIZE_ADDRESS__)
-#define HAS_LEAK_CHECK 1
-#elif defined(__has_feature)
-#define HAS_LEAK_CHECK __has_feature(address_sanitizer)
-#else
-#define HAS_LEAK_CHECK 0
-#endif
-static const gpu_validation VALIDATION = HAS_LEAK_CHECK ? GPU_VALIDATED : GPU_VALIDATED_SYNC;
+enum { PAIRS = SANITIZED ? 256 : 2048 };
+static const gpu_validation VALIDATION = SANITIZED ? GPU_VALIDATED : GPU_VALIDATED_SYNC;
 
 static gpu_report verify_styled(const hnbrdf_model *model, const gpu_scene *scene,
                                 hnbrdf_glsl_precision precision)

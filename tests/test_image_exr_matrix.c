@@ -1,6 +1,7 @@
 /* test_image_exr_matrix.c: every compression with every set of channels, layout and window, written
  * by OpenEXR itself, is read with the right values. */
 #include "exr_writer.h"
+#include "sanitized.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -129,19 +130,11 @@ static void check_file(const exr_part_description *part)
     free(bytes.data);
 }
 
-/* With AddressSanitizer the megabytes of a block of PIZ and DWAB are new ones each time. */
-#if defined(__SANITIZE_ADDRESS__)
-#define IS_SLOW 1
-#elif defined(__has_feature)
-#define IS_SLOW __has_feature(address_sanitizer)
-#else
-#define IS_SLOW 0
-#endif
-
-/* Files of few blocks stand for the others where these take long. */
+/* With AddressSanitizer the megabytes of a block of PIZ and DWAB are new ones each time. Files of
+ * few blocks stand for the others there. */
 static int is_too_slow(const exr_part_description *part)
 {
-    return IS_SLOW && (part->compression == 4 || part->compression == 9) &&
+    return SANITIZED && (part->compression == 4 || part->compression == 9) &&
            ((part->layout != EXR_LINES && part->layout != EXR_TILES) || part->data[2] > 12);
 }
 
