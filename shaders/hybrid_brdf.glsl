@@ -479,8 +479,7 @@ HNBRDF_PRECISE vec3 hnbrdf_warp(hnbrdf_pair p, vec2 warp)
     return vec3(w, p.s.z) * stretch;
 }
 
-// The pair that the network sees: that of s', its angles of incidence and difference as they are. warp: the factors
-// where all of f_a is specular.
+// The pair of s', its directions as they are. warp: the factors where all of f_a is specular.
 hnbrdf_pair hnbrdf_warped(hnbrdf_pair p, vec2 warp, float part)
 {
     HNBRDF_PRECISE vec2 by = 1.0 + part * (warp - 1.0);
@@ -488,8 +487,7 @@ hnbrdf_pair hnbrdf_warped(hnbrdf_pair p, vec2 warp, float part)
     return p;
 }
 
-// For encodings that see the directions themselves: both turned with s to s', the shortest way. Where s' is s, both
-// stay as they are.
+// Both directions turned with s to s', the shortest way. Where s' is s, both stay as they are.
 HNBRDF_PRECISE hnbrdf_pair hnbrdf_turn_pair(hnbrdf_pair p, hnbrdf_pair q)
 {
     HNBRDF_PRECISE vec3 d = p.wi - p.wo;
@@ -503,6 +501,30 @@ HNBRDF_PRECISE hnbrdf_pair hnbrdf_turn_pair(hnbrdf_pair p, hnbrdf_pair q)
         return q;
     q.wi = 0.5 * (q.s + turned);
     q.wo = 0.5 * (q.s - turned);
+    return q;
+}
+
+// For encodings by angles: the cosines of incidence where s gets nearer to the normal. Their sum is s.z, and their
+// difference goes with the sine of its angle, as if the pair were turned. What is left of wi - wo is laid along x, so
+// that its length, and the difference angle, stay. Where s does not move, nothing does.
+HNBRDF_PRECISE hnbrdf_pair hnbrdf_raise_pair(hnbrdf_pair p, hnbrdf_pair q)
+{
+    HNBRDF_PRECISE float r2 = p.s.x * p.s.x + p.s.y * p.s.y;
+    HNBRDF_PRECISE float q2 = q.s.x * q.s.x + q.s.y * q.s.y;
+    HNBRDF_PRECISE float shrink = sqrt(q2 < r2 ? q2 / r2 : 1.0);
+    HNBRDF_PRECISE float less = shrink - 1.0;
+    HNBRDF_PRECISE float sum = q.s.z - p.s.z;
+    sum = sum > 0.0 ? sum : 0.0;
+    HNBRDF_PRECISE vec3 d = p.wi - p.wo;
+    HNBRDF_PRECISE float rest = (d.x * d.x + d.y * d.y) - (d.z * d.z) * (less * (1.0 + shrink));
+    HNBRDF_PRECISE float along = 0.5 * sqrt(rest);
+    HNBRDF_PRECISE float difference = less * d.z;
+    HNBRDF_PRECISE float i = p.wi.z + 0.5 * (sum + difference);
+    HNBRDF_PRECISE float o = p.wo.z + 0.5 * (sum - difference);
+    if (less != 0.0 || sum > 0.0) {
+        q.wi = vec3(along, 0.0, i);
+        q.wo = vec3(-along, 0.0, o);
+    }
     return q;
 }
 

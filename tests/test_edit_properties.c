@@ -294,6 +294,13 @@ static void any_edit(hnbrdf_rng *rng, hnbrdf_material *m)
         m->rotation = between(rng, -3.0f, 3.0f);
 }
 
+static int is_reciprocal(const hnbrdf_model *model)
+{
+    hnbrdf_model_desc desc;
+    hnbrdf_model_describe(model, &desc);
+    return hnbrdf_encoding_is_reciprocal(desc.encoding);
+}
+
 static void look_at_edits(const hnbrdf_model *model, const char *name, const hnbrdf_material *as_is)
 {
     enum { EDITS = 24, PAIRS = 16 };
@@ -311,6 +318,9 @@ static void look_at_edits(const hnbrdf_model *model, const char *name, const hnb
             for (int c = 0; c < 3; c++)
                 if (!(f[c] >= 0.0f && isfinite(f[c])))
                     fail_msg("%s: an edit gives %g", name, (double)f[c]);
+            hnbrdf_eval(model, &edited, wo, wi, back);
+            if (is_reciprocal(model))
+                assert_memory_equal(back, f, sizeof back);
             hnbrdf_material restored = edited;
             memcpy(restored.kd, as_is->kd, sizeof restored.kd);
             memcpy(restored.eta, as_is->eta, sizeof restored.eta);

@@ -84,6 +84,32 @@ static void turn(const check_rules *k, const pair *p, pair *q)
     }
 }
 
+/* hnbrdf_raise_pair(). A device that does not raise where C does is within rounding of it, but for
+ * x and y, which are of another form of the same difference. */
+static void raise(const check_rules *k, const pair *p, pair *q)
+{
+    num one = same(1.0f), d[3];
+    num r2 = add(k, multiply(k, p->s[0], p->s[0]), multiply(k, p->s[1], p->s[1]));
+    num q2 = add(k, multiply(k, q->s[0], q->s[0]), multiply(k, q->s[1], q->s[1]));
+    num shrink = root(k, quotient_or_1(divide(k, q2, r2), !(q2.v < r2.v),
+                                       (double)q2.v - q2.e > (double)r2.v + r2.e));
+    num less = subtract(k, shrink, one);
+    num sum = largest(subtract(k, q->s[2], p->s[2]), same(0.0f));
+    for (int i = 0; i < 3; i++)
+        d[i] = subtract(k, p->wi[i], p->wo[i]);
+    num rest =
+        subtract(k, add(k, multiply(k, d[0], d[0]), multiply(k, d[1], d[1])),
+                 multiply(k, multiply(k, d[2], d[2]), multiply(k, less, add(k, one, shrink))));
+    num along = multiply(k, same(0.5f), root(k, rest)), difference = multiply(k, less, d[2]);
+    if (less.v != 0.0f || sum.v > 0.0f) {
+        q->wi[0] = along;
+        q->wo[0] = (num){-along.v, along.e};
+        q->wi[1] = q->wo[1] = same(0.0f);
+    }
+    q->wi[2] = add(k, p->wi[2], multiply(k, same(0.5f), add(k, sum, difference)));
+    q->wo[2] = add(k, p->wo[2], multiply(k, same(0.5f), subtract(k, sum, difference)));
+}
+
 /* hnbrdf_carried_eta(). */
 static num fitted_eta(const check_rules *k, float eta, float fitted)
 {
@@ -116,6 +142,8 @@ void check_edit_make(const check_rules *k, hnbrdf_encoding encoding,
     edit->seen = at_half;
     if (encoding == HNBRDF_ENCODING_DIRECTIONS)
         turn(k, p, &edit->seen);
+    else
+        raise(k, p, &edit->seen);
     num before = masked(k, p, &at_half, fitted->alpha);
     for (int c = 0; c < 3; c++) {
         num kd = given(k, material->kd[c]);

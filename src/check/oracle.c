@@ -262,8 +262,16 @@ static void warp(const hnbrdf_model_desc *desc, const hnbrdf_material *m, real s
     a->h = h;
     a->sine = real_sqrt(h.x * h.x + h.y * h.y);
     a->tan2 = (h.x * h.x + h.y * h.y) / (h.z * h.z);
-    if (desc->encoding == HNBRDF_ENCODING_DIRECTIONS)
-        turn(i, o, s, (vec){h.x * length, h.y * length, h.z * length});
+    vec to = {h.x * length, h.y * length, h.z * length};
+    if (desc->encoding == HNBRDF_ENCODING_DIRECTIONS) {
+        turn(i, o, s, to);
+    } else { /* the cosines of incidence: their sum with s.z, their difference with its sine */
+        real r2 = s.x * s.x + s.y * s.y, q2 = to.x * to.x + to.y * to.y;
+        real shrink = q2 < r2 ? real_sqrt(q2 / r2) : 1, grown = to.z > s.z ? to.z - s.z : 0;
+        real difference = (shrink - 1) * (i->z - o->z);
+        i->z += (grown + difference) / 2;
+        o->z += (grown - difference) / 2;
+    }
 }
 
 /* eta0, raised until the reflectance at normal incidence of eta is at most 16 times its own. */

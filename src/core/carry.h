@@ -95,8 +95,7 @@ static inline void hnbrdf_warp(const hnbrdf_pair *p, float x, float y, float s[3
     s[2] = p->sz * stretch;
 }
 
-/* The pair that the network sees: that of s', its angles of incidence and difference as they
- * are. x, y: the factors where all is specular. */
+/* The pair of s', its directions as they are. x, y: the factors where all is specular. */
 static inline hnbrdf_pair hnbrdf_warped(const hnbrdf_pair *p, float x, float y, float part)
 {
     hnbrdf_pair q = *p;
@@ -108,9 +107,33 @@ static inline hnbrdf_pair hnbrdf_warped(const hnbrdf_pair *p, float x, float y, 
     return q;
 }
 
-/* For encodings that see the directions themselves: both turned with s to s', the shortest way. One
- * of them may go below the horizon. Where s' is s, both stay as they are. d = wi - wo is at right
- * angles to s for unit vectors, but need not be. */
+/* For encodings by angles: the cosines of incidence where s gets nearer to the normal. Their sum is
+ * s.z, and their difference goes with the sine of its angle, as if the pair were turned. What is
+ * left of wi - wo is laid along x, so that its length, and the difference angle, stay. Where s
+ * does not move, nothing does. */
+HNBRDF_DIVIDES_AS_IEEE
+static inline void hnbrdf_raise_pair(const hnbrdf_pair *p, hnbrdf_pair *q)
+{
+    float r2 = p->sx * p->sx + p->sy * p->sy, q2 = q->sx * q->sx + q->sy * q->sy;
+    float shrink = sqrtf(q2 < r2 ? q2 / r2 : 1.0f), less = shrink - 1.0f;
+    float grown = q->sz - p->sz;
+    float sum = grown > 0.0f ? grown : 0.0f;
+    float dx = p->wi[0] - p->wo[0], dy = p->wi[1] - p->wo[1], dz = p->wi[2] - p->wo[2];
+    float rest = (dx * dx + dy * dy) - (dz * dz) * (less * (1.0f + shrink));
+    float along = 0.5f * sqrtf(rest), difference = less * dz;
+    int raised = (less != 0.0f) | (sum > 0.0f);
+    q->wi[0] = raised ? along : p->wi[0];
+    q->wo[0] = raised ? -along : p->wo[0];
+    q->wi[1] = raised ? 0.0f : p->wi[1];
+    q->wo[1] = raised ? 0.0f : p->wo[1];
+    q->wi[2] = p->wi[2] + 0.5f * (sum + difference);
+    q->wo[2] = p->wo[2] + 0.5f * (sum - difference);
+}
+
+/* Both directions turned with s to s', the shortest way. One of them may go below the horizon.
+ * Where
+ * s' is s, both stay as they are. d = wi - wo is at right angles to s for unit vectors, but need
+ * not be. */
 HNBRDF_DIVIDES_AS_IEEE
 static inline void hnbrdf_turn_pair(const hnbrdf_pair *p, hnbrdf_pair *q)
 {

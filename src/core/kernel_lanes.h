@@ -306,12 +306,19 @@ KERNEL_APART void seen_lanes(hnbrdf_encoding encoding, const lane_edits *restric
         seen->sy[l] = q.sy;
         seen->sz[l] = q.sz;
     }
-    if (encoding != HNBRDF_ENCODING_DIRECTIONS)
-        return;
-    for (int l = 0; l < LANES; l++) {
+    for (int l = 0; l < LANES && encoding == HNBRDF_ENCODING_DIRECTIONS; l++) {
         const hnbrdf_pair p = pair_of(b, l);
         hnbrdf_pair q = pair_of(seen, l);
         hnbrdf_turn_pair(&p, &q);
+        for (int k = 0; k < 3; k++) {
+            seen->wi[k][l] = q.wi[k];
+            seen->wo[k][l] = q.wo[k];
+        }
+    }
+    for (int l = 0; l < LANES && encoding != HNBRDF_ENCODING_DIRECTIONS; l++) {
+        const hnbrdf_pair p = pair_of(b, l);
+        hnbrdf_pair q = pair_of(seen, l);
+        hnbrdf_raise_pair(&p, &q);
         for (int k = 0; k < 3; k++) {
             seen->wi[k][l] = q.wi[k];
             seen->wo[k][l] = q.wo[k];

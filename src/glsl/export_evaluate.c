@@ -86,7 +86,7 @@ static void put_edits(hnbrdf_printer *out, const hnbrdf_scene *s)
                "    float part = hnbrdf_specular_part(specular, edit.carried);\n    return ");
     hnbrdf_put(out, s->desc->encoding == HNBRDF_ENCODING_DIRECTIONS
                         ? "hnbrdf_turn_pair(p, hnbrdf_warped(p, edit.warp, part));\n}\n\n"
-                        : "hnbrdf_warped(p, edit.warp, part);\n}\n\n");
+                        : "hnbrdf_raise_pair(p, hnbrdf_warped(p, edit.warp, part));\n}\n\n");
 }
 
 /* In hnbrdf_eval(): f_a of what the material is and of what it was fitted with. */
