@@ -58,7 +58,7 @@ static void plan_edits(const report_gallery *g, int material, page *p)
     memset(p, 0, sizeof *p);
     snprintf(p->file, sizeof p->file, "edits-%s", name);
     snprintf(p->title, sizeof p->title, "Editing %s", name);
-    p->about = "one number of its GGX part changed at a time; the network keeps what it learned";
+    p->about = "one number changed at a time; what the network adds is carried along";
     p->beside = is_hybrid(g);
     report_strip_alpha(m, add_strip(p, material));
     name_strip(p, g, "roughness");
