@@ -108,6 +108,12 @@ static void write_shaders(void)
     put("brushed", text + first + 1, second);
     text[first] = '\0';
     put("both", text, first + 1 + second);
+    char *output = strstr(text, "neural_output");
+    FUZZ_CHECK(output != NULL);
+    for (; output; output = strstr(output, "neural_output"))
+        *output = 'x';
+    put("no_output", text, first);
+    put("picture", "\211PNG\r\n\032\n\0\0\0\rIHDR", 16);
 }
 
 /* ---- Measurements ---------------------------------------------------------------------------- */
@@ -135,6 +141,15 @@ static void write_measured(void)
     put_le(patch + 25, 1000000, 4);
     put_double(patch + 29, -1.0);
     put("patched", patch, sizeof patch);
+    patch[12] = 32; /* the halves of the full circle differ */
+    put_le(patch + 13, 1, 4);
+    put("circle", patch, sizeof patch);
+    patch[12] = 32 | 16;
+    put("circle_short", patch, sizeof patch);
+    put_double(patch + 17, 0.1); /* they agree */
+    put_double(patch + 29, 0.1);
+    patch[12] = 32 | 8;
+    put("circle_long", patch, sizeof patch);
     target = "utia";
     memset(patch, 0, sizeof patch);
     put_float(patch + 1, 1.0f);
