@@ -4,8 +4,8 @@
  * the half vector that had its place before: D(h) of GGX, and of every distribution that only
  * scales with roughness, depends on tan th / alpha, so that the two tangents of s = wi + wo are
  * multiplied by alpha0/alpha, each by its own, as far as f_a is specular there: diffuse light does
- * not move with roughness. The correction less the floor then changes as f_a
- * does, by f_a of the edited material at s over f_a of the fitted one at the warped s.
+ * not move with roughness. The correction less the floor then changes as f_a does, by f_a of the
+ * edited material at s over f_a of the fitted one at the warped s.
  * `hnbrdf report editing` measures it. Unedited, every ratio is x/x: the same bits.
  *
  * shaders/hybrid_brdf.glsl holds the same functions, named alike and in the same order of
@@ -131,9 +131,8 @@ static inline void hnbrdf_raise_pair(const hnbrdf_pair *p, hnbrdf_pair *q)
 }
 
 /* Both directions turned with s to s', the shortest way. One of them may go below the horizon.
- * Where
- * s' is s, both stay as they are. d = wi - wo is at right angles to s for unit vectors, but need
- * not be. */
+ * Where s' is s, both stay as they are. d = wi - wo is at right angles to s for unit vectors, but
+ * need not be. */
 HNBRDF_DIVIDES_AS_IEEE
 static inline void hnbrdf_turn_pair(const hnbrdf_pair *p, hnbrdf_pair *q)
 {

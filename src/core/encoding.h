@@ -102,10 +102,8 @@ static inline void hnbrdf_encode_angles_anisotropic(const hnbrdf_pair *p, float 
 
 /* The pair of an edited material as its network sees it, the tangents of s times x and y where f_a
  * is specular. Where s gets nearer to the normal, the cosines of incidence go with it: a network
- * has
- * seen no other pairs. Where it gets farther, they stay: one could fall below the horizon. An
- * encoding that sees the directions themselves has them turned
- * with s. */
+ * has seen no other pairs. Where it gets farther, they stay: one could fall below the horizon. An
+ * encoding that sees the directions themselves has them turned with s. */
 static inline hnbrdf_pair hnbrdf_seen(hnbrdf_encoding encoding, const hnbrdf_pair *p, float x,
                                       float y, float part)
 {
