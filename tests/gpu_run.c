@@ -151,7 +151,7 @@ char *gpu_run_export(const hnbrdf_model *model, const hnbrdf_glsl_options *optio
 {
     gpu_run_text text = {0};
     hnbrdf_error error = {""};
-    check(hnbrdf_export_glsl(model, options, gpu_run_append, &text, &error), &error);
+    check(hnbrdf_export_shader(model, options, gpu_run_append, &text, &error), &error);
     return text.bytes;
 }
 

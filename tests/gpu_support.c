@@ -111,7 +111,7 @@ char *styled_text(const hnbrdf_model *model, const hnbrdf_glsl_options *options)
 {
     growing_text text = {0};
     hnbrdf_error error = {""};
-    if (hnbrdf_export_glsl(model, options, append, &text, &error))
+    if (hnbrdf_export_shader(model, options, append, &text, &error))
         fail_msg("%s", error.text);
     return text.bytes;
 }

@@ -172,7 +172,7 @@ static void export_as(const hnbrdf_model *model, const char *name,
 {
     uint64_t text = EMPTY;
     hnbrdf_error error = {""};
-    need(!hnbrdf_export_glsl(model, options, add_bytes, &text, &error), name, &error);
+    need(!hnbrdf_export_shader(model, options, add_bytes, &text, &error), name, &error);
     show("shader", name, text);
     if (options->weights == HNBRDF_GLSL_UNIFORM && hnbrdf_weights_size(model)) {
         uint64_t weights = EMPTY;
@@ -261,7 +261,7 @@ static void check_messages(const char *shipped)
     puts(error.text);
     const hnbrdf_glsl_options options = {
         .materials = &first, .material_count = 1, .energy = &energy};
-    need(hnbrdf_export_glsl(model, &options, add_bytes, &(uint64_t){0}, &error) != HNBRDF_OK,
+    need(hnbrdf_export_shader(model, &options, add_bytes, &(uint64_t){0}, &error) != HNBRDF_OK,
          "energy", NULL);
     puts(error.text);
     need(!hnbrdf_packing_init(model, NULL, 0, HNBRDF_TEXEL_RGBA8, &packing, &error), "packing",

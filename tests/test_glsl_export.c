@@ -249,12 +249,12 @@ static void bad_indices_are_refused_before_anything_is_written(void **state)
         hnbrdf_error error = {""};
         limited nothing = {0};
         const hnbrdf_glsl_options options = {.materials = wrong[i], .material_count = 2};
-        assert_int_equal(hnbrdf_export_glsl(model, &options, write_limited, &nothing, &error),
+        assert_int_equal(hnbrdf_export_shader(model, &options, write_limited, &nothing, &error),
                          HNBRDF_ERROR_ARGUMENT);
         assert_true(contains(error.text, "expected 0 to 2"));
     }
     const hnbrdf_glsl_options none = {.materials = wrong[0], .material_count = 0};
-    assert_int_equal(hnbrdf_export_glsl(model, &none, write_limited, NULL, NULL),
+    assert_int_equal(hnbrdf_export_shader(model, &none, write_limited, NULL, NULL),
                      HNBRDF_ERROR_ARGUMENT);
     hnbrdf_model_free(model);
 }
@@ -268,11 +268,12 @@ static void a_failing_write_is_reported_wherever_it_happens(void **state)
     const hnbrdf_glsl_options options = {.standalone = 1};
     for (size_t room = 0; room < size; room += 997) {
         limited to = {room};
-        assert_int_equal(hnbrdf_export_glsl(model, &options, write_limited, &to, NULL),
+        assert_int_equal(hnbrdf_export_shader(model, &options, write_limited, &to, NULL),
                          HNBRDF_ERROR_IO);
     }
     limited enough = {size};
-    assert_int_equal(hnbrdf_export_glsl(model, &options, write_limited, &enough, NULL), HNBRDF_OK);
+    assert_int_equal(hnbrdf_export_shader(model, &options, write_limited, &enough, NULL),
+                     HNBRDF_OK);
     assert_int_equal(enough.left, 0);
     free(text);
     hnbrdf_model_free(model);

@@ -265,15 +265,15 @@ static void what_cannot_be_is_refused(void **state)
     assert_int_equal(hnbrdf_packing_init(model, NULL, 0, HNBRDF_TEXEL_RGBA8, &packing, NULL),
                      HNBRDF_OK);
     hnbrdf_glsl_options options = {.fixed = 1, .packing = &packing};
-    assert_int_equal(hnbrdf_export_glsl(model, &options, gpu_run_append, NULL, &error),
+    assert_int_equal(hnbrdf_export_shader(model, &options, gpu_run_append, NULL, &error),
                      HNBRDF_ERROR_ARGUMENT);
     assert_non_null(strstr(error.text, "textures"));
     options = (hnbrdf_glsl_options){.only = (hnbrdf_glsl_only)7};
-    assert_int_equal(hnbrdf_export_glsl(model, &options, gpu_run_append, NULL, &error),
+    assert_int_equal(hnbrdf_export_shader(model, &options, gpu_run_append, NULL, &error),
                      HNBRDF_ERROR_ARGUMENT);
     packing.latent = 3;
     options = (hnbrdf_glsl_options){.packing = &packing};
-    assert_int_equal(hnbrdf_export_glsl(model, &options, gpu_run_append, NULL, &error),
+    assert_int_equal(hnbrdf_export_shader(model, &options, gpu_run_append, NULL, &error),
                      HNBRDF_ERROR_ARGUMENT);
     assert_non_null(strstr(error.text, "3 latent"));
     hnbrdf_model_free(model);

@@ -122,7 +122,7 @@ static int exporting(const shared *s, int thread, uint64_t *sum)
         hnbrdf_glsl_options options = {.weights = (hnbrdf_glsl_weights)weights,
                                        .fixed = weights == 0};
         options.precision = weights == 1 ? HNBRDF_GLSL_HALF : HNBRDF_GLSL_FLOAT;
-        if (hnbrdf_export_glsl(s->model, &options, add, sum, NULL) ||
+        if (hnbrdf_export_shader(s->model, &options, add, sum, NULL) ||
             hnbrdf_export_weights(s->model, &options, add, sum, NULL))
             return 1;
     }

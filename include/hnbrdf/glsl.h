@@ -1,8 +1,8 @@
 /* glsl.h: write a model's network and materials as a shader include. Part of libhnbrdf.
  *
  * The include works together with shaders/hybrid_brdf.glsl, which holds the functions that do not
- * depend on the model. Both are GLSL for Vulkan (450), desktop GL (330) and GL ES (300).
- * examples/shaders.md tells how to use them. */
+ * depend on the model. Both are GLSL for Vulkan (450), desktop GL (330) and GL ES (300); the other
+ * languages are made from these texts. examples/shaders.md tells how to use them. */
 #ifndef HNBRDF_GLSL_H
 #define HNBRDF_GLSL_H
 
@@ -54,6 +54,11 @@ typedef enum hnbrdf_glsl_only {
     HNBRDF_GLSL_EVAL_SAMPLE     /* hnbrdf_eval, hnbrdf_sample, hnbrdf_pdf */
 } hnbrdf_glsl_only;
 
+/* What the text is written in. */
+typedef enum hnbrdf_shading_language {
+    HNBRDF_LANGUAGE_GLSL = 0 /* Vulkan GLSL 450, desktop GL 330, GL ES 300 */
+} hnbrdf_shading_language;
+
 /* Zero-initialise for defaults. */
 typedef struct hnbrdf_glsl_options {
     const int *materials; /* indices of the materials to export; NULL means all */
@@ -81,9 +86,10 @@ typedef struct hnbrdf_glsl_options {
      * exported material is edited, or a packing says so; a fixed scene has it for those alone. 0:
      * such a change moves f_a alone */
     int editable;
+    hnbrdf_shading_language language;
 } hnbrdf_glsl_options;
 
-/* Write one GLSL include with the network, the chosen materials, and the functions
+/* Write one shader include with the network, the chosen materials, and the functions
  *   hnbrdf_material hnbrdf_scene_material(int index)
  *   vec3 hnbrdf_eval(hnbrdf_material m, vec3 wi, vec3 wo)
  *   hnbrdf_sample_result hnbrdf_sample(hnbrdf_material m, vec3 wo, vec2 u)
@@ -96,10 +102,10 @@ typedef struct hnbrdf_glsl_options {
  * belongs to the one whose name differs by capitals only, or to none, and the others end in '_'
  * and a hash of their name: a_b is A_B, a-b beside it A_B_2A89DF63, in whatever order, and also
  * where one of them is exported alone. */
-HNBRDF_EXPERIMENTAL hnbrdf_result hnbrdf_export_glsl(const hnbrdf_model *model,
-                                                     const hnbrdf_glsl_options *options,
-                                                     hnbrdf_write_fn write, void *user,
-                                                     hnbrdf_error *error);
+HNBRDF_EXPERIMENTAL hnbrdf_result hnbrdf_export_shader(const hnbrdf_model *model,
+                                                       const hnbrdf_glsl_options *options,
+                                                       hnbrdf_write_fn write, void *user,
+                                                       hnbrdf_error *error);
 
 /* Bytes of the uniform block of a shader exported with HNBRDF_GLSL_UNIFORM; 0 for a ggx model,
  * which has none. At most 58000; every Vulkan, GL and GL ES 3 device takes 16384, desktop ones

@@ -126,8 +126,8 @@ static hnbrdf_result export_scene(const bench_model *model, hnbrdf_glsl_weights 
                                          .weights = weights,
                                          .precision = precision};
     hnbrdf_error inner;
-    hnbrdf_result result =
-        hnbrdf_export_glsl(model->model, &options, hnbrdf_text_buffer_append, &scene->text, &inner);
+    hnbrdf_result result = hnbrdf_export_shader(model->model, &options, hnbrdf_text_buffer_append,
+                                                &scene->text, &inner);
     if (!result && weights == HNBRDF_GLSL_UNIFORM)
         result = hnbrdf_export_weights(model->model, &options, hnbrdf_text_buffer_append,
                                        &scene->weights, &inner);

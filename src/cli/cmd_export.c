@@ -157,7 +157,7 @@ static int export_to(const hnbrdf_model *model, const hnbrdf_glsl_options *optio
         return CLI_FAILURE;
     counted_file to = {.file = output.file};
     hnbrdf_error error;
-    if (hnbrdf_export_glsl(model, options, write_counted, &to, &error) &&
+    if (hnbrdf_export_shader(model, options, write_counted, &to, &error) &&
         !ferror(output.file)) { /* else closing says why */
         cli_output_discard(&output);
         return cli_fail("%s: %s", path, error.text);

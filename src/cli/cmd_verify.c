@@ -60,7 +60,7 @@ static int export_scene(const hnbrdf_model *model, const settings *set, const in
                                          .editable = set->editable};
     hnbrdf_error error;
     hnbrdf_result result =
-        hnbrdf_export_glsl(model, &options, gpu_text_append, &scene->text, &error);
+        hnbrdf_export_shader(model, &options, gpu_text_append, &scene->text, &error);
     if (!result && options.weights == HNBRDF_GLSL_UNIFORM && hnbrdf_weights_size(model) > 0)
         result = hnbrdf_export_weights(model, &options, gpu_text_append, &scene->weights, &error);
     return result ? cli_fail("%s", error.text) : CLI_OK;

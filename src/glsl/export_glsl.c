@@ -130,8 +130,8 @@ static void put_scene(hnbrdf_printer *out, const hnbrdf_scene *s)
     hnbrdf_put_evaluate(out, s);
 }
 
-hnbrdf_result hnbrdf_export_glsl(const hnbrdf_model *model, const hnbrdf_glsl_options *options,
-                                 hnbrdf_write_fn write, void *user, hnbrdf_error *error)
+hnbrdf_result hnbrdf_export_shader(const hnbrdf_model *model, const hnbrdf_glsl_options *options,
+                                   hnbrdf_write_fn write, void *user, hnbrdf_error *error)
 {
     hnbrdf_scene s;
     hnbrdf_result result = hnbrdf_scene_make(model, options, &s, error);

@@ -77,7 +77,7 @@ static hnbrdf_result export_scene(const hnbrdf_model *general, const gpu_style *
 {
     const hnbrdf_glsl_options options = {
         .weights = style->weights, .precision = style->precision, .editable = 1};
-    hnbrdf_result result = hnbrdf_export_glsl(general, &options, gpu_text_append, scene, error);
+    hnbrdf_result result = hnbrdf_export_shader(general, &options, gpu_text_append, scene, error);
     if (!result && style->weights == HNBRDF_GLSL_UNIFORM && hnbrdf_weights_size(general) > 0)
         result = hnbrdf_export_weights(general, &options, gpu_text_append, weights, error);
     return result;

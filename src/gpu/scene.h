@@ -8,7 +8,7 @@
 
 /* What is exported; the caller keeps it. */
 typedef struct gpu_scene {
-    const char *text;    /* of hnbrdf_export_glsl(), not standalone; any style and precision */
+    const char *text;    /* of hnbrdf_export_shader(), not standalone; any style and precision */
     const void *weights; /* of hnbrdf_export_weights(), for HNBRDF_GLSL_UNIFORM; else NULL */
     size_t weights_size;
 } gpu_scene;

@@ -130,7 +130,7 @@ hnbrdf_result gpu_sphere_open(const gpu_device *device, const hnbrdf_model *mode
         .materials = &material, .material_count = 1, .only = HNBRDF_GLSL_EVAL_SAMPLE, .fixed = 1};
     const int strategies = RENDER_BRDF + 1;
     gpu_text scene = {0};
-    hnbrdf_result result = hnbrdf_export_glsl(model, &options, gpu_text_append, &scene, error);
+    hnbrdf_result result = hnbrdf_export_shader(model, &options, gpu_text_append, &scene, error);
     if (!result)
         result = open_buffers(&s, environment, mode, error);
     if (!result)

@@ -73,7 +73,7 @@ static void check_export(const hnbrdf_model *model)
     size_t count = 0;
     hnbrdf_error error;
     const hnbrdf_result result =
-        hnbrdf_export_glsl(model, &options, fuzz_count_bytes, &count, &error);
+        hnbrdf_export_shader(model, &options, fuzz_count_bytes, &count, &error);
     if (result)
         fuzz_check_refusal(result, &error);
     else

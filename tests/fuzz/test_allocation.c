@@ -81,7 +81,7 @@ static hnbrdf_result use_model(const void *with, hnbrdf_error *error)
     for (int style = 0; !result && style < 3; style++) {
         const hnbrdf_glsl_options options = {.standalone = 1,
                                              .weights = (hnbrdf_glsl_weights)style};
-        result = hnbrdf_export_glsl(made, &options, count_bytes, &count, error);
+        result = hnbrdf_export_shader(made, &options, count_bytes, &count, error);
         if (!result)
             result = hnbrdf_export_weights(made, &options, count_bytes, &count, error);
     }

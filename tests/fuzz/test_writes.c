@@ -204,7 +204,7 @@ static hnbrdf_result write_model(hnbrdf_write_fn write, void *user, hnbrdf_error
 
 static hnbrdf_result write_glsl(hnbrdf_write_fn write, void *user, hnbrdf_error *error)
 {
-    return hnbrdf_export_glsl(old_model, NULL, write, user, error);
+    return hnbrdf_export_shader(old_model, NULL, write, user, error);
 }
 
 static hnbrdf_result write_weights(hnbrdf_write_fn write, void *user, hnbrdf_error *error)
