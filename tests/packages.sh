@@ -13,6 +13,12 @@ tests)
     # Other machines and locales; what needs them is skipped without.
     optional="locales qemu-user-static gcc-aarch64-linux-gnu libc6-dev-arm64-cross gcc-i686-linux-gnu
         libc6-dev-i386-cross gcc-s390x-linux-gnu libc6-dev-s390x-cross gcc-mingw-w64-x86-64 ninja-build"
+    # Shaders in a browser (150 MB to download with what it depends on) and npm packages; what else brings
+    # these commands serves as well.
+    command -v chromium > /dev/null || command -v google-chrome > /dev/null ||
+        optional="$optional chromium-headless-shell"
+    command -v node > /dev/null || optional="$optional nodejs"
+    command -v npm > /dev/null || optional="$optional npm"
     # libFuzzer and the sanitizers of clang; the package carries the version of the clang that is installed or
     # will be. Without it clang fuzzes nothing.
     clang=$(clang -dumpversion 2> /dev/null || apt-cache depends clang 2> /dev/null | sed -n 's/.*Depends: clang-//p')

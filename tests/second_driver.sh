@@ -1,7 +1,7 @@
 #!/bin/sh
 # second_driver.sh COMMAND...: runs a test with Vulkan's second software driver, SwiftShader, which browsers of the
-# Chromium family bring (Debian: apt-get install --no-install-recommends chromium; 350 MB, so packages.sh leaves it
-# out), or with the driver whose JSON file HNBRDF_SECOND_DRIVER names. Skipped (77) where there is none.
+# Chromium family bring (Debian: chromium-common, with chromium-headless-shell or chromium), or with the driver whose
+# JSON file HNBRDF_SECOND_DRIVER names. Skipped (77) where there is none.
 # HNBRDF_BESIDE=1: beside the other drivers, all in one process, otherwise alone.
 set -eu
 json=${HNBRDF_SECOND_DRIVER:-}
