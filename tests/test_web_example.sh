@@ -1,6 +1,6 @@
 #!/bin/sh
-# test_web_example.sh NAME SOURCE HNBRDF PACKAGES SCRATCH: the page examples/NAME, as examples/web.sh prepares it, shows in a
-# browser what the C library says. PACKAGES: the folder with the npm packages of tests/web/package.json.
+# test_web_example.sh NAME SOURCE HNBRDF PACKAGES SCRATCH: the page examples/NAME, as examples/web.sh prepares it, shows
+# in a browser what the C library says. PACKAGES: the folder with the npm packages of tests/web/package.json.
 # Skipped (77) without node, the packages or a browser.
 set -eu
 name=$1 source=$2 hnbrdf=$3 packages=$4 scratch=$5

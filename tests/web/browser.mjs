@@ -146,7 +146,10 @@ export async function withPage(use, { size = [256, 256] } = {}) {
       { width: size[0], height: size[1], deviceScaleFactor: 1, mobile: false });
     return await use(page);
   } finally {
-    const ended = new Promise((resolve) => child.exitCode === null && !child.signalCode ? child.once('exit', resolve) : resolve());
+    const ended = new Promise((resolve) => {
+      if (child.exitCode === null && !child.signalCode) child.once('exit', resolve);
+      else resolve();
+    });
     try { process.kill(-child.pid, 'SIGKILL'); } catch { /* it ended by itself */ }
     await ended;
     rmSync(profile, { recursive: true, force: true, maxRetries: 5, retryDelay: 50 });

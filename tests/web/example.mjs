@@ -1,9 +1,10 @@
 // example.mjs FOLDER HNBRDF MODEL MATERIAL [PICTURE.png]: opens the page that examples/web.sh prepared in FOLDER and
-// compares pixels of what the browser shows with values of the C library. FOLDER/check.json says where the page has
-// its spheres.
-import { readFileSync, writeFileSync } from 'node:fs';
+// compares pixels of what the browser shows with values of the C library. examples.mjs says what FOLDER's page shows.
+import { writeFileSync } from 'node:fs';
+import { basename } from 'node:path';
 import { serve } from '../../examples/serve.mjs';
 import { withPage } from './browser.mjs';
+import { examples } from './examples.mjs';
 import { expect } from './expected.mjs';
 
 const [folder, hnbrdf, model, material, picture] = process.argv.slice(2);
@@ -36,7 +37,7 @@ function pixelsOf() {
   return pixels;
 }
 
-const spheres = JSON.parse(readFileSync(new URL('./examples.json', import.meta.url)))[folder.split('/').pop()];
+const spheres = examples[basename(folder)];
 const width = size * spheres.length;
 const server = await serve(folder);
 let failed = 0;
@@ -58,7 +59,8 @@ try {
         const found = [...shown.subarray(at, at + 3)];
         widest = Math.max(widest, ...high.map((h, c) => h - low[c]));
         if (found.some((v, c) => v < low[c] || v > high[c])) {
-          console.log(`${name}: pixel ${x}, ${y} is ${found}, expected ${low.map((v) => v.toFixed(2))} to ${high.map((v) => v.toFixed(2))}`);
+          const text = (values) => values.map((v) => v.toFixed(2)).join(' ');
+          console.log(`${name}: pixel ${x}, ${y} is ${found}, expected ${text(low)} to ${text(high)}`);
           failed = 1;
         }
       }
