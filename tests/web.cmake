@@ -13,7 +13,7 @@ function(hnbrdf_web_test name)
     TIMEOUT 300)
 endfunction()
 
-foreach(example webgl three)
+foreach(example webgl three babylon babylon_webgpu)
   hnbrdf_web_test(test_web_${example} sh ${CMAKE_CURRENT_LIST_DIR}/test_web_example.sh
     ${example} ${PROJECT_SOURCE_DIR} $<TARGET_FILE:hnbrdf_cli> ${HNBRDF_WEB_PACKAGES}
     ${CMAKE_CURRENT_BINARY_DIR}/web_${example})

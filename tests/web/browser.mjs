@@ -32,7 +32,7 @@ const flags = [
   '--disable-component-update', '--disable-sync', '--mute-audio', '--hide-scrollbars', '--force-device-scale-factor=1',
   '--force-color-profile=srgb', '--disable-dev-shm-usage', '--disable-gpu-watchdog', '--ignore-gpu-blocklist',
   '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--enable-unsafe-webgpu',
-  '--use-webgpu-adapter=swiftshader',
+  '--use-webgpu-adapter=swiftshader', '--enable-features=Vulkan', '--use-vulkan=swiftshader', // shows WebGPU's canvas
 ];
 
 // Messages of the protocol end with a 0 byte; fd 3 takes them, fd 4 gives them.

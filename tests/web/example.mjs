@@ -37,14 +37,14 @@ function pixelsOf() {
   return pixels;
 }
 
-const spheres = examples[basename(folder)];
+const { spheres, address = '' } = examples[basename(folder)];
 const width = size * spheres.length;
 const server = await serve(folder);
 let failed = 0;
 try {
   await withPage(async (page) => {
     const start = Date.now();
-    await page.open(server.url);
+    await page.open(server.url + address);
     await page.evaluate(`import('/main.js').then(() => null)`); // waits for its end, and has its error
     await page.evaluate('new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => done(null))))');
     const png = await page.screenshot();

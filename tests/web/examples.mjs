@@ -8,7 +8,11 @@
 const r = 0.0347;
 const mesh = { inner: Math.cos(r), outer: Math.sqrt(Math.cos(r) ** 2 + (r + 0.015) ** 2), snap: 1 / 32 };
 
+const shader = { name: 'ShaderMaterial', ...mesh };
+
 export const examples = {
-  webgl: [{ name: 'fragment shader' }],
-  three: [{ name: 'ShaderMaterial', ...mesh }, { name: 'MeshStandardMaterial', ...mesh }],
+  webgl: { spheres: [{ name: 'fragment shader' }] },
+  three: { spheres: [shader, { name: 'MeshStandardMaterial', ...mesh }] },
+  babylon: { spheres: [shader] },
+  babylon_webgpu: { spheres: [shader], address: '?webgpu' },
 };
