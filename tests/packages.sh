@@ -10,7 +10,7 @@ demo) ;;
 tests)
     wanted="$wanted clang clang-format-14 clang-tidy-14 libcmocka-dev vulkan-validationlayers
         spirv-cross"
-    # Other machines and locales; what needs them is skipped without.
+    # Other machines, locales and languages; what needs them is skipped without.
     optional="locales qemu-user-static gcc-aarch64-linux-gnu libc6-dev-arm64-cross gcc-i686-linux-gnu
         libc6-dev-i386-cross gcc-s390x-linux-gnu libc6-dev-s390x-cross gcc-mingw-w64-x86-64 ninja-build"
     # Shaders in a browser (150 MB to download with what it depends on) and npm packages; what else brings
@@ -19,6 +19,8 @@ tests)
         optional="$optional chromium-headless-shell"
     command -v node > /dev/null || optional="$optional nodejs"
     command -v npm > /dev/null || optional="$optional npm"
+    # The Python module and the pages: 12 MB to download.
+    optional="$optional python3-numpy doxygen mandoc"
     # libFuzzer and the sanitizers of clang; the package carries the version of the clang that is installed or
     # will be. Without it clang fuzzes nothing.
     clang=$(clang -dumpversion 2> /dev/null || apt-cache depends clang 2> /dev/null | sed -n 's/.*Depends: clang-//p')

@@ -15,6 +15,9 @@ endif()
 
 # Sanitizers change what a library needs and what its consumers must link.
 if(NOT HNBRDF_SANITIZE)
+  add_test(NAME test_python COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/test_python.sh
+    ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR} ${CMAKE_C_COMPILER})
+  set_tests_properties(test_python PROPERTIES SKIP_RETURN_CODE 77)
   set(parts hnbrdf hnbrdf_measured hnbrdf_metrics hnbrdf_fit hnbrdf_bake)
   if(HNBRDF_WITH_HDF5)
     list(APPEND parts hnbrdf_hdf5)
