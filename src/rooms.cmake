@@ -41,8 +41,9 @@ hnbrdf_room(fit
   kernel_avx2.c kernel_avx512.c adam.c checkpoint.c fit.c ggx.c gradient.c judge.c kernel.c
   kernel_double.c pool.c stage.c train.c)
 hnbrdf_room(check
-  backends.c bounds.c bounds_edit.c cases.c half.c maps.c oracle.c pairs.c reference.c rounding.c
-  rules.c run.c)
+  backends.c bounds.c bounds_draw.c bounds_edit.c cases.c compare.c comparison.c exchange_in.c
+  exchange_out.c half.c maps.c oracle.c pairs.c parity.c probe.c reference.c rounding.c rules.c
+  run.c verify.c)
 hnbrdf_room(image
   colour_space.c cube.c difference.c draw.c exr_choose.c exr_colour.c exr_layers.c exr_memory.c
   exr_none.c exr_planes.c exr_planes_cxx.cc exr_read.c exr_write.c glyphs.c image.c image_file.c
@@ -58,7 +59,7 @@ hnbrdf_room(scene
 hnbrdf_room(plot
   svg.c)
 hnbrdf_room(gpu
-  compile.c compute.c device.c evaluate.c picture.c probe.c probe_half.c scene.c sphere.c
+  compile.c compute.c device.c evaluate.c picture.c probe.c probe_half.c sphere.c
   stability.c timed.c
   verify.c)
 hnbrdf_room(edit

@@ -33,14 +33,27 @@ if(NOT HNBRDF_WITH_OPENEXR_CXX)
   list(REMOVE_ITEM HNBRDF_ROOM_image src/image/exr_planes_cxx.cc)
 endif()
 
+# hnbrdf_shader_texts(ROOM files...): what a room compiles or hands out, as texts named hnbrdf_ and
+# the file's name with _ for the dot.
+macro(hnbrdf_shader_texts room)
+  foreach(shader ${ARGN})
+    string(REPLACE "." "_" symbol ${shader})
+    set(text ${CMAKE_CURRENT_BINARY_DIR}/generated/${symbol}.c)
+    add_custom_command(OUTPUT ${text}
+      COMMAND ${CMAKE_COMMAND} -DINPUT=${CMAKE_CURRENT_SOURCE_DIR}/shaders/${shader}
+              -DOUTPUT=${text} -DNAME=hnbrdf_${symbol} -P
+              ${CMAKE_CURRENT_SOURCE_DIR}/src/embed.cmake
+      DEPENDS shaders/${shader} src/embed.cmake VERBATIM)
+    list(APPEND HNBRDF_ROOM_${room} ${text})
+  endforeach()
+endmacro()
+
+hnbrdf_shader_texts(check parity.glsl probe.glsl)
 hnbrdf_tool_room(check hnbrdf_measured_static)
 hnbrdf_tool_room(image hnbrdf_static)
 hnbrdf_tool_room(render hnbrdf_image hnbrdf_measured_static Threads::Threads)
 hnbrdf_tool_room(scene hnbrdf_render)
 hnbrdf_tool_room(plot hnbrdf_static)
-if(NOT HNBRDF_WITH_VULKAN)
-  list(REMOVE_ITEM HNBRDF_ROOM_report src/report/verify_report.c)
-endif()
 hnbrdf_tool_room(report hnbrdf_scene hnbrdf_plot hnbrdf_check hnbrdf_bake_static hnbrdf_fit_static
   hnbrdf_metrics_static)
 hnbrdf_tool_room(bench hnbrdf_plot hnbrdf_render hnbrdf_check hnbrdf_fit_static
@@ -79,20 +92,8 @@ target_link_libraries(hnbrdf_cli PRIVATE hnbrdf_flags hnbrdf_report hnbrdf_bench
 target_link_options(hnbrdf_cli PRIVATE ${HNBRDF_LINK_FLAGS})
 target_compile_definitions(hnbrdf_cli PRIVATE _POSIX_C_SOURCE=200809L)
 if(HNBRDF_WITH_VULKAN)
-  # What the harness compiles, as texts named hnbrdf_ and the file's name with _ for the dot.
-  set(HNBRDF_SHADER_TEXTS "")
-  foreach(shader verify.comp probe.comp probe_half.comp bench.comp evaluate.comp
-      sphere.comp)
-    string(REPLACE "." "_" symbol ${shader})
-    set(text ${CMAKE_CURRENT_BINARY_DIR}/generated/${symbol}.c)
-    add_custom_command(OUTPUT ${text}
-      COMMAND ${CMAKE_COMMAND} -DINPUT=${CMAKE_CURRENT_SOURCE_DIR}/shaders/${shader}
-              -DOUTPUT=${text} -DNAME=hnbrdf_${symbol} -P
-              ${CMAKE_CURRENT_SOURCE_DIR}/src/embed.cmake
-      DEPENDS shaders/${shader} src/embed.cmake VERBATIM)
-    list(APPEND HNBRDF_SHADER_TEXTS ${text})
-  endforeach()
-  list(APPEND HNBRDF_ROOM_gpu ${HNBRDF_SHADER_TEXTS})
+  hnbrdf_shader_texts(gpu verify.comp probe.comp probe_half.comp bench.comp evaluate.comp
+    sphere.comp)
   hnbrdf_tool_room(gpu hnbrdf_check hnbrdf_render Vulkan::Vulkan)
   target_compile_definitions(hnbrdf_cli PRIVATE HNBRDF_WITH_VULKAN)
   target_link_libraries(hnbrdf_report PUBLIC hnbrdf_gpu)

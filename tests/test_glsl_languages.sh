@@ -54,7 +54,7 @@ while read -r scene; do
                 run glslangValidator "$work/b.frag"
             done
         else
-            cp "$work/$scene.glsl" "$work/scene.glsl"
+            cp "$work/$scene.alone.glsl" "$work/scene.glsl"
             stages=frag
             if has "$scene" hnbrdf_eval_analytic; then # which verify.comp calls
                 stages='frag comp'

@@ -145,7 +145,7 @@ static void bounds_cover_a_device_without_rounding(void **state)
         check_bounds bounds;
         if (!is_usual(check_pair_draw(&rng, k, pair)))
             continue;
-        check_bounds_make(&rules, &model->desc, HNBRDF_GLSL_FLOAT, material, pair, pair + 3,
+        check_bounds_make(&rules, &model->desc, HNBRDF_GLSL_FLOAT, material, pair, pair + 3, 0.0,
                           &bounds);
         exact_result exact = evaluate(&model->desc, material, pair);
         covered("encoding", bounds.encoding, exact.encoding, 6);
@@ -176,7 +176,7 @@ static void bounds_cover_edited_materials(void **state)
             if (!is_usual(check_pair_draw(&rng, k, pair)))
                 continue;
             check_bounds_make(&rules, &model->desc, HNBRDF_GLSL_FLOAT, material, pair, pair + 3,
-                              &bounds);
+                              0.0, &bounds);
             hnbrdf_eval(model, material, pair, pair + 3, value);
             for (int c = 0; c < 3; c++)
                 assert_memory_equal(&bounds.value[c].v, &value[c], sizeof value[c]);
@@ -206,7 +206,7 @@ static void bounds_reproduce_the_bits_of_c(void **state)
         check_pair_class drawn = check_pair_draw(&rng, k, pair);
         if (drawn == CHECK_PAIR_NOT_FINITE || !(pair[2] > 0.0f && pair[5] > 0.0f))
             continue;
-        check_bounds_make(&rules, &model->desc, HNBRDF_GLSL_FLOAT, material, pair, pair + 3,
+        check_bounds_make(&rules, &model->desc, HNBRDF_GLSL_FLOAT, material, pair, pair + 3, 0.0,
                           &bounds);
         hnbrdf_eval(model, material, pair, pair + 3, value);
         hnbrdf_eval_analytic(model, material, pair, pair + 3, analytic);
@@ -232,7 +232,7 @@ static void bounds_are_zero_where_every_operation_is_exact(void **state)
         if (!is_usual(check_pair_draw(&rng, k, pair)))
             continue;
         check_bounds_make(&rules, &model->desc, HNBRDF_GLSL_FLOAT, hnbrdf_model_material(model, 0),
-                          pair, pair + 3, &bounds);
+                          pair, pair + 3, 0.0, &bounds);
         for (int c = 0; c < 3; c++)
             assert_true(bounds.value[c].e == 0.0 && bounds.analytic[c].e == 0.0);
         for (int c = 0; c < 6; c++)
@@ -251,7 +251,7 @@ static void the_network_alone_is_exact_without_division(void **state)
     const float wi[3] = {0.6f, 0.0f, 0.8f}, wo[3] = {-0.36f, 0.48f, 0.8f};
     check_bounds bounds;
     check_bounds_make(&rules, &model->desc, HNBRDF_GLSL_FLOAT, hnbrdf_model_material(model, 0), wi,
-                      wo, &bounds);
+                      wo, 0.0, &bounds);
     for (int c = 0; c < 6; c++)
         assert_true(bounds.fed[c].e == 0.0);
     for (int c = 0; c < 3; c++)
@@ -274,7 +274,7 @@ static void bounds_say_something(void **state)
         check_bounds bounds;
         hnbrdf_sampler_draw(HNBRDF_SAMPLER_UNIFORM, &rng, wi, wo);
         check_bounds_make(&rules, &model->desc, HNBRDF_GLSL_FLOAT, hnbrdf_model_material(model, 0),
-                          wi, wo, &bounds);
+                          wi, wo, 0.0, &bounds);
         tight_values += bounds.value[0].e <= 0.02 * (double)bounds.value[0].v;
         tight_analytic += bounds.analytic[0].e <= 1e-4 * (double)bounds.analytic[0].v;
     }

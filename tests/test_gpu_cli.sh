@@ -55,8 +55,8 @@ command -v glslangValidator >/dev/null || { echo "the rest skipped: no glslangVa
 status 0 "$hnbrdf" verify "$model" --device 0 --pairs 1024 --csv "$work/v.csv" --json "$work/v.json"
 grep -q 'ns per evaluation\|not measured' "$work/out" || fail "no run time"
 grep -q '"passed": true' "$work/v.json" || fail "json"
-# 1 device, 3 materials, 2 builds, 4 stages
-[ "$(wc -l <"$work/v.csv")" = 25 ] || fail "csv rows"
+# 1 device, 3 materials, 2 builds, 7 stages
+[ "$(wc -l <"$work/v.csv")" = 43 ] || fail "csv rows"
 [ "$(head -1 "$work/v.csv" | tr ',' '\n' | wc -l)" = "$(tail -1 "$work/v.csv" | sed 's/"[^"]*"/quoted/g' | tr ',' '\n' | wc -l)" ] || fail "csv columns"
 status 0 "$hnbrdf" verify "$uneven" --device 0 --pairs 256 --weights uniform --precision half --without-timing --json "$work/v.json"
 grep -q '"weights": "uniform", "precision": "half"' "$work/v.json" || fail "json does not name the style"

@@ -140,7 +140,7 @@ static void bounds_hold_for_a_device_that_rounds_otherwise(void **state)
         float wi[3], wo[3], x[6], out[6];
         check_bounds bounds;
         hnbrdf_sampler_draw(HNBRDF_SAMPLER_UNIFORM, &rng, wi, wo);
-        check_bounds_make(&rules, &model->desc, HNBRDF_GLSL_HALF, material, wi, wo, &bounds);
+        check_bounds_make(&rules, &model->desc, HNBRDF_GLSL_HALF, material, wi, wo, 0.0, &bounds);
         for (int i = 0; i < 6; i++)
             x[i] = bounds.encoding[i].v;
         other_device(&model->desc, material->latent, x, out);
@@ -202,7 +202,7 @@ static void bounds_hold_where_every_rounding_pushes_one_way(void **state)
         float wi[3], wo[3], x[6];
         check_bounds bounds;
         hnbrdf_sampler_draw(HNBRDF_SAMPLER_UNIFORM, &rng, wi, wo);
-        check_bounds_make(&rules, desc, HNBRDF_GLSL_HALF, material, wi, wo, &bounds);
+        check_bounds_make(&rules, desc, HNBRDF_GLSL_HALF, material, wi, wo, 0.0, &bounds);
         for (int i = 0; i < 6; i++)
             x[i] = bounds.encoding[i].v;
         for (int row = 0; row < hnbrdf_layer_outputs(desc, 1); row++) {

@@ -49,7 +49,7 @@ static gpu_sphere open_sphere(const hnbrdf_model *model, int material,
     gpu_sphere sphere;
     hnbrdf_error error = {""};
     if (gpu_sphere_open(gpu_run_device(), model, material, light, strategy,
-                        exact ? GPU_BUILD_EXACT : GPU_BUILD_FAST, mode, &sphere, &error))
+                        exact ? CHECK_BUILD_EXACT : CHECK_BUILD_FAST, mode, &sphere, &error))
         fail_msg("%s", error.text);
     return sphere;
 }
@@ -148,7 +148,8 @@ static void compare_values(const hnbrdf_model *model, int material, int exact,
         if (!(draws[i].counts > 0.0f))
             continue;
         assert_true(draws[i].wi[2] > 0.0f && draws[i].wo[2] > 0.0f);
-        check_bounds_make(&rules, &desc, HNBRDF_GLSL_FLOAT, m, draws[i].wi, draws[i].wo, &bounds);
+        check_bounds_make(&rules, &desc, HNBRDF_GLSL_FLOAT, m, draws[i].wi, draws[i].wo, 0.0,
+                          &bounds);
         for (int k = 0; k < 3; k++)
             if (!(fabs((double)draws[i].f[k] - (double)bounds.value[k].v) <= bounds.value[k].e))
                 fail_msg("draw %d, channel %d: %.9g on the device, %.9g in C, bound %g", i, k,
@@ -337,7 +338,7 @@ static void what_does_not_fit_is_refused(void **state)
     gpu_sphere sphere;
     hnbrdf_error error = {""};
     small.properties.limits.maxStorageBufferRange = 64 * 32 * 16 - 1;
-    assert_int_equal(gpu_sphere_open(&small, model, 0, &light, RENDER_MIS, GPU_BUILD_EXACT,
+    assert_int_equal(gpu_sphere_open(&small, model, 0, &light, RENDER_MIS, CHECK_BUILD_EXACT,
                                      GPU_SPHERE_PICTURE, &sphere, &error),
                      HNBRDF_ERROR_UNSUPPORTED);
     assert_non_null(strstr(error.text, "64 x 32"));

@@ -27,31 +27,32 @@ static const hnbrdf_encoding DIRECTIONS = HNBRDF_ENCODING_DIRECTIONS,
 enum { PAIRS = SANITIZED ? 256 : 2048 };
 static const gpu_validation VALIDATION = SANITIZED ? GPU_VALIDATED : GPU_VALIDATED_SYNC;
 
-static gpu_report verify_styled(const hnbrdf_model *model, const gpu_scene *scene,
-                                hnbrdf_glsl_precision precision)
+static check_report verify_styled(const hnbrdf_model *model, const gpu_scene *scene,
+                                  hnbrdf_glsl_precision precision)
 {
     static const int all[SCENE_MATERIALS] = {0, 1, 2};
-    const gpu_verify_options options = {.scene = *scene,
-                                        .precision = precision,
-                                        .materials = all,
-                                        .material_count = hnbrdf_model_material_count(model),
-                                        .pairs = PAIRS,
-                                        .seed = 3,
-                                        .without_timing = 1};
-    gpu_report report = {0};
+    const gpu_verify_options options = {
+        .scene = *scene,
+        .check = {.precision = precision,
+                  .materials = all,
+                  .material_count = hnbrdf_model_material_count(model),
+                  .pairs = PAIRS,
+                  .seed = 3},
+        .without_timing = 1};
+    check_report report = {0};
     hnbrdf_error error = {""};
     if (gpu_verify(&device, model, &options, &report, &error))
         fail_msg("%s", error.text);
     return report;
 }
 
-static gpu_report verify(const hnbrdf_model *model, const char *scene)
+static check_report verify(const hnbrdf_model *model, const char *scene)
 {
     return verify_styled(model, &(gpu_scene){.text = scene}, HNBRDF_GLSL_FLOAT);
 }
 
 /* Over all materials. */
-static check_comparison all_of(const gpu_report *report, int build, int stage)
+static check_comparison all_of(const check_report *report, int build, int stage)
 {
     check_comparison sum = {0};
     for (int m = 0; m < report->material_count; m++)
@@ -67,7 +68,7 @@ static int exact_device(const check_arithmetic *a)
 
 /* ---- What must hold -------------------------------------------------------------------------- */
 
-static void check_one_stage(const gpu_report *report, int build, int stage)
+static void check_one_stage(const check_report *report, int build, int stage)
 {
     check_comparison sum = all_of(report, build, stage);
     const check_place *at = &sum.worst;
@@ -77,15 +78,15 @@ static void check_one_stage(const gpu_report *report, int build, int stage)
         fail_msg(
             "%s %s: %zu of %zu outside: %.9g, C %.9g, bound %g, %s pair (%.9g %.9g %.9g) (%.9g "
             "%.9g %.9g)",
-            gpu_build_name((gpu_build)build), check_stage_name((check_stage)stage), sum.outside,
+            check_build_name((check_build)build), check_stage_name((check_stage)stage), sum.outside,
             sum.values, (double)at->device, (double)at->reference, at->bound,
             check_pair_class_name(at->class_of_pair), (double)at->pair[0], (double)at->pair[1],
             (double)at->pair[2], (double)at->pair[3], (double)at->pair[4], (double)at->pair[5]);
-    if (build == GPU_BUILD_EXACT && stage == CHECK_STAGE_NETWORK &&
+    if (build == CHECK_BUILD_EXACT && stage == CHECK_STAGE_NETWORK &&
         report->arithmetic.exact_basic && report->arithmetic.keeps_denormals &&
         !report->arithmetic.has_half)
         assert_int_equal(sum.identical, sum.values);
-    if (build == GPU_BUILD_EXACT && exact_device(&report->arithmetic))
+    if (build == CHECK_BUILD_EXACT && exact_device(&report->arithmetic))
         assert_int_equal(sum.identical, sum.values);
     /* One pair in 64 is not finite and half of one in 32 below the horizon: the bounds must say
      * something about nearly all others. */
@@ -99,18 +100,20 @@ static void model_holds_by(const hnbrdf_model *model, const hnbrdf_glsl_options 
     const hnbrdf_glsl_weights weights = options->weights;
     const hnbrdf_glsl_precision precision = options->precision;
     gpu_scene exported = {0};
-    char *scene = styled_text(model, options);
+    hnbrdf_glsl_options alone = *options;
+    alone.standalone = 1;
+    char *scene = styled_text(model, &alone);
     float *block = NULL;
     if (weights == HNBRDF_GLSL_UNIFORM)
         block = scene_weights(model, options, &exported.weights_size);
     exported.text = scene;
     exported.weights = block;
-    gpu_report report = verify_styled(model, &exported, precision);
-    for (int build = 0; build < GPU_BUILDS; build++)
+    check_report report = verify_styled(model, &exported, precision);
+    for (int build = 0; build < CHECK_BUILDS; build++)
         for (int stage = 0; stage < CHECK_STAGES; stage++)
             check_one_stage(&report, build, stage);
     assert_true(report.within);
-    gpu_report_free(&report);
+    check_report_free(&report);
     free(block);
     free(scene);
 }
@@ -327,7 +330,7 @@ static void half_equals_half_in_c(void **state)
 static void one_uniform_shader_serves_other_networks(void **state)
 {
     (void)state;
-    const hnbrdf_glsl_options options = {.weights = HNBRDF_GLSL_UNIFORM};
+    const hnbrdf_glsl_options options = {.weights = HNBRDF_GLSL_UNIFORM, .standalone = 1};
     hnbrdf_model *model = scene_model(&UNEVEN), *other = NULL;
     hnbrdf_model_desc desc;
     hnbrdf_model_describe(model, &desc);
@@ -341,13 +344,13 @@ static void one_uniform_shader_serves_other_networks(void **state)
     float *block = scene_weights(other, &options, &exported.weights_size);
     exported.text = scene;
     exported.weights = block;
-    gpu_report report = verify_styled(other, &exported, HNBRDF_GLSL_FLOAT);
+    check_report report = verify_styled(other, &exported, HNBRDF_GLSL_FLOAT);
     assert_true(report.within);
-    gpu_report_free(&report);
+    check_report_free(&report);
     report =
         verify_styled(model, &exported, HNBRDF_GLSL_FLOAT); /* and not the one it was written for */
     assert_false(report.within);
-    gpu_report_free(&report);
+    check_report_free(&report);
     free(block);
     free(scene);
     hnbrdf_model_free(other);
@@ -378,9 +381,9 @@ static void is_found(const char *marker, int one_ulp, int stage)
 {
     hnbrdf_model *model = scene_model(
         &(scene_shape){.encoding = HALF, .hidden = 16, .layers = 2, .latent = 4, .floor = 0.003f});
-    char *scene = scene_text(model, 0), *changed = plant(scene, marker, one_ulp);
-    gpu_report report = verify(model, changed);
-    check_comparison found = all_of(&report, GPU_BUILD_EXACT, stage);
+    char *scene = scene_text(model, 1), *changed = plant(scene, marker, one_ulp);
+    check_report report = verify(model, changed);
+    check_comparison found = all_of(&report, CHECK_BUILD_EXACT, stage);
     /* A device that divides inexactly may hide an ulp of the analytic part; the network never
      * does. */
     if (exact_device(&report.arithmetic) || stage == CHECK_STAGE_NETWORK) {
@@ -388,7 +391,7 @@ static void is_found(const char *marker, int one_ulp, int stage)
         assert_true(found.outside > 0);
         assert_true(found.worst.ulp > 0.0);
     }
-    gpu_report_free(&report);
+    check_report_free(&report);
     free(scene);
     free(changed);
     hnbrdf_model_free(model);
@@ -413,11 +416,10 @@ static void a_shader_that_does_not_compile_is_an_error(void **state)
     (void)state;
     hnbrdf_model *model = scene_model(&(scene_shape){.kind = HNBRDF_KIND_GGX});
     static const int first[] = {0};
-    const gpu_verify_options options = {.scene = {.text = "int is_float = 1.0;\n"},
-                                        .materials = first,
-                                        .material_count = 1,
-                                        .pairs = 64};
-    gpu_report report = {0};
+    const gpu_verify_options options = {
+        .scene = {.text = "int is_float = 1.0;\n"},
+        .check = {.materials = first, .material_count = 1, .pairs = 64}};
+    check_report report = {0};
     hnbrdf_error error = {""};
     assert_int_equal(gpu_verify(&device, model, &options, &report, &error), HNBRDF_ERROR_FORMAT);
     assert_non_null(strstr(error.text, "ERROR"));

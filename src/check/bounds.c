@@ -24,8 +24,7 @@ static void analytic(const check_rules *k, const hnbrdf_material *material, cons
 static void encode_half_difference(const check_rules *k, const pair *p, num x[HNBRDF_ENCODING_SIZE])
 {
     num r2 = add(k, multiply(k, p->s[0], p->s[0]), multiply(k, p->s[1], p->s[1]));
-    num d2 = dot3(k, subtract(k, p->wi[0], p->wo[0]), subtract(k, p->wi[1], p->wo[1]),
-                  subtract(k, p->wi[2], p->wo[2]));
+    num d2 = dot3(k, apart(k, p, 0), apart(k, p, 1), apart(k, p, 2));
     num tan2 = add(k, same(1e-5f), divide(k, r2, multiply(k, p->s[2], p->s[2])));
     x[0] = add(k, same(1.0f), multiply(k, same(0.25f), logarithm(k, tan2)));
     x[1] = root(k, root(k, divide(k, r2, p->length2)));
@@ -40,8 +39,7 @@ static void encode_angles(const check_rules *k, const pair *p, num a, num b,
                           num x[HNBRDF_ENCODING_SIZE])
 {
     num r2 = add(k, multiply(k, p->s[0], p->s[0]), multiply(k, p->s[1], p->s[1]));
-    num d2 = dot3(k, subtract(k, p->wi[0], p->wo[0]), subtract(k, p->wi[1], p->wo[1]),
-                  subtract(k, p->wi[2], p->wo[2]));
+    num d2 = dot3(k, apart(k, p, 0), apart(k, p, 1), apart(k, p, 2));
     num q = divide(k, multiply(k, same(0.25f), d2), add(k, same(1.0f), p->c));
     num tan2 = add(k, same(1e-5f), divide(k, r2, multiply(k, p->s[2], p->s[2])));
     x[0] = add(k, same(1.0f), multiply(k, same(0.25f), logarithm(k, tan2)));
@@ -50,11 +48,6 @@ static void encode_angles(const check_rules *k, const pair *p, num a, num b,
     x[3] = q;
     x[4] = a;
     x[5] = b;
-}
-
-static num magnitude(num a)
-{
-    return (num){fabsf(a.v), a.e};
 }
 
 static void encode(const check_rules *k, hnbrdf_encoding encoding, const pair *p,
@@ -191,11 +184,11 @@ static num finish(num f)
 
 void check_bounds_make(const check_rules *rules, const hnbrdf_model_desc *desc,
                        hnbrdf_glsl_precision precision, const hnbrdf_material *material,
-                       const float wi[3], const float wo[3], check_bounds *bounds)
+                       const float wi[3], const float wo[3], double drift, check_bounds *bounds)
 {
     static const check_bounds zero;
     *bounds = zero;
-    pair p = make_pair(rules, hnbrdf_frame_of(material), wi, wo);
+    pair p = make_pair(rules, hnbrdf_frame_of(material), wi, wo, drift);
     num f_a[3], out[HNBRDF_MAX_OUTPUTS], exact[HNBRDF_ENCODING_SIZE];
     analytic(rules, material, &p, f_a);
     for (int c = 0; c < 3 && desc->kind != HNBRDF_KIND_NEURAL; c++)

@@ -22,9 +22,11 @@ typedef struct check_bounds {
 } check_bounds;
 
 /* Directions above the horizon; the values v are, bit by bit, those of the C library, or, if the
- * shader is in half precision, of half.h. Entries that the kind of model does not have are 0. */
+ * shader is in half precision, of half.h. Entries that the kind of model does not have are 0.
+ * drift: 0 for directions that the device was given. A device that made wi itself, as a difference
+ * from wo, may simplify wi + wo and wi - wo: what they are made of is then this far from wi. */
 void check_bounds_make(const check_rules *rules, const hnbrdf_model_desc *desc,
                        hnbrdf_glsl_precision precision, const hnbrdf_material *material,
-                       const float wi[3], const float wo[3], check_bounds *bounds);
+                       const float wi[3], const float wo[3], double drift, check_bounds *bounds);
 
 #endif

@@ -65,7 +65,7 @@ static void turn(const check_rules *k, const pair *p, pair *q)
     int moved = 0, exact = 1, far = 0; /* far: moved on any device */
     for (int i = 0; i < 3; i++) {
         double by = fabs((double)q->s[i].v - (double)p->s[i].v);
-        d[i] = subtract(k, p->wi[i], p->wo[i]);
+        d[i] = apart(k, p, i);
         moved |= by > 0.0;
         far |= by > q->s[i].e + p->s[i].e;
         exact &= q->s[i].e == 0.0 && p->s[i].e == 0.0;
@@ -96,7 +96,7 @@ static void raise(const check_rules *k, const pair *p, pair *q)
     num less = subtract(k, shrink, one);
     num sum = largest(subtract(k, q->s[2], p->s[2]), same(0.0f));
     for (int i = 0; i < 3; i++)
-        d[i] = subtract(k, p->wi[i], p->wo[i]);
+        d[i] = apart(k, p, i);
     num rest =
         subtract(k, add(k, multiply(k, d[0], d[0]), multiply(k, d[1], d[1])),
                  multiply(k, multiply(k, d[2], d[2]), multiply(k, less, add(k, one, shrink))));

@@ -44,6 +44,9 @@ double check_log_error(const check_rules *rules, double x, double logarithm);
 
 /* The build with HNBRDF_EXACT 1 on a device that was probed. */
 check_rules check_rules_exact(const check_arithmetic *arithmetic);
+/* The same where the language has no `precise`, or a compiler pays no heed to it: GL before 400, ES
+ * before 320, WGSL. */
+check_rules check_rules_unordered(const check_arithmetic *arithmetic);
 /* The build with built-in exp and log: what Vulkan promises, and what more is known of the driver
  * Mesa llvmpipe. */
 check_rules check_rules_fast(const check_arithmetic *arithmetic, int is_llvmpipe);

@@ -97,6 +97,11 @@ static inline num clamp(num a, float low, float high)
     return (num){v, a.e < (double)INFINITY ? fmax(up, down) : (double)INFINITY};
 }
 
+static inline num magnitude(num a)
+{
+    return (num){fabsf(a.v), a.e};
+}
+
 /* exp and log: both sides approximate the same function. */
 static inline num exponential(const check_rules *rules, num a)
 {
@@ -141,9 +146,12 @@ static inline num smallest(num a, num b)
 
 /* ---- The BRDF, in the words of microfacet.h -------------------------------------------------- */
 
+/* drift: how far wi is from what sum and difference of the directions are made of; see
+ * check_bounds_make(). */
 typedef struct pair {
     num wi[3], wo[3], s[3];
     num length2, c;
+    double drift;
 } pair;
 
 static inline num dot3(const check_rules *k, num x, num y, num z)
@@ -163,16 +171,27 @@ static inline void to_tangent(const check_rules *k, hnbrdf_frame frame, const fl
     t[1] = subtract(k, multiply(k, cosine, y), multiply(k, sine, x));
 }
 
-static inline pair make_pair(const check_rules *k, hnbrdf_frame frame, const float wi[3],
-                             const float wo[3])
+/* The sum or the difference of wi and wo, with the drift between them. */
+static inline num drifted(num a, double drift)
 {
-    pair p;
+    return (num){a.v, a.e + drift};
+}
+
+static inline num apart(const check_rules *k, const pair *p, int i)
+{
+    return drifted(subtract(k, p->wi[i], p->wo[i]), p->drift);
+}
+
+static inline pair make_pair(const check_rules *k, hnbrdf_frame frame, const float wi[3],
+                             const float wo[3], double drift)
+{
+    pair p = {.drift = drift};
     to_tangent(k, frame, wi, p.wi);
     to_tangent(k, frame, wo, p.wo);
     if (p.wi[2].e > 0.0 || p.wo[2].e > 0.0) /* flushed, it is not above the horizon */
         p.wi[2].e = p.wo[2].e = (double)INFINITY;
     for (int i = 0; i < 3; i++)
-        p.s[i] = add(k, p.wi[i], p.wo[i]);
+        p.s[i] = drifted(add(k, p.wi[i], p.wo[i]), drift);
     p.length2 = dot3(k, p.s[0], p.s[1], p.s[2]);
     p.c = multiply(k, same(0.5f), root(k, p.length2));
     return p;

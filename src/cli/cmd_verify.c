@@ -1,12 +1,16 @@
-/* cmd_verify.c: `hnbrdf verify`: the exported shader on this machine's GPUs against the C
- * library. */
+/* cmd_verify.c: `hnbrdf verify`: the exported shader on this machine's GPUs, or wherever else it
+ * was run, against the C library. */
 #include "cli/cli.h"
 
-#ifdef HNBRDF_WITH_VULKAN
+#include "base/text_buffer.h"
+#include "check/exchange.h"
 #include "cli/words.h"
-#include "report/verify_report.h"
-#include "gpu/compile.h"
 #include "hnbrdf/glsl.h"
+#include "report/verify_report.h"
+
+#ifdef HNBRDF_WITH_VULKAN
+#include "gpu/verify.h"
+#endif
 
 #include <stdlib.h>
 #include <string.h>
@@ -14,55 +18,159 @@
 static const cli_command command = {
     "verify",
     "MODEL [--materials A,B] [--weights STYLE] [--precision P] [--fixed|--editable]\n"
-    "              [--device N|all] [--pairs N]",
+    "              [--device N|all] [--pairs N] [--hand-out DIR]\n"
+    "       hnbrdf verify MODEL --hand-in DIR",
     "Proves on every Vulkan device that the exported shader gives what the C library gives. "
     "Compared "
     "are\n"
-    "the encoding, the network alone, the analytic part and the whole BRDF, on random, mirror, "
-    "grazing,\n"
-    "retroreflecting and extreme pairs of directions, in two builds: exact (HNBRDF_EXACT 1: the "
-    "bits "
-    "of C\n"
-    "where the device rounds + - * / sqrt correctly, which is probed) and fast (built-in exp and "
-    "log). "
-    "How\n"
-    "far a device may differ is derived for every pair from the error of each operation (Vulkan's "
-    "limits).\n"
+    "the encoding, the network alone, the analytic part, the whole BRDF, and what is sampled with "
+    "its\n"
+    "density and weight, on random, mirror, grazing, retroreflecting and extreme pairs of "
+    "directions, in\n"
+    "two builds: exact (HNBRDF_EXACT 1: the bits of C where the device rounds + - * / sqrt "
+    "correctly,\n"
+    "which is probed) and fast (built-in exp and log). How far a device may differ is derived for "
+    "every\n"
+    "pair from the error of each operation (Vulkan's limits).\n"
     "\n"
-    "Exit status 0 only if every device tried is within the bounds. Needs glslangValidator.",
+    "--hand-out is for engines, browsers and other languages: it writes into DIR, which is made, "
+    "the scene\n"
+    "and parity.glsl (scene_exact, parity_exact: the exact build), inputs.f32 (rows of 16 floats), "
+    "probe.f32\n"
+    "(rows of 4), weights.bin with --weights uniform, and case.json, which counts all that. A "
+    "program that\n"
+    "includes the two texts writes back outputs.f32: for each row of inputs (a, b, c, d) the eight "
+    "vec4 of\n"
+    "hnbrdf_parity(a, b, c, d, slot), slot 0 to 7. The same of the exact build is "
+    "outputs_exact.f32, which\n"
+    "may be left out; hnbrdf_probe(operands, slot) of the exact build, slot 0 and 1, is "
+    "probe_results.f32.\n"
+    "All are raw little-endian float32. device.txt may name the device. --hand-in judges them as "
+    "the values\n"
+    "of a device here; it takes all options from DIR/case.json. Neither needs a device or "
+    "compiler.\n"
+    "\n"
+    "Exit status 0 only if everything tried is within the bounds. Devices need glslangValidator.",
     "hnbrdf verify model.safetensors\n"
     "hnbrdf verify model.safetensors --device 0 --pairs 100000 --json verify.json\n"
     "hnbrdf verify model.safetensors --weights uniform --precision half\n"
+    "hnbrdf verify model.safetensors --pairs 1024 --hand-out case\n"
+    "hnbrdf verify model.safetensors --hand-in case\n"
     "hnbrdf verify --list",
 };
 
 typedef struct settings {
-    const char *materials, *device, *csv, *json;
+    const char *materials, *device, *csv, *json, *hand_out, *hand_in;
     long pairs, seed;
     int validate, list, without_timing, fixed, editable;
     cli_word weights, precision;
 } settings;
 
+static void on_progress(void *user, double share)
+{
+    cli_progress_update(user, share, "");
+}
+
+/* What a command line asks for, whoever runs it. */
+static check_exchange exchange_of(const settings *set, const int *materials, int count)
+{
+    return (check_exchange){.folder = set->hand_out,
+                            .options = {.weights = (hnbrdf_glsl_weights)set->weights.value,
+                                        .precision = (hnbrdf_glsl_precision)set->precision.value,
+                                        .fixed = set->fixed,
+                                        .editable = set->editable},
+                            .check = {.precision = (hnbrdf_glsl_precision)set->precision.value,
+                                      .materials = materials,
+                                      .material_count = count,
+                                      .pairs = (size_t)set->pairs,
+                                      .seed = (uint64_t)set->seed}};
+}
+
+/* ---- Results --------------------------------------------------------------------------------- */
+
+static int write_results(const verification *v, const settings *set)
+{
+    if (!cli_is_stdout(set->csv) && !cli_is_stdout(set->json))
+        verification_print(v, stdout);
+    int result = cli_write_file(set->csv, verification_write_csv, v);
+    if (result == CLI_OK)
+        result = cli_write_file(set->json, verification_write_json, v);
+    if (result != CLI_OK || verification_passed(v))
+        return result;
+    return cli_fail("%s: the shader is not proven equal to the C library on every device tried",
+                    v->path);
+}
+
+/* ---- Elsewhere ------------------------------------------------------------------------------- */
+
+static int hand_out(const hnbrdf_model *model, const settings *set)
+{
+    int *materials = NULL, count;
+    int result = cli_choose_materials(model, set->materials, &materials, &count);
+    if (result != CLI_OK)
+        return result;
+    const check_exchange exchange = exchange_of(set, materials, count);
+    hnbrdf_error error;
+    result = cli_make_folder(set->hand_out);
+    if (result == CLI_OK)
+        result = cli_code(check_hand_out(model, &exchange, &error), &error);
+    if (result == CLI_OK)
+        printf("%s: scene and parity in %s, %zu rows of inputs\n", set->hand_out,
+               check_language_name(exchange.options.language),
+               exchange.check.pairs * (size_t)count);
+    free(materials);
+    return result;
+}
+
+static int hand_in(const hnbrdf_model *model, const settings *set, const char *path)
+{
+    check_handed_in found;
+    hnbrdf_error error;
+    cli_progress progress;
+    cli_progress_begin(&progress, set->hand_in);
+    hnbrdf_result failed =
+        check_hand_in(model, set->hand_in, on_progress, &progress, &found, &error);
+    cli_progress_end(&progress);
+    if (failed)
+        return cli_fail("%s", error.text);
+    verified_device device = {.index = -1,
+                              .name = found.device,
+                              .kind = check_language_name(found.exchange.options.language),
+                              .driver = set->hand_in,
+                              .report = found.report};
+    const verification v = {.path = path,
+                            .model = model,
+                            .materials = found.materials,
+                            .material_count = found.exchange.check.material_count,
+                            .pairs = found.exchange.check.pairs,
+                            .weights = found.exchange.options.weights,
+                            .precision = found.exchange.options.precision,
+                            .devices = &device,
+                            .device_count = 1};
+    int result = write_results(&v, set);
+    check_handed_in_free(&found);
+    return result;
+}
+
+#ifdef HNBRDF_WITH_VULKAN
+
 /* ---- The scene ------------------------------------------------------------------------------- */
 
 typedef struct exported_scene {
-    gpu_text text, weights;
+    char *text;
+    hnbrdf_text_buffer weights;
 } exported_scene;
 
-static int export_scene(const hnbrdf_model *model, const settings *set, const int *materials,
-                        int count, exported_scene *scene)
+static int export_scene(const hnbrdf_model *model, const check_exchange *exchange,
+                        exported_scene *scene)
 {
-    const hnbrdf_glsl_options options = {.materials = materials,
-                                         .material_count = count,
-                                         .weights = (hnbrdf_glsl_weights)set->weights.value,
-                                         .precision = (hnbrdf_glsl_precision)set->precision.value,
-                                         .fixed = set->fixed,
-                                         .editable = set->editable};
     hnbrdf_error error;
     hnbrdf_result result =
-        hnbrdf_export_shader(model, &options, gpu_text_append, &scene->text, &error);
-    if (!result && options.weights == HNBRDF_GLSL_UNIFORM && hnbrdf_weights_size(model) > 0)
-        result = hnbrdf_export_weights(model, &options, gpu_text_append, &scene->weights, &error);
+        check_exchange_scene(model, exchange, CHECK_BUILD_FAST, &scene->text, &error);
+    if (!result && exchange->options.weights == HNBRDF_GLSL_UNIFORM &&
+        hnbrdf_weights_size(model) > 0)
+        result = hnbrdf_export_weights(model, &exchange->options, hnbrdf_text_buffer_append,
+                                       &scene->weights, &error);
     return result ? cli_fail("%s", error.text) : CLI_OK;
 }
 
@@ -98,33 +206,20 @@ static int choose_devices(const gpu_instance *instance, const char *text, int *f
     return -1;
 }
 
-static void on_progress(void *user, double share)
-{
-    cli_progress_update(user, share, "");
-}
-
-static void verify_device(const gpu_instance *instance, const verification *v, const settings *set,
-                          const exported_scene *scene, verified_device *to)
+static void verify_device(const gpu_instance *instance, const hnbrdf_model *model,
+                          gpu_verify_options *options, verified_device *to)
 {
     cli_progress progress;
     gpu_device device;
-    const gpu_verify_options options = {
-        .scene = {scene->text.bytes, scene->weights.bytes, scene->weights.size},
-        .precision = v->precision,
-        .materials = v->materials,
-        .material_count = v->material_count,
-        .pairs = v->pairs,
-        .seed = (uint64_t)set->seed,
-        .without_timing = set->without_timing,
-        .progress = on_progress,
-        .progress_user = &progress};
+    options->check.progress = on_progress;
+    options->check.progress_user = &progress;
     to->name = instance->properties[to->index].deviceName;
     to->kind = gpu_kind_name(instance, to->index);
     to->driver = instance->drivers[to->index];
     if (gpu_device_open(instance, to->index, &device, &to->failed))
         return;
     cli_progress_begin(&progress, to->name);
-    if (gpu_verify(&device, v->model, &options, &to->report, &to->failed) == HNBRDF_OK)
+    if (gpu_verify(&device, model, options, &to->report, &to->failed) == HNBRDF_OK)
         to->failed.text[0] = '\0';
     cli_progress_end(&progress);
     gpu_device_close(&device);
@@ -132,62 +227,90 @@ static void verify_device(const gpu_instance *instance, const verification *v, c
 
 /* ---- All of it ------------------------------------------------------------------------------- */
 
-static int write_results(const verification *v, const settings *set)
-{
-    if (!cli_is_stdout(set->csv) && !cli_is_stdout(set->json))
-        verification_print(v, stdout);
-    int result = cli_write_file(set->csv, verification_write_csv, v);
-    if (result == CLI_OK)
-        result = cli_write_file(set->json, verification_write_json, v);
-    if (result != CLI_OK || verification_passed(v))
-        return result;
-    return cli_fail("%s: the shader is not proven equal to the C library on every device tried",
-                    v->path);
-}
-
 static int verify_scene(gpu_instance *instance, verification *v, const settings *set, int first,
-                        const exported_scene *scene)
+                        gpu_verify_options *options)
 {
     v->devices = calloc((size_t)v->device_count, sizeof *v->devices);
     if (!v->devices)
         return cli_fail("out of memory");
     for (int d = 0; d < v->device_count; d++) {
         v->devices[d].index = first + d;
-        verify_device(instance, v, set, scene, &v->devices[d]);
+        verify_device(instance, v->model, options, &v->devices[d]);
     }
     v->messages = instance->messages;
     int result = write_results(v, set);
     for (int d = 0; d < v->device_count; d++)
-        gpu_report_free(&v->devices[d].report);
+        check_report_free(&v->devices[d].report);
     free(v->devices);
     return result;
 }
 
-static int verify_model(gpu_instance *instance, const settings *set, const char *path)
+static int verify_here(gpu_instance *instance, const hnbrdf_model *model, const settings *set,
+                       const char *path)
 {
     verification v = {.path = path,
+                      .model = model,
                       .pairs = (size_t)set->pairs,
                       .validated = set->validate,
                       .weights = (hnbrdf_glsl_weights)set->weights.value,
                       .precision = (hnbrdf_glsl_precision)set->precision.value};
     int first, *materials = NULL;
-    hnbrdf_model *model = NULL;
-    if (cli_open_model(path, &model) != CLI_OK)
-        return CLI_FAILURE;
-    v.model = model;
     int result = choose_devices(instance, set->device, &first, &v.device_count);
     if (result < 0)
         result = cli_choose_materials(model, set->materials, &materials, &v.material_count);
     if (result == CLI_OK) {
-        v.materials = materials;
+        const check_exchange exchange = exchange_of(set, materials, v.material_count);
         exported_scene scene = {0};
-        result = export_scene(model, set, materials, v.material_count, &scene);
+        v.materials = materials;
+        result = export_scene(model, &exchange, &scene);
+        gpu_verify_options options = {
+            .scene = {scene.text, scene.weights.bytes, scene.weights.size},
+            .check = exchange.check,
+            .without_timing = set->without_timing};
         if (result == CLI_OK)
-            result = verify_scene(instance, &v, set, first, &scene);
-        free(scene.text.bytes);
+            result = verify_scene(instance, &v, set, first, &options);
+        free(scene.text);
         free(scene.weights.bytes);
     }
     free(materials);
+    return result;
+}
+
+static int verify_devices(const hnbrdf_model *model, const settings *set, const char *path)
+{
+    gpu_instance instance;
+    hnbrdf_error error;
+    int result = CLI_OK;
+    if (gpu_open(set->validate ? GPU_VALIDATED_SYNC : GPU_NOT_VALIDATED, &instance, &error))
+        return cli_fail("%s", error.text);
+    if (set->list)
+        list_devices(&instance);
+    else
+        result = verify_here(&instance, model, set, path);
+    gpu_close(&instance);
+    return result;
+}
+
+#else
+
+static int verify_devices(const hnbrdf_model *model, const settings *set, const char *path)
+{
+    (void)model;
+    (void)set;
+    (void)path;
+    return cli_fail("verify: this hnbrdf was built without Vulkan (HNBRDF_WITH_VULKAN)");
+}
+
+#endif
+
+static int verify_model(const settings *set, const char *path)
+{
+    hnbrdf_model *model = NULL;
+    if (cli_open_model(path, &model) != CLI_OK)
+        return CLI_FAILURE;
+    int result = set->hand_out  ? hand_out(model, set)
+                 : set->hand_in ? hand_in(model, set, path)
+                                : verify_devices(model, set, path);
     hnbrdf_model_free(model);
     return result;
 }
@@ -215,6 +338,9 @@ int cmd_verify(int argc, char **argv)
          "direction pairs a material (default 16384)"},
         {"seed", 0, CLI_INT, &set.seed, 0, 9007199254740992.0, "N",
          "of the random pairs (default 1)"},
+        {"hand-out", 0, CLI_WRITE_FOLDER, &set.hand_out, 0, 0, "DIR",
+         "write there what another program is to run"},
+        {"hand-in", 0, CLI_READ, &set.hand_in, 0, 0, "DIR", "judge what that program wrote there"},
         {"csv", 0, CLI_WRITE_TEXT, &set.csv, 0, 0, "FILE",
          "a row a device, material, build and stage; - is standard output"},
         {"json", 0, CLI_WRITE_TEXT, &set.json, 0, 0, "FILE",
@@ -234,25 +360,9 @@ int cmd_verify(int argc, char **argv)
                          set.list ? "found %d arguments, expected none with --list"
                                   : "found %d arguments, expected one MODEL",
                          count);
-    gpu_instance instance;
-    hnbrdf_error error;
-    if (gpu_open(set.validate ? GPU_VALIDATED_SYNC : GPU_NOT_VALIDATED, &instance, &error))
-        return cli_fail("%s", error.text);
-    if (set.list)
-        list_devices(&instance);
-    else
-        result = verify_model(&instance, &set, argv[1]);
-    gpu_close(&instance);
-    return set.list ? CLI_OK : result;
+    if (set.hand_out && set.hand_in)
+        return cli_usage(&command, "--hand-out and --hand-in: one after the other");
+    if (set.hand_out && (set.csv || set.json))
+        return cli_usage(&command, "--hand-out has no results yet: found --csv or --json");
+    return set.list ? verify_devices(NULL, &set, NULL) : verify_model(&set, argv[1]);
 }
-
-#else
-
-int cmd_verify(int argc, char **argv)
-{
-    (void)argc;
-    (void)argv;
-    return cli_fail("verify: this hnbrdf was built without Vulkan (HNBRDF_WITH_VULKAN)");
-}
-
-#endif

@@ -272,6 +272,7 @@ hnbrdf_result gpu_program_open(const gpu_device *device, const uint32_t *spirv, 
 {
     memset(program, 0, sizeof *program);
     program->push_size = push_size;
+    program->slots = 1;
     VkShaderModuleCreateInfo module = {.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
                                        .codeSize = spirv_size,
                                        .pCode = spirv};
@@ -332,7 +333,7 @@ static void record(const gpu_device *device, VkCommandBuffer commands, const gpu
         vkCmdWriteTimestamp(commands, VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT, device->timestamps, 0);
     }
     for (int i = 0; i < repeats; i++) {
-        vkCmdDispatch(commands, groups, 1, 1);
+        vkCmdDispatch(commands, groups, program->slots, 1);
         barrier(commands, compute, VK_ACCESS_SHADER_WRITE_BIT, compute, VK_ACCESS_SHADER_WRITE_BIT);
     }
     if (timed)

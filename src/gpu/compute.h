@@ -38,6 +38,7 @@ typedef struct gpu_program {
     VkDescriptorPool pool;
     VkDescriptorSet set;
     uint32_t push_size;
+    uint32_t slots; /* invocations in y of every one in x; 1 unless the caller sets it */
 } gpu_program;
 
 hnbrdf_result gpu_program_open(const gpu_device *device, const uint32_t *spirv, size_t spirv_size,

@@ -95,7 +95,7 @@ static hnbrdf_result open_program(gpu_evaluator *e, const hnbrdf_model *general,
                                     {"scene.glsl", scene->bytes},
                                     {"material.glsl", reader}};
     const char *const defines[] = {
-        style->build == GPU_BUILD_EXACT ? "HNBRDF_EXACT=1" : "HNBRDF_EXACT=0",
+        style->build == CHECK_BUILD_EXACT ? "HNBRDF_EXACT=1" : "HNBRDF_EXACT=0",
         e->device->has_half ? "HNBRDF_HALF_NATIVE=1" : "HNBRDF_HALF_NATIVE=0", NULL};
     const gpu_buffer *const buffers[] = {&e->inputs, &e->values, &e->weights};
     uint32_t *spirv = NULL;

@@ -3,6 +3,8 @@
 #ifndef HNBRDF_GPU_EVALUATE_H
 #define HNBRDF_GPU_EVALUATE_H
 
+#include "check/verify.h"
+#include "gpu/compute.h"
 #include "gpu/scene.h"
 #include "hnbrdf/glsl.h"
 
@@ -10,7 +12,7 @@
 typedef struct gpu_style {
     hnbrdf_glsl_weights weights;
     hnbrdf_glsl_precision precision;
-    gpu_build build;
+    check_build build;
 } gpu_style;
 
 /* What is asked of it, and how many numbers come of each pair. */

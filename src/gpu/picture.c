@@ -12,7 +12,7 @@ static hnbrdf_result render(const gpu_picture *job, const gpu_device *device, re
     gpu_sphere sphere;
     hnbrdf_result result =
         gpu_sphere_open(device, job->model, job->material, job->environment, job->options.strategy,
-                        GPU_BUILD_EXACT, GPU_SPHERE_PICTURE, &sphere, error);
+                        CHECK_BUILD_EXACT, GPU_SPHERE_PICTURE, &sphere, error);
     if (result)
         return result;
     if (job->begin)

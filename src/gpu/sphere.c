@@ -98,12 +98,12 @@ static hnbrdf_result open_buffers(gpu_sphere *s, const render_environment *envir
     return result ? result : gpu_buffer_open(s->device, results, &s->results, error);
 }
 
-static hnbrdf_result open_program(gpu_sphere *s, const char *scene, gpu_build build,
+static hnbrdf_result open_program(gpu_sphere *s, const char *scene, check_build build,
                                   hnbrdf_error *error)
 {
     const gpu_include includes[] = {{"hybrid_brdf.glsl", hnbrdf_hybrid_brdf_glsl},
                                     {"scene.glsl", scene}};
-    const char *const defines[] = {build == GPU_BUILD_EXACT ? "HNBRDF_EXACT=1" : "HNBRDF_EXACT=0",
+    const char *const defines[] = {build == CHECK_BUILD_EXACT ? "HNBRDF_EXACT=1" : "HNBRDF_EXACT=0",
                                    NULL};
     const gpu_buffer *const buffers[] = {&s->texels, &s->places, &s->results, &s->caps};
     uint32_t *spirv = NULL;
@@ -119,7 +119,7 @@ static hnbrdf_result open_program(gpu_sphere *s, const char *scene, gpu_build bu
 
 hnbrdf_result gpu_sphere_open(const gpu_device *device, const hnbrdf_model *model, int material,
                               const render_environment *environment, render_strategy strategy,
-                              gpu_build build, gpu_sphere_mode mode, gpu_sphere *sphere,
+                              check_build build, gpu_sphere_mode mode, gpu_sphere *sphere,
                               hnbrdf_error *error)
 {
     gpu_sphere s = {.device = device,

@@ -4,7 +4,8 @@
 #ifndef HNBRDF_GPU_SPHERE_H
 #define HNBRDF_GPU_SPHERE_H
 
-#include "gpu/scene.h"
+#include "check/verify.h"
+#include "gpu/compute.h"
 #include "render/render.h"
 
 typedef struct gpu_sphere {
@@ -25,7 +26,7 @@ typedef enum gpu_sphere_mode { GPU_SPHERE_PICTURE = 0, GPU_SPHERE_RECORD } gpu_s
  * HNBRDF_ERROR_UNSUPPORTED if the map is too large for a buffer of the device. */
 hnbrdf_result gpu_sphere_open(const gpu_device *device, const hnbrdf_model *model, int material,
                               const render_environment *environment, render_strategy strategy,
-                              gpu_build build, gpu_sphere_mode mode, gpu_sphere *sphere,
+                              check_build build, gpu_sphere_mode mode, gpu_sphere *sphere,
                               hnbrdf_error *error);
 void gpu_sphere_close(gpu_sphere *sphere);
 

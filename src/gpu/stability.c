@@ -62,7 +62,7 @@ static void add(stability_gpus *gpus, const gpu_device *device, const check_arit
     int half = style.precision == HNBRDF_GLSL_HALF;
     int rounds = arithmetic->exact_basic && arithmetic->exact_divide && arithmetic->exact_sqrt;
     int flushes = arithmetic->flushes_denormals, keeps = arithmetic->keeps_denormals;
-    int exact = style.build == GPU_BUILD_EXACT && rounds && (keeps || flushes);
+    int exact = style.build == CHECK_BUILD_EXACT && rounds && (keeps || flushes);
     s->device = device;
     s->style = style;
     stability_backend *b = &backends[gpus->shader_count++];
@@ -78,9 +78,9 @@ static void add(stability_gpus *gpus, const gpu_device *device, const check_arit
                              .end = end,
                              .user = s};
     snprintf(b->name, sizeof b->name, "glsl %s%s%s, %.48s",
-             half                             ? "half"
-             : style.build == GPU_BUILD_EXACT ? "exact"
-                                              : "fast",
+             half                               ? "half"
+             : style.build == CHECK_BUILD_EXACT ? "exact"
+                                                : "fast",
              style.weights ? " " : "", style.weights ? hnbrdf_glsl_weights_name(style.weights) : "",
              device->properties.deviceName);
 }
@@ -97,13 +97,13 @@ static hnbrdf_result add_device(stability_gpus *gpus, int index, int styles,
     result = gpu_probe(device, &arithmetic, error);
     for (int w = 0; w <= (styles ? (int)HNBRDF_GLSL_UNIFORM : 0) && !result; w++) {
         const hnbrdf_glsl_weights weights = (hnbrdf_glsl_weights)w;
-        add(gpus, device, &arithmetic, (gpu_style){weights, HNBRDF_GLSL_FLOAT, GPU_BUILD_EXACT},
+        add(gpus, device, &arithmetic, (gpu_style){weights, HNBRDF_GLSL_FLOAT, CHECK_BUILD_EXACT},
             backends);
         if (w == HNBRDF_GLSL_CONSTANTS)
-            add(gpus, device, &arithmetic, (gpu_style){weights, HNBRDF_GLSL_FLOAT, GPU_BUILD_FAST},
-                backends);
+            add(gpus, device, &arithmetic,
+                (gpu_style){weights, HNBRDF_GLSL_FLOAT, CHECK_BUILD_FAST}, backends);
         if (device->has_half)
-            add(gpus, device, &arithmetic, (gpu_style){weights, HNBRDF_GLSL_HALF, GPU_BUILD_FAST},
+            add(gpus, device, &arithmetic, (gpu_style){weights, HNBRDF_GLSL_HALF, CHECK_BUILD_FAST},
                 backends);
     }
     return result;

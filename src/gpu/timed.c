@@ -6,6 +6,7 @@
 #include "gpu/compile.h"
 #include "hnbrdf/measured.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -134,4 +135,54 @@ hnbrdf_result gpu_timed_download(const gpu_device *device, gpu_timed_buffers *bu
         gpu_download(device, &buffers->directions, pairs, count * sizeof *pairs, error);
     return result ? result
                   : gpu_download(device, &buffers->values, values, count * sizeof *values, error);
+}
+
+/* ---- One scene ------------------------------------------------------------------------------- */
+
+enum { EVALUATIONS = 1 << 17, RUNS = 3, MOST_REPEATS = 1024 };
+
+static hnbrdf_result time_work(const gpu_device *device, const gpu_timed_buffers *buffers,
+                               const gpu_timed *timed, double *ns, hnbrdf_error *error)
+{
+    hnbrdf_result result = HNBRDF_OK;
+    double best = (double)INFINITY;
+    int repeats = 1;
+    for (int run = 0; run < RUNS && !result;) {
+        double total = (double)NAN;
+        result = gpu_timed_run(device, buffers, timed, repeats, &total, error);
+        if (total < 5e6 && repeats < MOST_REPEATS) {
+            repeats *= 4;
+            continue;
+        }
+        best = fmin(best, isnan(total) ? (double)INFINITY : total / repeats / buffers->count);
+        run++;
+    }
+    *ns = best < (double)INFINITY ? best : (double)NAN;
+    return result;
+}
+
+hnbrdf_result gpu_time_scene(const gpu_device *device, const gpu_scene *scene, check_timing *timing,
+                             hnbrdf_error *error)
+{
+    gpu_timed_buffers buffers = {0};
+    gpu_timed value = {0}, copy = {0};
+    check_timing made = {.evaluations = EVALUATIONS};
+    hnbrdf_result result = gpu_timed_buffers_open(device, EVALUATIONS, &buffers, error);
+    if (!result)
+        result = gpu_timed_open(device, &buffers, scene, GPU_WORK_VALUE, &value, error);
+    made.compile_ms = value.compile_ms;
+    made.first_ms = value.first_ms;
+    made.spirv_bytes = value.spirv_bytes;
+    if (!result)
+        result = gpu_timed_open(device, &buffers, scene, GPU_WORK_COPY, &copy, error);
+    if (!result)
+        result = time_work(device, &buffers, &value, &made.value_ns, error);
+    if (!result)
+        result = time_work(device, &buffers, &copy, &made.copy_ns, error);
+    gpu_timed_close(device, &value);
+    gpu_timed_close(device, &copy);
+    gpu_timed_buffers_close(device, &buffers);
+    if (!result)
+        *timing = made;
+    return result;
 }

@@ -2,6 +2,8 @@
 #ifndef HNBRDF_GPU_TIMED_H
 #define HNBRDF_GPU_TIMED_H
 
+#include "check/verify.h"
+#include "gpu/compute.h"
 #include "gpu/scene.h"
 
 /* Also the values of WORK in shaders/bench.comp. */
@@ -42,6 +44,10 @@ void gpu_timed_close(const gpu_device *device, gpu_timed *timed);
  * timestamps. */
 hnbrdf_result gpu_timed_run(const gpu_device *device, const gpu_timed_buffers *buffers,
                             const gpu_timed *timed, int repeats, double *ns, hnbrdf_error *error);
+
+/* The fast build of the scene's first material: the best of a few runs of at least 5 ms each. */
+hnbrdf_result gpu_time_scene(const gpu_device *device, const gpu_scene *scene, check_timing *timing,
+                             hnbrdf_error *error);
 
 /* The first `count` pairs of directions (wi, wo) and what the last run made of them; tests look at
  * that. */

@@ -1,177 +1,125 @@
-/* verify.c: runs an exported scene on one Vulkan device, in both builds, and compares it with C. */
+/* verify.c: shaders/verify.comp with an exported scene on one Vulkan device, in both builds. */
 #include "gpu/verify.h"
 
 #include "base/error.h"
+#include "check/parity.h"
+#include "gpu/compile.h"
+#include "gpu/compute.h"
+#include "gpu/probe.h"
 #include "gpu/probe_half.h"
-#include "check/reference.h"
+#include "gpu/timed.h"
 
-#include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
-const char *gpu_build_name(gpu_build build)
-{
-    return build == GPU_BUILD_EXACT ? "exact" : "fast";
-}
+/* The texts of shaders/verify.comp and shaders/parity.glsl. */
+extern const char hnbrdf_verify_comp[], hnbrdf_parity_glsl[];
 
 /* Everything that lives as long as one device is verified. */
 typedef struct verifier {
     const gpu_device *device;
-    const hnbrdf_model *model;
     const gpu_verify_options *options;
-    gpu_report *report;
-    hnbrdf_error *error;
-    gpu_scene_buffers buffers;
-    gpu_program programs[GPU_BUILDS];
-    VkPipeline pipelines[GPU_BUILDS][CHECK_STAGES];
-    check_reference reference;
-    float *device_values[CHECK_STAGES];
+    gpu_buffer rows, outputs, weights;
+    gpu_program programs[CHECK_BUILDS];
+    VkPipeline pipelines[CHECK_BUILDS];
 } verifier;
 
-static hnbrdf_result open_buffers(verifier *s)
+static hnbrdf_result probe(void *user, check_arithmetic *arithmetic, hnbrdf_error *error)
 {
-    hnbrdf_result result = gpu_scene_buffers_open(s->device, &s->options->scene, s->options->pairs,
-                                                  &s->buffers, s->error);
-    for (int stage = 0; stage < CHECK_STAGES && !result; stage++) {
-        size_t stride = (size_t)check_stage_stride((check_stage)stage) * sizeof(float);
-        s->device_values[stage] = calloc(s->options->pairs, stride);
-        if (!s->device_values[stage])
-            result = hnbrdf_fail(s->error, HNBRDF_ERROR_MEMORY, "verify: no memory for %zu pairs",
-                                 s->options->pairs);
-    }
-    return result ? result
-                  : check_reference_open(s->options->pairs, s->options->precision, &s->reference,
-                                         s->error);
+    verifier *s = user;
+    hnbrdf_result result = gpu_probe(s->device, arithmetic, error);
+    if (!result && s->options->check.precision == HNBRDF_GLSL_HALF)
+        result = gpu_probe_half(s->device, arithmetic, error);
+    return result;
 }
 
-static hnbrdf_result open_program(verifier *s, gpu_build build)
+static hnbrdf_result open_buffers(verifier *s, hnbrdf_error *error)
 {
-    hnbrdf_result result = gpu_scene_program(s->device, &s->options->scene, build, &s->buffers,
-                                             &s->programs[build], NULL, NULL, s->error);
-    for (int stage = 0; stage < CHECK_STAGES && !result; stage++)
-        result = gpu_pipeline_open(s->device, &s->programs[build], stage,
-                                   &s->pipelines[build][stage], s->error);
+    const gpu_scene *scene = &s->options->scene;
+    const size_t pairs = s->options->check.pairs;
+    hnbrdf_result result =
+        gpu_buffer_open(s->device, pairs * CHECK_PARITY_INPUTS * sizeof(float), &s->rows, error);
+    if (!result)
+        result = gpu_buffer_open(s->device, pairs * CHECK_PARITY_OUTPUTS * sizeof(float),
+                                 &s->outputs, error);
+    if (!result && scene->weights)
+        result =
+            gpu_uniform_open(s->device, scene->weights, scene->weights_size, &s->weights, error);
+    return result;
+}
+
+static hnbrdf_result open_program(verifier *s, check_build build, hnbrdf_error *error)
+{
+    const gpu_include includes[] = {{"scene.glsl", s->options->scene.text},
+                                    {"parity.glsl", hnbrdf_parity_glsl}};
+    const char *const defines[] = {
+        build == CHECK_BUILD_EXACT ? "HNBRDF_EXACT=1" : "HNBRDF_EXACT=0",
+        s->device->has_half ? "HNBRDF_HALF_NATIVE=1" : "HNBRDF_HALF_NATIVE=0", NULL};
+    const gpu_buffer *const buffers[] = {&s->rows, &s->outputs, &s->weights};
+    uint32_t *spirv = NULL;
+    size_t size = 0;
+    hnbrdf_result result =
+        gpu_compile(hnbrdf_verify_comp, includes, 2, defines, &spirv, &size, error);
+    if (!result)
+        result =
+            gpu_program_open(s->device, spirv, size, buffers, s->options->scene.weights ? 3 : 2,
+                             sizeof(uint32_t), &s->programs[build], error);
+    s->programs[build].slots = CHECK_PARITY_SLOTS;
+    if (!result)
+        result = gpu_pipeline_open(s->device, &s->programs[build], 0, &s->pipelines[build], error);
+    free(spirv);
     return result;
 }
 
 static void close_verifier(verifier *s)
 {
-    for (int build = 0; build < GPU_BUILDS; build++) {
-        for (int stage = 0; stage < CHECK_STAGES; stage++)
-            vkDestroyPipeline(s->device->handle, s->pipelines[build][stage], NULL);
+    for (int build = 0; build < CHECK_BUILDS; build++) {
+        vkDestroyPipeline(s->device->handle, s->pipelines[build], NULL);
         gpu_program_close(s->device, &s->programs[build]);
     }
-    gpu_scene_buffers_close(s->device, &s->buffers);
-    check_reference_close(&s->reference);
-    for (int stage = 0; stage < CHECK_STAGES; stage++)
-        free(s->device_values[stage]);
+    gpu_buffer_close(s->device, &s->rows);
+    gpu_buffer_close(s->device, &s->outputs);
+    gpu_buffer_close(s->device, &s->weights);
 }
 
-/* ---- Comparing ------------------------------------------------------------------------------- */
-
-static int stage_exists(const verifier *s, int stage)
+static hnbrdf_result run(void *user, check_build build, const float *rows, size_t count,
+                         float *outputs, int *has_run, hnbrdf_error *error)
 {
-    hnbrdf_kind kind = s->model->desc.kind;
-    return stage == CHECK_STAGE_VALUE ||
-           (stage == CHECK_STAGE_ANALYTIC ? kind != HNBRDF_KIND_NEURAL : kind != HNBRDF_KIND_GGX);
-}
-
-static hnbrdf_result run_stages(verifier *s, gpu_build build, int material)
-{
-    hnbrdf_result result = HNBRDF_OK;
-    for (int stage = 0; stage < CHECK_STAGES && !result; stage++) {
-        size_t bytes =
-            s->options->pairs * (size_t)check_stage_stride((check_stage)stage) * sizeof(float);
-        if (!stage_exists(s, stage))
-            continue;
-        result = gpu_scene_run(s->device, &s->programs[build], s->pipelines[build][stage], material,
-                               s->options->pairs, 1, NULL, s->error);
-        if (!result)
-            result = gpu_download(s->device, &s->buffers.values, s->device_values[stage], bytes,
-                                  s->error);
-    }
-    return result;
-}
-
-static hnbrdf_result verify_material(verifier *s, const check_rules rules[GPU_BUILDS], int k)
-{
-    const hnbrdf_material *material = hnbrdf_model_material(s->model, s->options->materials[k]);
-    size_t bytes = s->options->pairs * 6 * sizeof(float);
-    hnbrdf_rng rng;
-    hnbrdf_rng_seed(&rng, s->options->seed, (uint64_t)k);
-    check_reference_fill(s->model, material, &rng, &s->reference);
+    verifier *s = user;
+    const uint32_t push = (uint32_t)count;
+    *has_run = 1;
     hnbrdf_result result =
-        gpu_upload(s->device, &s->buffers.directions, s->reference.pairs, bytes, s->error);
+        gpu_upload(s->device, &s->rows, rows, count * CHECK_PARITY_INPUTS * sizeof(float), error);
     if (!result)
-        result = gpu_upload(s->device, &s->buffers.encoded,
-                            s->reference.stages[CHECK_STAGE_ENCODING], bytes, s->error);
-    for (int build = 0; build < GPU_BUILDS && !result; build++) {
-        check_comparison *comparisons = s->report->comparisons[k][build];
-        result = run_stages(s, (gpu_build)build, k);
-        if (!result)
-            result = check_compare(&rules[build], s->model, material, &s->reference,
-                                   (const float *const *)s->device_values, comparisons, s->error);
-        for (int stage = 0; stage < CHECK_STAGES; stage++)
-            s->report->within = s->report->within && comparisons[stage].outside == 0;
-    }
-    return result;
-}
-
-/* ---- All of it ------------------------------------------------------------------------------- */
-
-static hnbrdf_result run_verifier(verifier *s)
-{
-    gpu_report *report = s->report;
-    hnbrdf_result result = gpu_probe(s->device, &report->arithmetic, s->error);
-    if (!result && s->options->precision == HNBRDF_GLSL_HALF)
-        result = gpu_probe_half(s->device, &report->arithmetic, s->error);
-    /* first, or the driver would have compiled before */
-    if (!result && !s->options->without_timing)
-        result = gpu_time_scene(s->device, &s->options->scene, s->options->seed, &report->timing,
-                                s->error);
+        result = gpu_dispatch(s->device, &s->programs[build], s->pipelines[build], &push, count, 1,
+                              NULL, error);
     if (!result)
-        result = open_buffers(s);
-    for (int build = 0; build < GPU_BUILDS && !result; build++)
-        result = open_program(s, (gpu_build)build);
-    if (result)
-        return result;
-    const check_rules rules[GPU_BUILDS] = {
-        check_rules_exact(&report->arithmetic),
-        check_rules_fast(&report->arithmetic, s->device->driver_id == VK_DRIVER_ID_MESA_LLVMPIPE)};
-    report->within = report->arithmetic.exp_share <= 1.0 && report->arithmetic.log_share <= 1.0;
-    for (int k = 0; k < s->options->material_count && !result; k++) {
-        result = verify_material(s, rules, k);
-        if (s->options->progress)
-            s->options->progress(s->options->progress_user, (k + 1.0) / s->options->material_count);
-    }
+        result = gpu_download(s->device, &s->outputs, outputs,
+                              count * CHECK_PARITY_OUTPUTS * sizeof(float), error);
     return result;
 }
 
 hnbrdf_result gpu_verify(const gpu_device *device, const hnbrdf_model *model,
-                         const gpu_verify_options *options, gpu_report *report, hnbrdf_error *error)
+                         const gpu_verify_options *options, check_report *report,
+                         hnbrdf_error *error)
 {
-    gpu_report made = {.material_count = options->material_count,
-                       .timing = {.value_ns = (double)NAN,
-                                  .copy_ns = (double)NAN,
-                                  .compile_ms = (double)NAN,
-                                  .first_ms = (double)NAN}};
-    made.comparisons = calloc((size_t)options->material_count, sizeof *made.comparisons);
-    if (!made.comparisons)
-        return hnbrdf_fail(error, HNBRDF_ERROR_MEMORY, "verify: no memory for %d materials",
-                           options->material_count);
-    verifier s = {
-        .device = device, .model = model, .options = options, .report = &made, .error = error};
-    hnbrdf_result result = run_verifier(&s);
+    verifier s = {.device = device, .options = options};
+    const check_runner runner = {.is_llvmpipe = device->driver_id == VK_DRIVER_ID_MESA_LLVMPIPE,
+                                 .probe = probe,
+                                 .run = run,
+                                 .user = &s};
+    check_timing timing;
+    hnbrdf_result result = HNBRDF_OK;
+    /* first, or the driver would have compiled before */
+    if (!options->without_timing)
+        result = gpu_time_scene(device, &options->scene, &timing, error);
+    if (!result)
+        result = open_buffers(&s, error);
+    for (int build = 0; build < CHECK_BUILDS && !result; build++)
+        result = open_program(&s, (check_build)build, error);
+    if (!result)
+        result = check_verify(&runner, model, &options->check, report, error);
+    if (!result && !options->without_timing)
+        report->timing = timing;
     close_verifier(&s);
-    if (result)
-        gpu_report_free(&made);
-    else
-        *report = made;
     return result;
-}
-
-void gpu_report_free(gpu_report *report)
-{
-    free(report->comparisons);
-    memset(report, 0, sizeof *report);
 }

@@ -70,7 +70,7 @@ static void print_place(const check_place *place, const char *material, FILE *fi
 }
 
 /* A stage over all materials; the material of the worst place is told. */
-static void print_stage(const verification *v, const gpu_report *report, gpu_build build,
+static void print_stage(const verification *v, const check_report *report, check_build build,
                         check_stage stage, FILE *file)
 {
     check_comparison all = {0};
@@ -85,7 +85,7 @@ static void print_stage(const verification *v, const gpu_report *report, gpu_bui
     if (!all.applies)
         return;
     fprintf(file, "    %-6s %-9s %10zu %9.4f%% %10.3g %10.3g %10.2g %10.2g %9.3g  %s\n",
-            gpu_build_name(build), check_stage_name(stage), all.values,
+            check_build_name(build), check_stage_name(stage), all.values,
             100.0 * mean((double)all.identical, all.values), mean(all.sum_ulp, all.values),
             all.worst_ulp, mean(all.sum_relative, all.values), all.worst_relative, all.worst_share,
             all.outside ? "OUTSIDE" : "ok");
@@ -95,11 +95,11 @@ static void print_stage(const verification *v, const gpu_report *report, gpu_bui
         print_place(&all.worst, material_name(v, worst), file);
 }
 
-static void print_timing(const gpu_timing *timing, FILE *file)
+static void print_timing(const check_timing *timing, FILE *file)
 {
     double alone = timing->value_ns - timing->copy_ns;
     if (isnan(alone))
-        fputs("  time        not measured\n", file);
+        fputs(isnan(timing->compile_ms) ? "" : "  time        not measured\n", file);
     else if (alone > 0.0)
         fprintf(file, "  time        %.4g ns per evaluation: %.4g in all less %.4g for its buffers",
                 alone, timing->value_ns, timing->copy_ns);
@@ -111,29 +111,33 @@ static void print_timing(const gpu_timing *timing, FILE *file)
         fprintf(file, " (fast build, %d at once)\n", timing->evaluations);
     if (isnan(timing->compile_ms))
         return;
-    fprintf(
-        file,
-        "  compiling   %.0f ms to %zu bytes of SPIR-V, %.0f ms to the end of the first dispatch\n",
-        timing->compile_ms, timing->spirv_bytes, timing->first_ms);
+    fprintf(file, "  compiling   %.0f ms", timing->compile_ms);
+    if (timing->spirv_bytes > 0)
+        fprintf(file, " to %zu bytes of SPIR-V", timing->spirv_bytes);
+    fprintf(file, ", %.0f ms to the end of the first %s\n", timing->first_ms,
+            timing->spirv_bytes > 0 ? "dispatch" : "draw");
 }
 
 static void print_device(const verification *v, const verified_device *device, FILE *file)
 {
-    fprintf(file, "device %d: %s, %s, %s\n", device->index, device->name, device->kind,
-            device->driver);
+    if (device->index >= 0)
+        fprintf(file, "device %d: ", device->index);
+    fprintf(file, "%s, %s, %s\n", device->name, device->kind, device->driver);
     if (device->failed.text[0]) {
         fprintf(file, "  FAILED      %s\n\n", device->failed.text);
         return;
     }
-    const gpu_report *report = &device->report;
+    const check_report *report = &device->report;
     print_arithmetic(&report->arithmetic, file);
     if (v->precision == HNBRDF_GLSL_HALF)
         print_half(&report->arithmetic, file);
+    if (!report->ordered)
+        fputs("  order       of operations not kept: no `precise`, or no exact build\n", file);
     fprintf(file, "    %-6s %-9s %10s %10s %10s %10s %10s %10s %9s\n", "build", "stage", "values",
             "same bits", "mean ulp", "worst ulp", "mean rel.", "worst rel.", "of bound");
-    for (int build = 0; build < GPU_BUILDS; build++)
+    for (int build = 0; build < CHECK_BUILDS; build++)
         for (int stage = 0; stage < CHECK_STAGES; stage++)
-            print_stage(v, report, (gpu_build)build, (check_stage)stage, file);
+            print_stage(v, report, (check_build)build, (check_stage)stage, file);
     print_timing(&report->timing, file);
     fprintf(file, "  %s\n\n", report->within ? "within the bounds" : "NOT WITHIN THE BOUNDS");
 }
@@ -146,13 +150,13 @@ void verification_print(const verification *v, FILE *file)
             v->precision == HNBRDF_GLSL_HALF ? " in half precision" : "");
     for (int d = 0; d < v->device_count; d++)
         print_device(v, &v->devices[d], file);
-    fputs(
-        "ulp and relative errors: of the C value, where it is small of 2^-10 (analytic, value) or "
-        "1 "
-        "(encoding,\n"
-        "network). of bound: the largest error in terms of the bound derived for its pair. exact: "
-        "HNBRDF_EXACT 1.\n",
-        file);
+    fputs("ulp and relative errors: of the C value, where it is small of 2^-10 (analytic, value, "
+          "density, weight) or 1 "
+          "(encoding,\n"
+          "network, direction). of bound: the largest error in terms of the bound derived for its "
+          "pair. exact:\n"
+          "HNBRDF_EXACT 1. density and weight: of C for the direction that the device drew.\n",
+          file);
     if (v->validated)
         fprintf(file, "validation layer: %d message%s\n", v->messages, v->messages == 1 ? "" : "s");
 }
@@ -166,8 +170,8 @@ static void write_number(FILE *file, double value)
     fputs(text, file);
 }
 
-static void write_row(const verification *v, const verified_device *device, int k, gpu_build build,
-                      check_stage stage, FILE *file)
+static void write_row(const verification *v, const verified_device *device, int k,
+                      check_build build, check_stage stage, FILE *file)
 {
     const check_comparison *here = &device->report.comparisons[k][build][stage];
     const double numbers[] = {mean(here->sum_ulp, here->values), here->worst_ulp,
@@ -178,7 +182,7 @@ static void write_row(const verification *v, const verified_device *device, int 
     hnbrdf_write_csv_text(file, device->name);
     putc(',', file);
     hnbrdf_write_csv_text(file, material_name(v, k));
-    fprintf(file, ",%s,%s,%zu,%zu,%zu,%zu", gpu_build_name(build), check_stage_name(stage),
+    fprintf(file, ",%s,%s,%zu,%zu,%zu,%zu", check_build_name(build), check_stage_name(stage),
             here->values, here->identical, here->unbounded, here->outside);
     for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++) {
         putc(',', file);
@@ -203,9 +207,9 @@ void verification_write_csv(const void *what, FILE *file)
           file);
     for (int d = 0; d < v->device_count; d++)
         for (int k = 0; k < v->devices[d].report.material_count; k++)
-            for (int build = 0; build < GPU_BUILDS; build++)
+            for (int build = 0; build < CHECK_BUILDS; build++)
                 for (int stage = 0; stage < CHECK_STAGES; stage++)
-                    write_row(v, &v->devices[d], k, (gpu_build)build, (check_stage)stage, file);
+                    write_row(v, &v->devices[d], k, (check_build)build, (check_stage)stage, file);
 }
 
 /* JSON has no number for what is not finite. */
@@ -219,7 +223,7 @@ static void write_member(FILE *file, const char *before, double value)
 }
 
 static void write_json_comparison(const verification *v, const verified_device *device, int k,
-                                  gpu_build build, check_stage stage, int *first, FILE *file)
+                                  check_build build, check_stage stage, int *first, FILE *file)
 {
     const check_comparison *here = &device->report.comparisons[k][build][stage];
     if (!here->applies)
@@ -231,7 +235,7 @@ static void write_json_comparison(const verification *v, const verified_device *
             ", \"build\": \"%s\", \"stage\": \"%s\", \"values\": %zu, \"identical\": %zu, "
             "\"unbounded\": %zu,"
             " \"outside\": %zu",
-            gpu_build_name(build), check_stage_name(stage), here->values, here->identical,
+            check_build_name(build), check_stage_name(stage), here->values, here->identical,
             here->unbounded, here->outside);
     write_member(file, ", \"mean_ulp\": ", mean(here->sum_ulp, here->values));
     write_member(file, ", \"worst_ulp\": ", here->worst_ulp);
@@ -243,7 +247,7 @@ static void write_json_comparison(const verification *v, const verified_device *
 
 static void write_json_report(const verification *v, const verified_device *device, FILE *file)
 {
-    const gpu_report *report = &device->report;
+    const check_report *report = &device->report;
     const check_arithmetic *a = &report->arithmetic;
     fprintf(
         file,
@@ -261,9 +265,9 @@ static void write_json_report(const verification *v, const verified_device *devi
     fputs("},\n      \"comparisons\": [", file);
     int first = 1;
     for (int k = 0; k < report->material_count; k++)
-        for (int build = 0; build < GPU_BUILDS; build++)
+        for (int build = 0; build < CHECK_BUILDS; build++)
             for (int stage = 0; stage < CHECK_STAGES; stage++)
-                write_json_comparison(v, device, k, (gpu_build)build, (check_stage)stage, &first,
+                write_json_comparison(v, device, k, (check_build)build, (check_stage)stage, &first,
                                       file);
     write_member(file, "],\n      \"ns_per_evaluation\": ",
                  report->timing.value_ns - report->timing.copy_ns);

@@ -2,16 +2,17 @@
 #ifndef HNBRDF_REPORT_VERIFY_REPORT_H
 #define HNBRDF_REPORT_VERIFY_REPORT_H
 
-#include "gpu/verify.h"
+#include "check/verify.h"
 
 #include <stdio.h>
 
-/* One device that was tried; failed holds why it could not be run, or is empty. */
+/* One device that was tried; failed holds why it could not be run, or is empty. index -1: not one
+ * of the devices of this machine that are listed, but a program with a folder. */
 typedef struct verified_device {
     int index;
     const char *name, *kind, *driver;
     hnbrdf_error failed;
-    gpu_report report;
+    check_report report;
 } verified_device;
 
 typedef struct verification {
