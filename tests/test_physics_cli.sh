@@ -10,6 +10,12 @@ fail() { echo "failed: $*"; exit 1; }
 grep -q '^paper_white .*ABOVE 1' "$work/info" || fail "energy above 1 is not told"
 grep -q '^vch_silk_blue .*kept' "$work/info" || fail "energy below 1 is not told"
 "$hnbrdf" info "$model" --json | grep -q '"conserves_energy": false' || fail "json"
+# Without: the same but for what is measured.
+"$hnbrdf" info "$model" --without-physics >"$work/short"
+lines=$(wc -l <"$work/short")
+head -n "$lines" "$work/info" | cmp -s - "$work/short" || fail "--without-physics tells something else"
+grep -q albedo "$work/short" && fail "--without-physics measures"
+"$hnbrdf" info "$model" --without-physics --json | grep -q albedo && fail "--without-physics --json measures"
 
 "$hnbrdf" export "$model" --conserve --materials paper_white,vch_silk_blue -o "$work/scene.glsl" >"$work/out"
 grep -q '^paper_white: albedo 1' "$work/out" || fail "the scaled material is not told"

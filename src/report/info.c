@@ -65,7 +65,8 @@ void info_print_model(const char *path, const hnbrdf_model *model, const hnbrdf_
             "eta (R G B)", "alpha (x y)", "rotation");
     for (int k = 0; k < desc.material_count; k++)
         print_material(&desc.materials[k], desc.names[k], width, file);
-    info_print_physics(model, physics, width, file);
+    if (physics)
+        info_print_physics(model, physics, width, file);
 }
 
 static void json_number(float value, FILE *file)
@@ -111,7 +112,8 @@ static void json_material(const hnbrdf_material *m, const hnbrdf_physics *physic
         json_numbers("fitted_eta", m->fitted.eta, 3, file);
         json_numbers("fitted_alpha", m->fitted.alpha, 2, file);
     }
-    info_json_physics(physics, file);
+    if (physics)
+        info_json_physics(physics, file);
     putc('}', file);
 }
 
@@ -135,7 +137,8 @@ void info_json_model(const hnbrdf_model *model, const hnbrdf_physics *physics, F
     json_number(desc.floor, file);
     fputs(",\n  \"parameters\": [\n", file);
     for (int k = 0; k < desc.material_count; k++) {
-        json_material(&desc.materials[k], &physics[k], desc.names[k], desc.latent, file);
+        json_material(&desc.materials[k], physics ? &physics[k] : NULL, desc.names[k], desc.latent,
+                      file);
         fputs(k + 1 < desc.material_count ? ",\n" : "\n", file);
     }
     fputs("  ]\n}\n", file);

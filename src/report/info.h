@@ -7,7 +7,7 @@
 
 #include <stdio.h>
 
-/* For people. physics: of each material, as info_measure_physics() gives it. */
+/* For people. physics: of each material, as info_measure_physics() gives it, or NULL: not told. */
 void info_print_model(const char *path, const hnbrdf_model *model, const hnbrdf_physics *physics,
                       FILE *file);
 void info_print_measured(const char *path, const hnbrdf_measured *measured, FILE *file);
