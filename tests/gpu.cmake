@@ -9,7 +9,8 @@ foreach(target "" _directx _metal)
   string(REPLACE "_" "" argument "${target}")
   add_test(NAME test_glsl_languages${target} COMMAND sh
     ${CMAKE_CURRENT_SOURCE_DIR}/test_glsl_languages.sh
-    $<TARGET_FILE:hnbrdf_glsl_scenes> ${PROJECT_SOURCE_DIR}/shaders ${argument})
+    $<TARGET_FILE:hnbrdf_glsl_scenes> ${PROJECT_SOURCE_DIR}/shaders
+    ${PROJECT_SOURCE_DIR}/src ${argument})
   set_tests_properties(test_glsl_languages${target} PROPERTIES SKIP_RETURN_CODE 77)
 endforeach()
 

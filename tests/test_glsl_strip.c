@@ -210,7 +210,7 @@ static void a_stripped_text_has_only_what_it_calls(void **state)
                                        "hnbrdf_sample",
                                        "hnbrdf_density",
                                        "hnbrdf_fresnel_dielectric",
-                                       "m.kd",
+                                       ".kd,",
                                        "latent0",
                                        "// ----"};
     hnbrdf_model *model = scene_model(&PLAIN);

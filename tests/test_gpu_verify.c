@@ -400,14 +400,14 @@ static void is_found(const char *marker, int one_ulp, int stage)
 static void a_changed_weight_is_found(void **state)
 {
     (void)state;
-    is_found("a3 = hnbrdf_hard_gelu(", 0, CHECK_STAGE_NETWORK);
-    is_found(" * a1 ", 0, CHECK_STAGE_NETWORK);
+    is_found("a_3 = hnbrdf_hard_gelu(", 0, CHECK_STAGE_NETWORK);
+    is_found(" * a_1 ", 0, CHECK_STAGE_NETWORK);
 }
 
 static void one_ulp_of_one_number_is_found(void **state)
 {
     (void)state;
-    is_found("float out4 = ", 1, CHECK_STAGE_NETWORK);
+    is_found("float out_4 = ", 1, CHECK_STAGE_NETWORK);
     is_found("hnbrdf_material(vec3(", 1, CHECK_STAGE_ANALYTIC);
 }
 

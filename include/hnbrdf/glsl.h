@@ -12,6 +12,12 @@
 extern "C" {
 #endif
 
+/* Names in the texts: what they define begins with hnbrdf_ or HNBRDF_; locals and members have an
+ * underscore or are component letters (x y z w, r g b a, s t p q), but for the members a shader
+ * uses (kd, eta, alpha, rotation, latent0, ..., wi, pdf, weight). Macros of the program around may
+ * have other plain names. hnbrdf_material holds numbers and vectors alone: it can be a varying in
+ * GLSL ES 300 too. */
+
 /* How a shader holds the network. The sums go in the same order in each: the same bits, where the
  * device rounds + and * correctly and HNBRDF_EXACT is 1. */
 typedef enum hnbrdf_glsl_weights {
@@ -81,7 +87,8 @@ typedef struct hnbrdf_glsl_options {
      * where that is above 1 (hnbrdf_physics_of() in metrics.h): the shader then gives off no more
      * light than it gets. C does not do that. Not together with packing. */
     const float *energy;
-    /* 1: hnbrdf_material of a hybrid holds what it was fitted with, m.fitted, and a shader that
+    /* 1: hnbrdf_material of a hybrid holds what it was fitted with, m.fitted_kd, m.fitted_eta and
+     * m.fitted_alpha, which a shader leaves as they are, and one that
      * changes m.kd, m.eta or m.alpha edits the whole material, as C does. Always so where an
      * exported material is edited, or a packing says so; a fixed scene has it for those alone. 0:
      * such a change moves f_a alone */
@@ -115,7 +122,9 @@ HNBRDF_EXPERIMENTAL size_t hnbrdf_weights_size(const hnbrdf_model *model);
 /* Write the contents of that block, std140: vec4 after vec4, floats in the byte order of this
  *   machine.
  *   vec4 0, 1         s, m, b of the model, and for half precision the largest input and the
- *                     largest unit of each hidden layer (else 0)
+ *                     largest unit of each hidden layer (else 0). The fourth number is never
+ *                     negative: outside of Vulkan the loops start at what the shader makes of
+ *                     that, 0, which no compiler knows, so that none unrolls them
  *   then a layer      for every four outputs, the last group filled with zeros: their biases,
  *                     then one vec4
  *   after the other   an input, the weights of that input to the four outputs. Inputs of the

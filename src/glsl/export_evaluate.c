@@ -6,29 +6,40 @@
 #include "glsl/export_network.h"
 
 static const char HORIZON[] = "    if (!(wi.z > 0.0 && wo.z > 0.0))\n        return vec3(0.0);\n"
-                              "    hnbrdf_pair p = hnbrdf_scene_pair(m, wi, wo);\n";
+                              "    hnbrdf_pair p = hnbrdf_scene_pair(material_in, wi, wo);\n";
+
+/* Roughness that the scales of lobes refer to. */
+static const char *alpha_text(const hnbrdf_scene *s)
+{
+    return !hnbrdf_scene_has_analytic(s) ? "vec2(1.0)"
+           : s->anisotropic              ? "material_in.alpha"
+                                         : "vec2(material_in.alpha)";
+}
 
 /* Both directions into the tangent frame, as far as any material is turned. */
 static void put_pair(hnbrdf_printer *out, const hnbrdf_scene *s)
 {
     hnbrdf_put(out, "// Both directions in the tangent frame of the material.\n");
-    hnbrdf_put(out, "hnbrdf_pair hnbrdf_scene_pair(hnbrdf_material m, vec3 wi, vec3 wo)\n{\n");
-    hnbrdf_put(out, s->rotated
-                        ? "    return hnbrdf_pair_make(hnbrdf_to_tangent(m.rotation, wi),\n"
-                          "                            hnbrdf_to_tangent(m.rotation, wo));\n}\n\n"
-                        : "    return hnbrdf_pair_make(wi, wo);\n}\n\n");
+    hnbrdf_put(out,
+               "hnbrdf_pair hnbrdf_scene_pair(hnbrdf_material material_in, vec3 wi, vec3 wo)\n{\n");
+    hnbrdf_put(
+        out,
+        s->rotated
+            ? "    return hnbrdf_pair_make(hnbrdf_to_tangent(material_in.rotation, wi),\n"
+              "                            hnbrdf_to_tangent(material_in.rotation, wo));\n}\n\n"
+            : "    return hnbrdf_pair_make(wi, wo);\n}\n\n");
 }
 
 /* The exponent s c + m; a scale of 1 and a shift of 0 change no bit and are left out. */
 static void put_exponent(hnbrdf_printer *out, const hnbrdf_scene *s)
 {
     int loaded = s->style == HNBRDF_GLSL_UNIFORM;
-    hnbrdf_put(out, "    HNBRDF_PRECISE vec3 exponent = ");
+    hnbrdf_put(out, "    HNBRDF_PRECISE vec3 exp_arg = ");
     if (loaded || s->desc->scale != 1.0f) {
         hnbrdf_put_constant(out, s, 0);
         hnbrdf_put(out, " * ");
     }
-    hnbrdf_put(out, "c");
+    hnbrdf_put(out, "c_net");
     if (loaded || s->desc->shift != 0.0f) {
         hnbrdf_put(out, " + ");
         hnbrdf_put_constant(out, s, 1);
@@ -39,29 +50,33 @@ static void put_exponent(hnbrdf_printer *out, const hnbrdf_scene *s)
 /* On every value, where the scene asks for it. */
 static const char *factor(const hnbrdf_scene *s)
 {
-    return s->energy ? "m.energy * " : "";
+    return s->energy ? "material_in.energy_factor * " : "";
 }
 
 static void put_analytic(hnbrdf_printer *out, const hnbrdf_scene *s)
 {
     hnbrdf_put(out, "// f_a before it is clamped to what f may be.\n");
-    hnbrdf_put(out, "vec3 hnbrdf_analytic(hnbrdf_material m, hnbrdf_pair p)\n{\n");
+    hnbrdf_put(out, "vec3 hnbrdf_analytic(hnbrdf_material material_in, hnbrdf_pair p)\n{\n");
     hnbrdf_put(out, s->fixed
-                        ? "    float specular = hnbrdf_specular_of_area(p, m.alpha, m.area);\n"
-                          "    return hnbrdf_microfacet_of(m.diffuse, m.e, p.c, specular);\n}\n\n"
-                        : "    float specular = hnbrdf_specular(p, m.alpha);\n"
-                          "    return hnbrdf_microfacet(m.kd, m.eta, p.c, specular);\n}\n\n");
+                        ? "    float d_v_v = hnbrdf_specular_of_area(p, material_in.alpha, "
+                          "material_in.ggx_area);\n"
+                          "    return hnbrdf_microfacet_of(material_in.kd_pi, material_in.eta_e, "
+                          "p.cos_d, d_v_v);\n}\n\n"
+                        : "    float d_v_v = hnbrdf_specular(p, material_in.alpha);\n"
+                          "    return hnbrdf_microfacet(material_in.kd, material_in.eta, p.cos_d, "
+                          "d_v_v);\n}\n\n");
 }
 
 static void put_eval_analytic(hnbrdf_printer *out, const hnbrdf_scene *s)
 {
     int analytic = hnbrdf_scene_has_analytic(s);
     hnbrdf_put(out, "// f_a alone: Lambert + GGX, the cheapest level of detail%s.\n",
-               analytic ? "" : "; this kind of model has none");
-    hnbrdf_put(out, "vec3 hnbrdf_eval_analytic(hnbrdf_material m, vec3 wi, vec3 wo)\n{\n");
+               analytic ? "" : ". This kind of model has none");
+    hnbrdf_put(out,
+               "vec3 hnbrdf_eval_analytic(hnbrdf_material material_in, vec3 wi, vec3 wo)\n{\n");
     if (analytic)
-        hnbrdf_put(out, "%s    return %shnbrdf_finish(hnbrdf_analytic(m, p));\n}\n\n", HORIZON,
-                   factor(s));
+        hnbrdf_put(out, "%s    return %shnbrdf_finish(hnbrdf_analytic(material_in, p));\n}\n\n",
+                   HORIZON, factor(s));
     else
         hnbrdf_put(out, "    return vec3(0.0);\n}\n\n");
 }
@@ -70,97 +85,112 @@ static void put_eval_analytic(hnbrdf_printer *out, const hnbrdf_scene *s)
  * sees. */
 static void put_edits(hnbrdf_printer *out, const hnbrdf_scene *s)
 {
-    hnbrdf_put(out, "hnbrdf_edit hnbrdf_scene_edit(hnbrdf_material m)\n{\n    return ");
-    hnbrdf_put(out, s->fixed ? "m.edit;\n}\n\n"
-                    : s->anisotropic
-                        ? "hnbrdf_edit_make(m.kd, m.eta, m.alpha, m.fitted);\n}\n\n"
-                        : "hnbrdf_edit_make(m.kd, m.eta, vec2(m.alpha), m.fitted);\n}\n\n");
-    hnbrdf_put(out, "vec3 hnbrdf_scene_specular(hnbrdf_material m, hnbrdf_pair p)\n{\n");
-    hnbrdf_put(out, s->fixed ? "    HNBRDF_PRECISE vec3 f = hnbrdf_fresnel_of_e(m.e, p.c) * "
-                               "hnbrdf_specular_of_area(p, m.alpha, m.area);\n"
-                             : "    HNBRDF_PRECISE vec3 f = hnbrdf_fresnel_dielectric(m.eta, p.c) "
-                               "* hnbrdf_specular(p, m.alpha);\n");
-    hnbrdf_put(out, "    return f;\n}\n\n");
-    hnbrdf_put(out,
-               "hnbrdf_pair hnbrdf_scene_seen(hnbrdf_edit edit, hnbrdf_pair p, vec3 specular)\n{\n"
-               "    float part = hnbrdf_specular_part(specular, edit.carried);\n    return ");
-    hnbrdf_put(out, s->desc->encoding == HNBRDF_ENCODING_DIRECTIONS
-                        ? "hnbrdf_turn_pair(p, hnbrdf_warped(p, edit.warp, part));\n}\n\n"
-                        : "hnbrdf_raise_pair(p, hnbrdf_warped(p, edit.warp, part));\n}\n\n");
+    hnbrdf_put(out, "hnbrdf_edit hnbrdf_scene_edit(hnbrdf_material material_in)\n{\n    return ");
+    if (s->fixed)
+        hnbrdf_put(out, "hnbrdf_edit(material_in.edit_warp, material_in.edit_alpha, "
+                        "material_in.edit_area, material_in.edit_kd,\n"
+                        "                       material_in.edit_e, material_in.edit_carried, "
+                        "material_in.edit_added);\n}\n\n");
+    else
+        hnbrdf_put(out,
+                   "hnbrdf_edit_make(material_in.kd, material_in.eta, %s,\n"
+                   "                            hnbrdf_fitted(material_in.fitted_kd, "
+                   "material_in.fitted_eta, material_in.fitted_alpha));\n}\n\n",
+                   alpha_text(s));
+    hnbrdf_put(out, "vec3 hnbrdf_scene_specular(hnbrdf_material material_in, hnbrdf_pair p)\n{\n");
+    hnbrdf_put(out, s->fixed ? "    HNBRDF_PRECISE vec3 f_specular = "
+                               "hnbrdf_fresnel_of_e(material_in.eta_e, p.cos_d) *\n"
+                               "                                     hnbrdf_specular_of_area(p, "
+                               "material_in.alpha, material_in.ggx_area);\n"
+                             : "    HNBRDF_PRECISE vec3 f_specular = "
+                               "hnbrdf_fresnel_dielectric(material_in.eta, p.cos_d) *\n"
+                               "                                     hnbrdf_specular(p, "
+                               "material_in.alpha);\n");
+    hnbrdf_put(out, "    return f_specular;\n}\n\n");
+    hnbrdf_put(out, "hnbrdf_pair hnbrdf_scene_seen(hnbrdf_edit edit_in, hnbrdf_pair p, vec3 "
+                    "f_specular)\n{\n"
+                    "    float part_specular = hnbrdf_specular_part(f_specular, "
+                    "edit_in.kd_carried);\n    return ");
+    hnbrdf_put(
+        out,
+        s->desc->encoding == HNBRDF_ENCODING_DIRECTIONS
+            ? "hnbrdf_turn_pair(p, hnbrdf_warped(p, edit_in.warp_by, part_specular));\n}\n\n"
+            : "hnbrdf_raise_pair(p, hnbrdf_warped(p, edit_in.warp_by, part_specular));\n}\n\n");
 }
 
 /* In hnbrdf_eval(): f_a of what the material is and of what it was fitted with. */
 static void put_edited(hnbrdf_printer *out)
 {
-    hnbrdf_put(out, "    hnbrdf_edit edit = hnbrdf_scene_edit(m);\n"
-                    "    vec3 specular = hnbrdf_scene_specular(m, p);\n"
-                    "    HNBRDF_PRECISE vec3 edited = edit.carried + specular;\n"
-                    "    hnbrdf_pair seen = hnbrdf_scene_seen(edit, p, specular);\n"
-                    "    vec3 fitted = hnbrdf_microfacet_fitted(p, seen, edit);\n");
+    hnbrdf_put(out, "    hnbrdf_edit edit_in = hnbrdf_scene_edit(material_in);\n"
+                    "    vec3 f_specular = hnbrdf_scene_specular(material_in, p);\n"
+                    "    HNBRDF_PRECISE vec3 f_edited = edit_in.kd_carried + f_specular;\n"
+                    "    hnbrdf_pair pair_seen = hnbrdf_scene_seen(edit_in, p, f_specular);\n"
+                    "    vec3 f_fitted = hnbrdf_microfacet_fitted(p, pair_seen, edit_in);\n");
 }
 
 static void put_eval(hnbrdf_printer *out, const hnbrdf_scene *s)
 {
-    hnbrdf_put(out, "// f(wi, wo) in 1/sr without the cosine; 0 below the horizon.\n");
-    hnbrdf_put(out, "vec3 hnbrdf_eval(hnbrdf_material m, vec3 wi, vec3 wo)\n{\n%s", HORIZON);
+    hnbrdf_put(out, "// f(wi, wo) in 1/sr without the cosine, 0 below the horizon.\n");
+    hnbrdf_put(out, "vec3 hnbrdf_eval(hnbrdf_material material_in, vec3 wi, vec3 wo)\n{\n%s",
+               HORIZON);
     if (!hnbrdf_scene_has_network(s)) {
-        hnbrdf_put(out, "    return %shnbrdf_finish(hnbrdf_analytic(m, p));\n}\n", factor(s));
+        hnbrdf_put(out, "    return %shnbrdf_finish(hnbrdf_analytic(material_in, p));\n}\n",
+                   factor(s));
         return;
     }
     int hybrid = s->desc->kind == HNBRDF_KIND_HYBRID;
     if (s->edited)
         put_edited(out);
-    hnbrdf_put(out, "    vec3 x0, x1, c%s;\n", hybrid ? ", g" : "");
-    hnbrdf_put(out, "    HNBRDF_SCENE_ENCODE(%s, x0, x1);\n", s->edited ? "seen" : "p");
-    hnbrdf_put(out, "    hnbrdf_network(m, x0, x1, c%s);\n", hybrid ? ", g" : "");
+    hnbrdf_put(out, "    vec3 x_0, x_1, c_net%s;\n", hybrid ? ", g_net" : "");
+    hnbrdf_put(out, "    HNBRDF_SCENE_ENCODE(%s, x_0, x_1);\n", s->edited ? "pair_seen" : "p");
+    hnbrdf_put(out, "    hnbrdf_network(material_in, x_0, x_1, c_net%s);\n",
+               hybrid ? ", g_net" : "");
     put_exponent(out, s);
     hnbrdf_put(out, "    return %s%s", factor(s),
-               s->edited ? "hnbrdf_compose_edited(exponent, g, edited, fitted, edit.added, "
-               : hybrid  ? "hnbrdf_compose_hybrid(exponent, g, hnbrdf_analytic(m, p), "
-                         : "hnbrdf_compose_neural(exponent, ");
+               s->edited ? "hnbrdf_compose_edited(exp_arg, g_net, f_edited, f_fitted, "
+                           "edit_in.kd_added, "
+               : hybrid  ? "hnbrdf_compose_hybrid(exp_arg, g_net, hnbrdf_analytic(material_in, p), "
+                         : "hnbrdf_compose_neural(exp_arg, ");
     hnbrdf_put_constant(out, s, 2);
     hnbrdf_put(out, ");\n}\n");
 }
 
 /* ---- Sampling -------------------------------------------------------------------------------- */
 
-/* Roughness that the scales of lobes refer to. */
-static const char *alpha_text(const hnbrdf_scene *s)
-{
-    return !hnbrdf_scene_has_analytic(s) ? "vec2(1.0)"
-           : s->anisotropic              ? "m.alpha"
-                                         : "vec2(m.alpha)";
-}
+#define LOBES \
+    "hnbrdf_lobes(material_in.lobe_scale, material_in.lobe_share_0, material_in.lobe_share_1)"
 
 static void put_pdf(hnbrdf_printer *out, const hnbrdf_scene *s)
 {
-    hnbrdf_put(out, "\n// Density in 1/sr with which hnbrdf_sample() draws wi given wo; 0 below "
+    hnbrdf_put(out, "\n// Density in 1/sr with which hnbrdf_sample() draws wi given wo, 0 below "
                     "the horizon.\n");
-    hnbrdf_put(out, "float hnbrdf_pdf(hnbrdf_material m, vec3 wi, vec3 wo)\n{\n"
+    hnbrdf_put(out, "float hnbrdf_pdf(hnbrdf_material material_in, vec3 wi, vec3 wo)\n{\n"
                     "    if (!(wi.z > 0.0 && wo.z > 0.0))\n        return 0.0;\n");
     if (s->rotated)
-        hnbrdf_put(out, "    wi = hnbrdf_to_tangent(m.rotation, wi);\n"
-                        "    wo = hnbrdf_to_tangent(m.rotation, wo);\n");
-    hnbrdf_put(out, "    return hnbrdf_density(%s, m.lobes, wi, wo);\n}\n", alpha_text(s));
+        hnbrdf_put(out, "    wi = hnbrdf_to_tangent(material_in.rotation, wi);\n"
+                        "    wo = hnbrdf_to_tangent(material_in.rotation, wo);\n");
+    hnbrdf_put(out, "    return hnbrdf_density(%s, " LOBES ", wi, wo);\n}\n", alpha_text(s));
 }
 
 static void put_sample_direction(hnbrdf_printer *out, const hnbrdf_scene *s)
 {
-    hnbrdf_put(out, "\n// Draws wi alone, for renderers that weigh it otherwise; u is two "
-                    "numbers in [0, 1): make "
-                    "them as\n// float(u32 >> 8) * 2^-24. Returns its density; 0: no direction, "
-                    "(0, 0, 1).\n");
-    hnbrdf_put(out,
-               "float hnbrdf_sample_direction(hnbrdf_material m, vec3 wo, vec2 u, out vec3 wi)\n{\n"
-               "    wi = vec3(0.0, 0.0, 1.0);\n"
-               "    if (!(wo.z > 0.0))\n        return 0.0;\n");
-    hnbrdf_put(out, "    vec3 drawn = hnbrdf_draw(%s, m.lobes, %s, u);\n", alpha_text(s),
-               s->rotated ? "hnbrdf_to_tangent(m.rotation, wo)" : "wo");
+    hnbrdf_put(out, "\n// Draws wi alone, for renderers that weigh it otherwise. u_rand is two "
+                    "numbers in [0, 1), "
+                    "made as\n// float(u32 >> 8) * 2^-24. Returns its density. 0 means: no "
+                    "direction, (0, 0, 1).\n");
+    hnbrdf_put(
+        out,
+        "float hnbrdf_sample_direction(hnbrdf_material material_in, vec3 wo, vec2 u_rand, out vec3 "
+        "wi)\n{\n"
+        "    wi = vec3(0.0, 0.0, 1.0);\n"
+        "    if (!(wo.z > 0.0))\n        return 0.0;\n");
+    hnbrdf_put(out, "    vec3 wi_drawn = hnbrdf_draw(%s, " LOBES ", %s, u_rand);\n", alpha_text(s),
+               s->rotated ? "hnbrdf_to_tangent(material_in.rotation, wo)" : "wo");
     if (s->rotated)
-        hnbrdf_put(out, "    drawn = hnbrdf_from_tangent(m.rotation, drawn);\n");
-    hnbrdf_put(out, "    float pdf = hnbrdf_pdf(m, drawn, wo);\n"
+        hnbrdf_put(out, "    wi_drawn = hnbrdf_from_tangent(material_in.rotation, wi_drawn);\n");
+    hnbrdf_put(out, "    float pdf = hnbrdf_pdf(material_in, wi_drawn, wo);\n"
                     "    if (!(pdf > 0.0))\n        return 0.0;\n"
-                    "    wi = drawn;\n    return pdf;\n}\n");
+                    "    wi = wi_drawn;\n    return pdf;\n}\n");
 }
 
 static void put_sample(hnbrdf_printer *out)
@@ -168,13 +198,13 @@ static void put_sample(hnbrdf_printer *out)
     hnbrdf_put(out, "\n// Draws wi given wo and weighs it.\n");
     hnbrdf_put(
         out,
-        "hnbrdf_sample_result hnbrdf_sample(hnbrdf_material m, vec3 wo, vec2 u)\n{\n"
-        "    hnbrdf_sample_result drawn;\n"
-        "    drawn.pdf = hnbrdf_sample_direction(m, wo, u, drawn.wi);\n"
-        "    drawn.weight = vec3(0.0);\n"
-        "    if (!(drawn.pdf > 0.0))\n        return drawn;\n"
-        "    HNBRDF_PRECISE vec3 weight = hnbrdf_eval(m, drawn.wi, wo) * drawn.wi.z / drawn.pdf;\n"
-        "    drawn.weight = hnbrdf_finish(weight);\n    return drawn;\n}\n");
+        "hnbrdf_sample_result hnbrdf_sample(hnbrdf_material material_in, vec3 wo, vec2 u_rand)\n{\n"
+        "    hnbrdf_sample_result s;\n"
+        "    s.pdf = hnbrdf_sample_direction(material_in, wo, u_rand, s.wi);\n"
+        "    s.weight = vec3(0.0);\n"
+        "    if (!(s.pdf > 0.0))\n        return s;\n"
+        "    HNBRDF_PRECISE vec3 weight = hnbrdf_eval(material_in, s.wi, wo) * s.wi.z / s.pdf;\n"
+        "    s.weight = hnbrdf_finish(weight);\n    return s;\n}\n");
 }
 
 /* ---- All of it ------------------------------------------------------------------------------- */

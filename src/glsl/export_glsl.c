@@ -65,7 +65,7 @@ static void put_heading(hnbrdf_printer *out, const hnbrdf_scene *s)
 {
     const hnbrdf_model_desc *desc = s->desc;
     hnbrdf_put(out, "// Written by hnbrdf " HNBRDF_VERSION_STRING
-                    "; export again rather than edit.\n//\n");
+                    ". Export again rather than edit.\n//\n");
     hnbrdf_put(out, "//   kind       %s\n", hnbrdf_kind_name(desc->kind));
     if (hnbrdf_scene_has_network(s)) {
         hnbrdf_put(out, "//   network    %d", HNBRDF_ENCODING_SIZE + desc->latent);
@@ -95,9 +95,8 @@ static void put_heading(hnbrdf_printer *out, const hnbrdf_scene *s)
         "//\n// f = hnbrdf_eval(hnbrdf_scene_material(HNBRDF_MATERIAL_%s), wi, wo), without the "
         "cosine.\n",
         s->names[0]);
-    hnbrdf_put(out,
-               "#ifndef HNBRDF_HYBRID_BRDF_GLSL\n#error \"include hybrid_brdf.glsl before this "
-               "file\"\n#endif\n\n");
+    hnbrdf_put(out, "#ifndef HNBRDF_HYBRID_BRDF_GLSL\n#error include hybrid_brdf.glsl before this "
+                    "file\n#endif\n\n");
 }
 
 /* For code that serves scenes of every kind. */

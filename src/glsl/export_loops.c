@@ -8,11 +8,13 @@
 #include "glsl/export_weights.h"
 
 static const char BLOCK[] =
-    "// The weights: the bytes of hnbrdf_export_weights() or `hnbrdf export "
-    "--weights-out`, laid out as told in\n"
-    "// hnbrdf.h. Any network of the same kind, encoding and size. HNBRDF_LOOP "
-    "keeps a loop a loop: unrolled, such\n"
-    "// a shader takes a compiler minutes.\n"
+    "// The weights: the bytes that `hnbrdf export --weights-out` writes, laid out as told in "
+    "hnbrdf/glsl.h. Any\n"
+    "// network of the same kind, encoding and size. HNBRDF_LOOP and HNBRDF_LOOP_START keep a loop "
+    "a loop: unrolled,\n"
+    "// such a shader takes a compiler minutes. Where there is no attribute for that, loops start "
+    "at what a number of\n"
+    "// the block makes of it, one that is never negative: at 0.\n"
     "#ifndef HNBRDF_WEIGHTS_SET\n"
     "#define HNBRDF_WEIGHTS_SET 0\n"
     "#endif\n"
@@ -31,9 +33,13 @@ static const char BLOCK[] =
     "#if defined(VULKAN) && defined(GL_EXT_control_flow_attributes)\n"
     "#extension GL_EXT_control_flow_attributes : require\n"
     "#define HNBRDF_LOOP [[dont_unroll]]\n"
+    "#define HNBRDF_LOOP_START(loaded) 0\n"
     "#else\n"
     "#define HNBRDF_LOOP\n"
     "#endif\n"
+    "#endif\n"
+    "#ifndef HNBRDF_LOOP_START\n"
+    "#define HNBRDF_LOOP_START(loaded) int((loaded) < 0.0)\n"
     "#endif\n";
 
 void hnbrdf_put_weights_block(hnbrdf_printer *out, const hnbrdf_scene *s)
@@ -54,8 +60,8 @@ static void put_first_inputs(hnbrdf_printer *out, const hnbrdf_scene *s, int hal
 {
     for (int i = 0; i < hnbrdf_layer_inputs(s->desc, 0); i++) {
         put_term(out, half,
-                 half ? "        sum += HNBRDF_H4(hnbrdf_weights[at + "
-                      : "        sum += hnbrdf_weights[at + ",
+                 half ? "        sum_4 += HNBRDF_H4(hnbrdf_weights[row_at + "
+                      : "        sum_4 += hnbrdf_weights[row_at + ",
                  i);
         hnbrdf_put_input(out, s, i);
         hnbrdf_put(out, ";\n");
@@ -67,16 +73,18 @@ static void put_units(hnbrdf_printer *out, const hnbrdf_scene *s, int layer, int
 {
     const char *type = half ? "HNBRDF_HALF4" : "vec4";
     int single = s->precision == HNBRDF_GLSL_HALF && !half;
-    hnbrdf_put(out, "        HNBRDF_LOOP for (int i = 0; i < %d; i++) {\n",
+    hnbrdf_put(out, "        HNBRDF_LOOP for (int i_4 = loop_start; i_4 < %d; i_4++) {\n",
                (s->desc->hidden + 3) / 4);
-    hnbrdf_put(out, single ? "            %s u = vec4(u%d[i]);\n" : "            %s u = u%d[i];\n",
+    hnbrdf_put(out,
+               single ? "            %s u_4 = vec4(u_%d[i_4]);\n"
+                      : "            %s u_4 = u_%d[i_4];\n",
                type, layer - 1);
     for (int i = 0; i < 4; i++) {
         put_term(out, half,
-                 half ? "            sum += HNBRDF_H4(hnbrdf_weights[at + 4 * i + "
-                      : "            sum += hnbrdf_weights[at + 4 * i + ",
+                 half ? "            sum_4 += HNBRDF_H4(hnbrdf_weights[row_at + 4 * i_4 + "
+                      : "            sum_4 += hnbrdf_weights[row_at + 4 * i_4 + ",
                  i);
-        hnbrdf_put(out, "u.%c;\n", "xyzw"[i]);
+        hnbrdf_put(out, "u_4.%c;\n", "xyzw"[i]);
     }
     hnbrdf_put(out, "        }\n");
 }
@@ -86,13 +94,13 @@ static void put_layer(hnbrdf_printer *out, const hnbrdf_scene *s, int layer)
     int hidden = layer < s->desc->layers, half = hidden && s->precision == HNBRDF_GLSL_HALF;
     int groups = hnbrdf_layer_groups(s->desc, layer);
     const char *type = half ? "HNBRDF_HALF4" : "vec4";
-    hnbrdf_put(out, "    %s u%d[%d];\n", type, layer, groups);
-    hnbrdf_put(out, "    HNBRDF_LOOP for (int r = 0; r < %d; r++) {\n", groups);
-    hnbrdf_put(out, "        int at = %d + %d * r;\n", hnbrdf_layer_start(s->desc, layer),
+    hnbrdf_put(out, "    %s u_%d[%d];\n", type, layer, groups);
+    hnbrdf_put(out, "    HNBRDF_LOOP for (int r = loop_start; r < %d; r++) {\n", groups);
+    hnbrdf_put(out, "        int row_at = %d + %d * r;\n", hnbrdf_layer_start(s->desc, layer),
                1 + hnbrdf_layer_columns(s->desc, layer));
     hnbrdf_put(out,
-               half ? "        HNBRDF_PRECISE %s sum = HNBRDF_H4(hnbrdf_weights[at]);\n"
-                    : "        HNBRDF_PRECISE %s sum = hnbrdf_weights[at];\n",
+               half ? "        HNBRDF_PRECISE %s sum_4 = HNBRDF_H4(hnbrdf_weights[row_at]);\n"
+                    : "        HNBRDF_PRECISE %s sum_4 = hnbrdf_weights[row_at];\n",
                type);
     if (layer == 0)
         put_first_inputs(out, s, half);
@@ -100,11 +108,12 @@ static void put_layer(hnbrdf_printer *out, const hnbrdf_scene *s, int layer)
         put_units(out, s, layer, half);
     if (half)
         hnbrdf_put(out,
-                   "        u%d[r] = hnbrdf_half_unit(sum, HNBRDF_H(hnbrdf_weights[%d].%c));\n",
+                   "        u_%d[r] = hnbrdf_half_unit(sum_4, HNBRDF_H(hnbrdf_weights[%d].%c));\n",
                    layer, (4 + layer) / 4, "xyzw"[(4 + layer) % 4]);
     else
         hnbrdf_put(out,
-                   hidden ? "        u%d[r] = hnbrdf_hard_gelu(sum);\n" : "        u%d[r] = sum;\n",
+                   hidden ? "        u_%d[r] = hnbrdf_hard_gelu(sum_4);\n"
+                          : "        u_%d[r] = sum_4;\n",
                    layer);
     hnbrdf_put(out, "    }\n");
 }
@@ -112,9 +121,10 @@ static void put_layer(hnbrdf_printer *out, const hnbrdf_scene *s, int layer)
 void hnbrdf_put_loops(hnbrdf_printer *out, const hnbrdf_scene *s)
 {
     int layers = s->desc->layers;
+    hnbrdf_put(out, "    int loop_start = HNBRDF_LOOP_START(hnbrdf_weights[0].w);\n");
     for (int layer = 0; layer <= layers; layer++)
         put_layer(out, s, layer);
-    hnbrdf_put(out, "    c = u%d[0].xyz;\n", layers);
+    hnbrdf_put(out, "    c_net = u_%d[0].xyz;\n", layers);
     if (s->desc->kind == HNBRDF_KIND_HYBRID)
-        hnbrdf_put(out, "    g = vec3(u%d[0].w, u%d[1].xy);\n", layers, layers);
+        hnbrdf_put(out, "    g_net = vec3(u_%d[0].w, u_%d[1].xy);\n", layers, layers);
 }

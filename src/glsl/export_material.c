@@ -8,32 +8,37 @@ void hnbrdf_put_material_struct(hnbrdf_printer *out, const hnbrdf_scene *s)
 {
     hnbrdf_put(out, "struct hnbrdf_material {\n");
     if (hnbrdf_scene_has_analytic(s)) {
-        hnbrdf_put(out, s->fixed ? "    vec3 diffuse;  // kd / pi\n"
-                                   "    vec3 e;        // eta^2 - 1\n"
+        hnbrdf_put(out, s->fixed ? "    vec3 kd_pi;    // kd / pi\n"
+                                   "    vec3 eta_e;    // eta^2 - 1\n"
                                  : "    vec3 kd;       // diffuse albedo\n"
                                    "    vec3 eta;      // index of refraction, above 1\n");
         hnbrdf_put(out, s->anisotropic
                             ? "    vec2 alpha;    // GGX roughness along x and y, at least 1e-4\n"
                             : "    float alpha;   // GGX roughness, at least 1e-4\n");
         if (s->fixed)
-            hnbrdf_put(out, "    float area;    // pi alpha alpha\n");
+            hnbrdf_put(out, "    float ggx_area; // pi alpha alpha\n");
         if (s->edited)
-            hnbrdf_put(out, s->fixed ? "    hnbrdf_edit edit;\n"
-                                     : "    hnbrdf_fitted fitted; // an edit leaves it as it is\n");
+            hnbrdf_put(out, s->fixed ? "    vec2 edit_warp, edit_alpha;  // hnbrdf_edit\n"
+                                       "    float edit_area;\n"
+                                       "    vec3 edit_kd, edit_e, edit_carried, edit_added;\n"
+                                     : "    vec3 fitted_kd, fitted_eta; // hnbrdf_fitted, an edit "
+                                       "leaves it as it is\n"
+                                       "    vec2 fitted_alpha;\n");
     }
     if (hnbrdf_scene_has_rotation(s))
         hnbrdf_put(out, "    vec2 rotation; // cosine and sine of the tangent frame's angle\n");
     for (int v = 0; v < hnbrdf_scene_latent_vectors(s); v++)
         hnbrdf_put(out, "    vec4 latent%d;\n", v);
     for (int v = 0; v < hnbrdf_scene_bias_vectors(s); v++)
-        hnbrdf_put(out, "    vec4 bias%d;%s\n", v,
+        hnbrdf_put(out, "    vec4 bias_%d;%s\n", v,
                    v == 0 ? "    // of the first layer, the latent code folded in" : "");
     if (hnbrdf_scene_has_sampling(s))
-        hnbrdf_put(out, "    hnbrdf_lobes lobes; // for sampling alone\n");
+        hnbrdf_put(out, "    vec2 lobe_scale;           // hnbrdf_lobes, for sampling alone\n"
+                        "    vec4 lobe_share_0, lobe_share_1;\n");
     if (s->energy)
         hnbrdf_put(
             out,
-            "    float energy;  // factor on f: 1, or what brings an albedo above 1 down to it\n");
+            "    float energy_factor; // on f: 1, or what brings an albedo above 1 down to it\n");
     hnbrdf_put(out, "};\n\n");
 }
 
@@ -48,7 +53,6 @@ static void put_edit(hnbrdf_printer *out, const hnbrdf_prepared *prepared)
 {
     const hnbrdf_prepared_edit edit = hnbrdf_edit_of(prepared);
     const float *const vectors[] = {edit.diffuse, edit.e, edit.carried, edit.added};
-    hnbrdf_put(out, "hnbrdf_edit(");
     hnbrdf_put_vector(out, 2, edit.warp, 2);
     hnbrdf_put(out, ", ");
     hnbrdf_put_vector(out, 2, edit.alpha, 2);
@@ -58,18 +62,15 @@ static void put_edit(hnbrdf_printer *out, const hnbrdf_prepared *prepared)
         hnbrdf_put(out, ", ");
         hnbrdf_put_vector(out, 3, vectors[k], 3);
     }
-    hnbrdf_put(out, ")");
 }
 
 static void put_fitted(hnbrdf_printer *out, const hnbrdf_fitted *fitted)
 {
-    hnbrdf_put(out, "hnbrdf_fitted(");
     hnbrdf_put_vector(out, 3, fitted->kd, 3);
     hnbrdf_put(out, ", ");
     hnbrdf_put_vector(out, 3, fitted->eta, 3);
     hnbrdf_put(out, ", ");
     hnbrdf_put_vector(out, 2, fitted->alpha, 2);
-    hnbrdf_put(out, ")");
 }
 
 static void put_analytic_fields(hnbrdf_printer *out, const hnbrdf_scene *s,
@@ -100,13 +101,11 @@ static void put_analytic_fields(hnbrdf_printer *out, const hnbrdf_scene *s,
 
 static void put_lobes(hnbrdf_printer *out, const hnbrdf_lobes *lobes)
 {
-    hnbrdf_put(out, "hnbrdf_lobes(");
     hnbrdf_put_vector(out, 2, lobes->scale, HNBRDF_LOBES);
     for (int k = 0; k < HNBRDF_LOBES; k++) {
         hnbrdf_put(out, ", ");
         hnbrdf_put_vector(out, 4, lobes->share[k], HNBRDF_LOBE_KNOTS);
     }
-    hnbrdf_put(out, ")");
 }
 
 void hnbrdf_put_material(hnbrdf_printer *out, const hnbrdf_scene *s, int k)
@@ -141,18 +140,27 @@ void hnbrdf_put_material(hnbrdf_printer *out, const hnbrdf_scene *s, int k)
     hnbrdf_put(out, ")");
 }
 
+/* A name in a comment, where some engines end a line at a semicolon. */
+static void put_name(hnbrdf_printer *out, const char *name)
+{
+    for (; *name; name++)
+        hnbrdf_put_bytes(out, *name == ';' ? "," : name, 1);
+}
+
 void hnbrdf_put_materials(hnbrdf_printer *out, const hnbrdf_scene *s)
 {
-    for (int k = 0; k < s->count; k++)
-        hnbrdf_put(out, "#define HNBRDF_MATERIAL_%s %d // \"%s\"\n", s->names[k], k,
-                   s->desc->names[hnbrdf_scene_index(s, k)]);
+    for (int k = 0; k < s->count; k++) {
+        hnbrdf_put(out, "#define HNBRDF_MATERIAL_%s %d // \"", s->names[k], k);
+        put_name(out, s->desc->names[hnbrdf_scene_index(s, k)]);
+        hnbrdf_put(out, "\"\n");
+    }
     hnbrdf_put(out, "#define HNBRDF_MATERIAL_COUNT %d\n\n", s->count);
     hnbrdf_put(out,
                "// Any number outside of [0, HNBRDF_MATERIAL_COUNT) stands for the last one.\n");
-    hnbrdf_put(out, "hnbrdf_material hnbrdf_scene_material(int index)\n{\n");
+    hnbrdf_put(out, "hnbrdf_material hnbrdf_scene_material(int material_index)\n{\n");
     for (int k = 0; k < s->count; k++) {
         if (k + 1 < s->count)
-            hnbrdf_put(out, "    if (index == %d)\n    ", k);
+            hnbrdf_put(out, "    if (material_index == %d)\n    ", k);
         hnbrdf_put(out, "    return ");
         hnbrdf_put_material(out, s, k);
         hnbrdf_put(out, ";\n");

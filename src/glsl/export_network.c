@@ -24,7 +24,7 @@ static const char HALF_TYPES[] =
     "#define HNBRDF_HALF_NATIVE 0\n"
     "#endif\n"
     "#endif\n"
-    "#if HNBRDF_HALF_NATIVE\n"
+    "#if HNBRDF_HALF_NATIVE == 1\n"
     "#extension GL_EXT_shader_explicit_arithmetic_types_float16 : require\n"
     "#define HNBRDF_HALF float16_t // in declarations\n"
     "#define HNBRDF_HALF2 f16vec2\n"
@@ -67,13 +67,14 @@ static void put_constructor(hnbrdf_printer *out, int half, int width)
 /* HardGELU that ends at what the next layer can sum; as low as it goes, -0.1875, any layer can. */
 static void put_half_unit(hnbrdf_printer *out, int width)
 {
-    hnbrdf_put(
-        out,
-        "HNBRDF_PRECISE HNBRDF_HALF%s hnbrdf_half_unit(HNBRDF_HALF%s x, HNBRDF_HALF limit)\n{\n",
-        SUFFIX[width], SUFFIX[width]);
+    hnbrdf_put(out, "HNBRDF_HALF%s hnbrdf_half_unit(HNBRDF_HALF%s x, HNBRDF_HALF x_limit)\n{\n",
+               SUFFIX[width], SUFFIX[width]);
     hnbrdf_put(out,
-               "    return min(x * clamp(x * HNBRDF_H(0.333251953) + HNBRDF_H(0.5), HNBRDF_H(0.0), "
-               "HNBRDF_H(1.0)), %s(limit));\n}\n\n",
+               "    HNBRDF_PRECISE HNBRDF_HALF%s value_out =\n"
+               "        x * clamp(x * HNBRDF_H(0.333251953) + HNBRDF_H(0.5), HNBRDF_H(0.0), "
+               "HNBRDF_H(1.0));\n"
+               "    return min(value_out, %s(x_limit));\n}\n\n",
+               SUFFIX[width],
                width == 4   ? "HNBRDF_H4"
                : width == 3 ? "HNBRDF_H3"
                : width == 2 ? "HNBRDF_H2"
@@ -89,20 +90,25 @@ static void put_limit(hnbrdf_printer *out, const hnbrdf_scene *s, int layer)
         hnbrdf_put_float(out, hnbrdf_half_limit(s->desc, layer));
 }
 
-/* i0, i1, z0, ...: encoded directions and latent code in half precision, kept from overflowing. */
+/* i_0, i_1, z_0, ...: encoded directions and latent code in half precision, kept from
+ * overflowing. */
 static void put_half_inputs(hnbrdf_printer *out, const hnbrdf_scene *s)
 {
-    hnbrdf_put(out, "    float limit = ");
+    hnbrdf_put(out, "    float x_limit = ");
     put_limit(out, s, 0);
     hnbrdf_put(out, ";\n");
     for (int i = 0; i < 2; i++)
-        hnbrdf_put(out, "    HNBRDF_HALF3 i%d = HNBRDF_H3(hnbrdf_clamp(x%d, -limit, limit));\n", i,
+        hnbrdf_put(out,
+                   "    HNBRDF_HALF3 i_%d = HNBRDF_H3(hnbrdf_clamp(x_%d, -x_limit, x_limit));\n", i,
                    i);
     for (int v = 0; v < (s->desc->latent + 3) / 4; v++)
-        hnbrdf_put(out,
-                   "    HNBRDF_HALF4 z%d = HNBRDF_H4(hnbrdf_clamp(m.latent%d.xyz, -limit, limit), "
-                   "hnbrdf_clamp(m.latent%d.w, -limit, limit));\n",
-                   v, v, v);
+        hnbrdf_put(
+            out,
+            "    HNBRDF_HALF4 z_%d = HNBRDF_H4(hnbrdf_clamp(material_in.latent%d.xyz, -x_limit, "
+            "x_limit),\n"
+            "                                 hnbrdf_clamp(material_in.latent%d.w, "
+            "-x_limit, x_limit));\n",
+            v, v, v);
 }
 
 /* ---- What all styles share ------------------------------------------------------------------- */
@@ -130,15 +136,15 @@ static int width_at(const hnbrdf_scene *s, int layer, int row)
     return left < most ? left : most;
 }
 
-/* The values of layer k are a0, a1, ... of the first hidden layer, b0, ... of the second; of four
- * at a time a0 is the first group. */
+/* The values of layer k are a_0, a_1, ... of the first hidden layer, b_0, ... of the second; of
+ * four at a time a_0 is the first group. */
 static void put_unit(hnbrdf_printer *out, const hnbrdf_scene *s, int layer, int unit)
 {
     if (s->style != HNBRDF_GLSL_COLUMNS) {
-        hnbrdf_put(out, "%c%d", 'a' + layer, unit);
+        hnbrdf_put(out, "%c_%d", 'a' + layer, unit);
         return;
     }
-    hnbrdf_put(out, "%c%d", 'a' + layer, unit / 4);
+    hnbrdf_put(out, "%c_%d", 'a' + layer, unit / 4);
     if (width_at(s, 0, unit / 4 * 4) > 1)
         hnbrdf_put(out, ".%c", "xyzw"[unit % 4]);
 }
@@ -187,7 +193,7 @@ static void put_bias(hnbrdf_printer *out, const hnbrdf_scene *s, int layer, int 
 {
     float numbers[4] = {0.0f};
     if (layer == 0 && hnbrdf_scene_bias_vectors(s) > 0) {
-        hnbrdf_put(out, "m.bias%d.%.*s", row / 4, width, &"xyzw"[row % 4]);
+        hnbrdf_put(out, "material_in.bias_%d.%.*s", row / 4, width, &"xyzw"[row % 4]);
         return;
     }
     for (int r = 0; r < width; r++)
@@ -228,7 +234,7 @@ static void put_hidden_layer(hnbrdf_printer *out, const hnbrdf_scene *s, int lay
         int width = width_at(s, layer, row);
         hnbrdf_put(out, "    HNBRDF_PRECISE ");
         put_type(out, half, width);
-        hnbrdf_put(out, " %c%d = %s(", 'a' + layer, row / step,
+        hnbrdf_put(out, " %c_%d = %s(", 'a' + layer, row / step,
                    half ? "hnbrdf_half_unit" : "hnbrdf_hard_gelu");
         put_sum(out, s, layer, row, width);
         if (half) {
@@ -248,9 +254,9 @@ static void put_single(hnbrdf_printer *out, const hnbrdf_scene *s)
         int width = width_at(s, layer - 1, row);
         hnbrdf_put(out, "    ");
         put_type(out, 0, width);
-        hnbrdf_put(out, " %c%d = ", 'a' + layer, row / step);
+        hnbrdf_put(out, " %c_%d = ", 'a' + layer, row / step);
         put_type(out, 0, width);
-        hnbrdf_put(out, "(%c%d);\n", 'a' + layer - 1, row / step);
+        hnbrdf_put(out, "(%c_%d);\n", 'a' + layer - 1, row / step);
     }
 }
 
@@ -261,13 +267,15 @@ static void put_outputs(hnbrdf_printer *out, const hnbrdf_scene *s)
     for (int row = 0; row < hnbrdf_layer_outputs(s->desc, layer); row += step) {
         hnbrdf_put(out, "    HNBRDF_PRECISE ");
         put_type(out, 0, step);
-        hnbrdf_put(out, " out%d = ", row / step);
+        hnbrdf_put(out, " out_%d = ", row / step);
         put_sum(out, s, layer, row, step);
         hnbrdf_put(out, ";\n");
     }
-    hnbrdf_put(out, step == 3 ? "    c = out0;\n" : "    c = vec3(out0, out1, out2);\n");
+    hnbrdf_put(out,
+               step == 3 ? "    c_net = out_0;\n" : "    c_net = vec3(out_0, out_1, out_2);\n");
     if (hybrid)
-        hnbrdf_put(out, step == 3 ? "    g = out1;\n" : "    g = vec3(out3, out4, out5);\n");
+        hnbrdf_put(out,
+                   step == 3 ? "    g_net = out_1;\n" : "    g_net = vec3(out_3, out_4, out_5);\n");
 }
 
 static void put_literals(hnbrdf_printer *out, const hnbrdf_scene *s)
@@ -302,9 +310,12 @@ void hnbrdf_put_network(hnbrdf_printer *out, const hnbrdf_scene *s)
         hnbrdf_put_weights_block(out, s);
     put_activations(out, s);
     hnbrdf_put(
-        out, "// The network's outputs from the encoded directions x0, x1 and the latent code.\n");
-    hnbrdf_put(out, "void hnbrdf_network(hnbrdf_material m, vec3 x0, vec3 x1, out vec3 c%s)\n{\n",
-               s->desc->kind == HNBRDF_KIND_HYBRID ? ", out vec3 g" : "");
+        out,
+        "// The network's outputs from the encoded directions x_0, x_1 and the latent code.\n");
+    hnbrdf_put(out,
+               "void hnbrdf_network(hnbrdf_material material_in, vec3 x_0, vec3 x_1, out vec3 "
+               "c_net%s)\n{\n",
+               s->desc->kind == HNBRDF_KIND_HYBRID ? ", out vec3 g_net" : "");
     if (s->precision == HNBRDF_GLSL_HALF)
         put_half_inputs(out, s);
     if (s->style == HNBRDF_GLSL_UNIFORM)

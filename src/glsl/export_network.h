@@ -5,8 +5,9 @@
 #include "glsl/export_scene.h"
 #include "glsl/printer.h"
 
-/* void hnbrdf_network(hnbrdf_material m, vec3 x0, vec3 x1, out vec3 c[, out vec3 g]); the latent
- * code is m.latent0, m.latent1, ... Only for kinds with a network. */
+/* void hnbrdf_network(hnbrdf_material material_in, vec3 x_0, vec3 x_1, out vec3 c_net[, out vec3
+ * g_net]), the latent code is in latent0, latent1, ... of the material. Only for kinds with a
+ * network. */
 void hnbrdf_put_network(hnbrdf_printer *out, const hnbrdf_scene *s);
 
 /* The numbers s, m and b of the model (0, 1, 2) as an expression. */

@@ -27,7 +27,7 @@ static void put_channels(hnbrdf_printer *out, int first, int count)
         hnbrdf_put(out, "vec%d(", count);
     while (count > 0) {
         int part = 4 - first % 4 < count ? 4 - first % 4 : count;
-        hnbrdf_put(out, "t%d.%.*s%s", first / 4, part, &"xyzw"[first % 4],
+        hnbrdf_put(out, "t_%d.%.*s%s", first / 4, part, &"xyzw"[first % 4],
                    part < count ? ", " : "");
         first += part;
         count -= part;
@@ -65,7 +65,7 @@ static void put_clamped(hnbrdf_printer *out, const char *expression, const hnbrd
 
 /* kd, eta and alpha of a material, or of what it was fitted with. */
 typedef struct unpacked {
-    const char *to;     /* "m." */
+    const char *to;     /* "material_out." */
     const char *prefix; /* of the variables they are decoded in */
     const hnbrdf_field *kd, *r, *alpha;
     int vector; /* alpha is a vec2 */
@@ -117,32 +117,36 @@ static void put_fitted(hnbrdf_printer *out, const hnbrdf_scene *s,
                        const hnbrdf_texel_layout *layout)
 {
     if (s->packing->edited) {
-        put_analytic_fields(out, &(unpacked){"m.fitted.", "fitted_", &layout->fitted_kd,
+        put_analytic_fields(out, &(unpacked){"material_out.fitted_", "fitted_", &layout->fitted_kd,
                                              &layout->fitted_r, &layout->fitted_alpha, 1});
     } else { /* others of the scene are edited */
-        hnbrdf_put(out, "    m.fitted = hnbrdf_fitted(m.kd, m.eta, %s);\n",
-                   s->anisotropic ? "m.alpha" : "vec2(m.alpha)");
+        hnbrdf_put(out,
+                   "    material_out.fitted_kd = material_out.kd;\n"
+                   "    material_out.fitted_eta = material_out.eta;\n"
+                   "    material_out.fitted_alpha = %s;\n",
+                   s->anisotropic ? "material_out.alpha" : "vec2(material_out.alpha)");
     }
 }
 
 static void put_rotation(hnbrdf_printer *out, const hnbrdf_texel_layout *layout)
 {
-    put_decoded(out, "turn", &layout->rotation);
-    hnbrdf_put(out, "    turn = vec2(");
-    put_clamped(out, "turn.x", &layout->rotation);
+    put_decoded(out, "turn_cs", &layout->rotation);
+    hnbrdf_put(out, "    turn_cs = vec2(");
+    put_clamped(out, "turn_cs.x", &layout->rotation);
     hnbrdf_put(out, ", ");
-    put_clamped(out, "turn.y", &layout->rotation);
-    hnbrdf_put(out, ");\n    HNBRDF_PRECISE float length2 = turn.x * turn.x + turn.y * turn.y;\n"
-                    "    m.rotation = length2 > ");
+    put_clamped(out, "turn_cs.y", &layout->rotation);
+    hnbrdf_put(out, ");\n    HNBRDF_PRECISE float length_2 = turn_cs.x * turn_cs.x + turn_cs.y * "
+                    "turn_cs.y;\n"
+                    "    material_out.rotation = length_2 > ");
     hnbrdf_put_float(out, layout->shortest2);
-    hnbrdf_put(out, " ? turn / sqrt(length2) : vec2(1.0, 0.0);\n");
+    hnbrdf_put(out, " ? turn_cs / sqrt(length_2) : vec2(1.0, 0.0);\n");
 }
 
 /* Number i of the latent code, as an expression of its own. */
 static void put_latent_number(hnbrdf_printer *out, const hnbrdf_field *field, int i)
 {
     char name[16];
-    snprintf(name, sizeof name, "z%d", i);
+    snprintf(name, sizeof name, "z_%d", i);
     put_clamped(out, name, field);
 }
 
@@ -151,11 +155,11 @@ static void put_latent(hnbrdf_printer *out, const hnbrdf_packing *packing,
 {
     for (int i = 0; i < packing->latent; i++) {
         char name[16];
-        snprintf(name, sizeof name, "z%d", i);
+        snprintf(name, sizeof name, "z_%d", i);
         put_decoded(out, name, &layout->latent[i]);
     }
     for (int v = 0; v < (packing->latent + 3) / 4; v++) {
-        hnbrdf_put(out, "    m.latent%d = vec4(", v);
+        hnbrdf_put(out, "    material_out.latent%d = vec4(", v);
         for (int i = 4 * v; i < 4 * v + 4; i++) {
             hnbrdf_put(out, i > 4 * v ? ", " : "");
             if (i < packing->latent)
@@ -179,22 +183,28 @@ void hnbrdf_put_unpack(hnbrdf_printer *out, const hnbrdf_scene *s)
                texels, texels == 1 ? "" : "s", format_name(packing));
     hnbrdf_put(out, "#define HNBRDF_TEXELS %d\nhnbrdf_material hnbrdf_material_unpack(", texels);
     for (int t = 0; t < texels; t++)
-        hnbrdf_put(out, "%svec4 t%d", t > 0 ? ", " : "", t);
-    hnbrdf_put(out, ")\n{\n    hnbrdf_material m;\n");
+        hnbrdf_put(out, "%svec4 t_%d", t > 0 ? ", " : "", t);
+    hnbrdf_put(out, ")\n{\n    hnbrdf_material material_out;\n");
     if (packing->analytic)
-        put_analytic_fields(
-            out, &(unpacked){"m.", "", &layout.kd, &layout.r, &layout.alpha, s->anisotropic});
+        put_analytic_fields(out, &(unpacked){"material_out.", "", &layout.kd, &layout.r,
+                                             &layout.alpha, s->anisotropic});
     if (s->edited)
         put_fitted(out, s, &layout);
     if (packing->rotated)
         put_rotation(out, &layout);
     else if (hnbrdf_scene_has_rotation(s))
-        hnbrdf_put(out, "    m.rotation = vec2(1.0, 0.0);\n");
+        hnbrdf_put(out, "    material_out.rotation = vec2(1.0, 0.0);\n");
     put_latent(out, packing, &layout);
     if (hnbrdf_scene_has_sampling(s))
         hnbrdf_put(out,
                    packing->analytic
-                       ? "    m.lobes = hnbrdf_lobes_guess(m.kd, m.eta);\n"
-                       : "    m.lobes = hnbrdf_lobes(vec2(1.0, 0.0), vec4(0.0), vec4(0.0));\n");
-    hnbrdf_put(out, "    return m;\n}\n\n");
+                       ? "    hnbrdf_lobes lobes_out = hnbrdf_lobes_guess(material_out.kd, "
+                         "material_out.eta);\n"
+                       : "    hnbrdf_lobes lobes_out = hnbrdf_lobes(vec2(1.0, 0.0), vec4(0.0), "
+                         "vec4(0.0));\n");
+    if (hnbrdf_scene_has_sampling(s))
+        hnbrdf_put(out, "    material_out.lobe_scale = lobes_out.lobe_scale;\n"
+                        "    material_out.lobe_share_0 = lobes_out.share_0;\n"
+                        "    material_out.lobe_share_1 = lobes_out.share_1;\n");
+    hnbrdf_put(out, "    return material_out;\n}\n\n");
 }

@@ -41,8 +41,9 @@ static void write_reader(const hnbrdf_model_desc *desc, char text[1024])
                            AT_KD, AT_ETA, AT_ALPHA);
     if (desc->kind == HNBRDF_KIND_HYBRID)
         length += snprintf(text + length, 1024 - (size_t)length,
-                           "    m.fitted = hnbrdf_fitted(read3(at + %d), read3(at + %d), "
-                           "vec2(inputs[at + %d], inputs[at + %d]));\n",
+                           "    m.fitted_kd = read3(at + %d);\n    m.fitted_eta = read3(at + "
+                           "%d);\n"
+                           "    m.fitted_alpha = vec2(inputs[at + %d], inputs[at + %d]);\n",
                            AT_FITTED, AT_FITTED + 3, AT_FITTED + 6, AT_FITTED + 7);
     length += snprintf(text + length, 1024 - (size_t)length,
                        "    m.rotation = read4(at + %d).xy;\n", AT_ROTATION);
@@ -50,8 +51,8 @@ static void write_reader(const hnbrdf_model_desc *desc, char text[1024])
         length += snprintf(text + length, 1024 - (size_t)length,
                            "    m.latent%d = read4(at + %d);\n", v, AT_LATENT + 4 * v);
     snprintf(text + length, 1024 - (size_t)length,
-             "    m.lobes = hnbrdf_lobes(read4(at + %d).xy, read4(at + %d), read4(at + %d));\n    "
-             "return m;\n}\n",
+             "    m.lobe_scale = read4(at + %d).xy;\n    m.lobe_share_0 = read4(at + %d);\n"
+             "    m.lobe_share_1 = read4(at + %d);\n    return m;\n}\n",
              AT_SCALE, AT_SHARE, AT_SHARE + HNBRDF_LOBE_KNOTS);
 }
 
