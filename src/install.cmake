@@ -24,6 +24,7 @@ install(FILES shaders/hybrid_brdf.glsl DESTINATION ${CMAKE_INSTALL_DATADIR}/hnbr
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 if(TARGET hnbrdf_cli)
   install(TARGETS hnbrdf_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  include(src/help.cmake)
 endif()
 
 # find_package(hnbrdf)

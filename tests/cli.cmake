@@ -18,3 +18,7 @@ hnbrdf_cli_test(test_cli_data ${PROJECT_SOURCE_DIR})
 hnbrdf_cli_test(test_measured_cli)
 hnbrdf_cli_test(test_cli_shared ${PROJECT_SOURCE_DIR}/../shared)
 hnbrdf_cli_test(test_scene_cli ${PROJECT_SOURCE_DIR}/examples/models/rgl_32x2.safetensors)
+if(HNBRDF_INSTALL AND NOT CMAKE_CROSSCOMPILING) # src/help.cmake
+  add_test(NAME test_help_pages COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/test_help_pages.sh
+    $<TARGET_FILE:hnbrdf_cli> ${PROJECT_BINARY_DIR}/generated/help)
+endif()

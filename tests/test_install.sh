@@ -18,7 +18,8 @@ rm -rf "$scratch"
 cmake --install "$build" --prefix "$scratch/first" > "$scratch.log" || { cat "$scratch.log"; fail "install"; }
 mv "$scratch/first" "$scratch/prefix" # nothing installed may remember where it was put
 prefix=$scratch/prefix
-for file in include/hnbrdf/hnbrdf.h share/hnbrdf/hybrid_brdf.glsl bin/hnbrdf; do
+for file in include/hnbrdf/hnbrdf.h share/hnbrdf/hybrid_brdf.glsl bin/hnbrdf share/man/man1/hnbrdf-fit.1 \
+    share/bash-completion/completions/hnbrdf; do
     [ -e "$prefix/$file" ] || fail "$file was not installed"
 done
 ! grep -rlF -e "$source" -e "$build" "$prefix/include" "$prefix/share" > "$scratch.log" ||
