@@ -6,13 +6,13 @@ function(hnbrdf_room name)
 endfunction()
 
 hnbrdf_room(base
-  clock.c csv.c files.c files_posix.c files_windows.c foreign.c guess.c interrupt.c json.c probe.c
-  text.c text_buffer.c threads.c write.c)
+  clock.c csv.c files.c files_posix.c files_windows.c foreign.c guess.c interrupt.c json.c printer.c
+  probe.c text.c text_buffer.c threads.c write.c)
 # Each file of base that an installed library needs is in exactly one of the static ones: here what
 # libhnbrdf, libhnbrdf_fit and libhnbrdf_bake hold. Shared libraries take what they need from
 # hnbrdf_base and hide it.
 set(HNBRDF_BASE_HNBRDF src/base/files.c src/base/files_posix.c src/base/files_windows.c
-  src/base/foreign.c src/base/guess.c src/base/json.c src/base/text.c)
+  src/base/foreign.c src/base/guess.c src/base/json.c src/base/printer.c src/base/text.c)
 set(HNBRDF_BASE_FIT src/base/clock.c src/base/threads.c)
 set(HNBRDF_BASE_BAKE src/base/probe.c)
 hnbrdf_room(core
@@ -24,9 +24,13 @@ hnbrdf_room(file
 hnbrdf_room(import
   brdf_network.c brdf_parameters.c brdf_text.c import_brdf.c published_name.c)
 hnbrdf_room(glsl
-  export_evaluate.c export_glsl.c export_input.c export_library.c export_loops.c export_material.c
-  export_network.c export_scene.c export_unpack.c export_weights.c half.c macro_names.c
-  names.c printer.c)
+  export_evaluate.c export_glsl.c export_input.c export_language.c export_library.c export_loops.c
+  export_material.c export_network.c export_scene.c export_unpack.c export_weights.c half.c
+  macro_names.c names.c vector.c)
+hnbrdf_room(language
+  builtin.c c_like.c condition.c hlsl.c macro.c parse.c parse_expression.c parse_statement.c
+  parse_tokens.c preprocess.c print.c print_expression.c print_statement.c token.c translate.c
+  translation.c type.c)
 hnbrdf_room(lobes
   fit_lobes.c)
 hnbrdf_room(measured

@@ -1,5 +1,7 @@
 /* glsl_scenes.c: writes scenes of many shapes into a directory, for the tests that are shell
- * scripts: NAME.glsl (include), NAME.alone.glsl (standalone), NAME.safetensors (the model). */
+ * scripts: NAME.glsl (include), NAME.alone.glsl (standalone), NAME.safetensors (the model). With a
+ * language after the directory in that: NAME.hlsl, NAME.alone.hlsl, NAME.exact.hlsl (standalone),
+ * and what they share, hybrid_brdf.hlsl. */
 #include "gpu_support.h"
 
 #include <stdio.h>
@@ -90,6 +92,18 @@ static int write_text(const char *directory, const char *name, const char *endin
     return file && fclose(file) == 0 && written;
 }
 
+/* The text of these options with this ending. */
+static int write_styled(const char *directory, const char *name, const char *ending,
+                        const hnbrdf_model *model, const hnbrdf_glsl_options *options)
+{
+    char after[64];
+    char *text = styled_text(model, options);
+    snprintf(after, sizeof after, "%s.%s", ending, hnbrdf_shading_language_name(options->language));
+    const int written = write_text(directory, name, after, text);
+    free(text);
+    return written;
+}
+
 static int write_scene(const char *directory, const char *name, const scene_shape *shape,
                        hnbrdf_glsl_options options, int packed)
 {
@@ -99,28 +113,34 @@ static int write_scene(const char *directory, const char *name, const scene_shap
     if (hnbrdf_packing_init(model, NULL, 0, HNBRDF_TEXEL_RGBA8, &packing, NULL))
         return 0;
     options.packing = packed ? &packing : NULL;
-    char *include = styled_text(model, &options);
+    int written = write_styled(directory, name, "", model, &options);
     options.standalone = 1;
-    char *alone = styled_text(model, &options);
+    written &= write_styled(directory, name, ".alone", model, &options);
+    options.exact = 1;
+    if (options.language != HNBRDF_LANGUAGE_GLSL)
+        written &= write_styled(directory, name, ".exact", model, &options);
     snprintf(path, sizeof path, "%s/%s.safetensors", directory, name);
-    int written = write_text(directory, name, ".glsl", include) &&
-                  write_text(directory, name, ".alone.glsl", alone) &&
-                  hnbrdf_model_save(model, path, NULL) == HNBRDF_OK;
-    free(include);
-    free(alone);
+    written &= hnbrdf_model_save(model, path, NULL) == HNBRDF_OK;
     hnbrdf_model_free(model);
     return written;
 }
 
 int main(int argc, char **argv)
 {
-    if (argc != 2)
+    hnbrdf_shading_language language = HNBRDF_LANGUAGE_GLSL;
+    if (argc < 2 || argc > 3 ||
+        (argc == 3 && !hnbrdf_shading_language_from_name(argv[2], &language)))
         return 2;
+    const hnbrdf_glsl_options shared = {.language = language, .library = 1};
+    if (language != HNBRDF_LANGUAGE_GLSL &&
+        !write_styled(argv[1], "hybrid_brdf", "", NULL, &shared))
+        return 1;
     for (size_t i = 0; i < sizeof scenes / sizeof scenes[0]; i++) {
         const hnbrdf_glsl_options options = {.weights = scenes[i].weights,
                                              .precision = scenes[i].precision,
                                              .only = scenes[i].only,
-                                             .fixed = scenes[i].fixed};
+                                             .fixed = scenes[i].fixed,
+                                             .language = language};
         if (!write_scene(argv[1], scenes[i].name, &scenes[i].shape, options, scenes[i].packed))
             return 1;
         printf("%s\n", scenes[i].name);

@@ -1,8 +1,8 @@
 /* glsl.h: write a model's network and materials as a shader include. Part of libhnbrdf.
  *
  * The include works together with shaders/hybrid_brdf.glsl, which holds the functions that do not
- * depend on the model. Both are GLSL for Vulkan (450), desktop GL (330) and GL ES (300); the other
- * languages are made from these texts. examples/shaders.md tells how to use them. */
+ * depend on the model. Both are GLSL for Vulkan (450), desktop GL (330) and GL ES (300); HLSL and
+ * other languages are made from these texts. examples/shaders.md tells how to use them. */
 #ifndef HNBRDF_GLSL_H
 #define HNBRDF_GLSL_H
 
@@ -60,10 +60,22 @@ typedef enum hnbrdf_glsl_only {
     HNBRDF_GLSL_EVAL_SAMPLE     /* hnbrdf_eval, hnbrdf_sample, hnbrdf_pdf */
 } hnbrdf_glsl_only;
 
-/* What the text is written in. */
+/* What the text is written in. All are made from the GLSL, so that no formula stands twice;
+ * directives are resolved, and names, order and comments are those of the GLSL. */
 typedef enum hnbrdf_shading_language {
-    HNBRDF_LANGUAGE_GLSL = 0 /* Vulkan GLSL 450, desktop GL 330, GL ES 300 */
+    HNBRDF_LANGUAGE_GLSL = 0, /* Vulkan GLSL 450, desktop GL 330, GL ES 300 */
+    HNBRDF_LANGUAGE_HLSL      /* Shader Model 5.0 (FXC) and 6 (DXC) */
 } hnbrdf_shading_language;
+
+/* "glsl", "hlsl": also the ending of files; NULL for any other value. */
+HNBRDF_EXPERIMENTAL const char *hnbrdf_shading_language_name(hnbrdf_shading_language language);
+/* The way back: 1 and *language, or 0 for any other name, and then it is untouched. */
+HNBRDF_EXPERIMENTAL int hnbrdf_shading_language_from_name(const char *name,
+                                                          hnbrdf_shading_language *language);
+/* The style that compilers of this language take best: constants in GLSL; else columns, as FXC
+ * takes many seconds for constants. */
+HNBRDF_EXPERIMENTAL hnbrdf_glsl_weights
+hnbrdf_shading_language_weights(hnbrdf_shading_language language);
 
 /* Zero-initialise for defaults. */
 typedef struct hnbrdf_glsl_options {
@@ -94,6 +106,13 @@ typedef struct hnbrdf_glsl_options {
      * such a change moves f_a alone */
     int editable;
     hnbrdf_shading_language language;
+    /* 1: an exact build, as with HNBRDF_EXACT 1. In GLSL a standalone text or the shared part then
+     * begins with that definition; elsewhere exp and log are made of exact operations in the text,
+     * and arithmetic is marked `precise` where the language has that */
+    int exact;
+    /* 1: the shared part alone, what hybrid_brdf.glsl is in GLSL; texts that are not standalone
+     * need it before them. The model may be NULL; of the options language and exact matter */
+    int library;
 } hnbrdf_glsl_options;
 
 /* Write one shader include with the network, the chosen materials, and the functions

@@ -11,7 +11,9 @@
 static const cli_command command = {
     "export",
     "MODEL [--materials A,B] [--only eval|eval+sample] [--fixed|--editable] [--weights STYLE]\n"
-    "              [--precision P] [--conserve] [--pack P] [--standalone] -o FILE.glsl",
+    "              [--precision P] [--conserve] [--pack P] [--standalone] [--language L] [--exact] "
+    "-o FILE\n"
+    "       hnbrdf export --library [--language L] [--exact] -o FILE",
     "Writes one GLSL include: the network, the chosen materials, and\n"
     "  vec3 hnbrdf_eval(hnbrdf_material m, vec3 wi, vec3 wo)      1/sr, without the cosine\n"
     "  hnbrdf_sample_result hnbrdf_sample(hnbrdf_material m, vec3 wo, vec2 u)\n"
@@ -36,6 +38,12 @@ static const cli_command command = {
     "that change m.kd, m.eta or m.alpha themselves, which moves the analytic part alone "
     "otherwise.\n"
     "\n"
+    "--language hlsl writes HLSL for Shader Model 5.0 (FXC) and newer, made from the same GLSL: "
+    "the same names,\n"
+    "order and comments. What is not --standalone needs the text of --library --language hlsl "
+    "before it.\n"
+    "--exact: exp and log of exact operations, and `precise` where the language has it.\n"
+    "\n"
     "--weights constants is the fastest, one shader a network; columns are the same constants in "
     "vec4.\n"
     "uniform reads them from a buffer whose bytes --weights-out writes: slower, but compiled soon, "
@@ -57,6 +65,8 @@ static const cli_command command = {
     "hnbrdf export model.safetensors --weights uniform --weights-out weights.bin -o scene.glsl\n"
     "hnbrdf export model.safetensors --materials moon-dust --only eval --fixed --standalone -o "
     "dust.glsl\n"
+    "hnbrdf export model.safetensors --language hlsl --standalone -o scene.hlsl\n"
+    "hnbrdf export --library --language hlsl -o hybrid_brdf.hlsl\n"
     "hnbrdf export model.safetensors --pack half --texels materials.bin -o scene.glsl",
 };
 
@@ -149,8 +159,9 @@ static void print_packing(const report_texels *texels, FILE *file)
     cli_progress_end(&progress);
 }
 
-static int export_to(const hnbrdf_model *model, const hnbrdf_glsl_options *options,
-                     const char *path, const report_texels *texels)
+/* The text; *bytes: how many. */
+static int write_shader(const hnbrdf_model *model, const hnbrdf_glsl_options *options,
+                        const char *path, size_t *bytes)
 {
     cli_output output;
     if (cli_output_open(path, &output) != CLI_OK)
@@ -162,9 +173,17 @@ static int export_to(const hnbrdf_model *model, const hnbrdf_glsl_options *optio
         cli_output_discard(&output);
         return cli_fail("%s: %s", path, error.text);
     }
-    if (cli_output_close(&output) != CLI_OK)
+    *bytes = to.bytes;
+    return cli_output_close(&output);
+}
+
+static int export_to(const hnbrdf_model *model, const hnbrdf_glsl_options *options,
+                     const char *path, const report_texels *texels)
+{
+    size_t bytes = 0;
+    if (write_shader(model, options, path, &bytes) != CLI_OK)
         return CLI_FAILURE;
-    print_summary(cli_words(), model, options, path, to.bytes);
+    print_summary(cli_words(), model, options, path, bytes);
     if (texels)
         print_packing(texels, cli_words());
     return CLI_OK;
@@ -176,8 +195,24 @@ typedef struct settings {
     int pack;                    /* hnbrdf_texel_format, -1 for none */
     int editable;
     int conserve;
+    cli_word language;
+    int exact, library;
     cli_word weights, precision;
 } settings;
+
+/* --library: what all scenes share. */
+static int export_library(const settings *set)
+{
+    const hnbrdf_glsl_options options = {.language = (hnbrdf_shading_language)set->language.value,
+                                         .exact = set->exact,
+                                         .library = 1};
+    size_t bytes = 0;
+    const int result = write_shader(NULL, &options, set->path, &bytes);
+    if (result == CLI_OK)
+        fprintf(cli_words(), "%s: the parts that all scenes share, %s%s, %zu bytes\n", set->path,
+                hnbrdf_shading_language_name(options.language), set->exact ? ", exact" : "", bytes);
+    return result;
+}
 
 /* A factor for each material that keeps its albedo at most 1, a little less as that is known to
  * 0.5 %; says which. malloc'ed, NULL after a message. */
@@ -215,7 +250,9 @@ static int export_materials(const hnbrdf_model *model, const settings *set, cons
                                          .energy = energy,
                                          .packing = set->pack >= 0 ? &texels.packing : NULL,
                                          .weights = (hnbrdf_glsl_weights)set->weights.value,
-                                         .precision = (hnbrdf_glsl_precision)set->precision.value};
+                                         .precision = (hnbrdf_glsl_precision)set->precision.value,
+                                         .language = (hnbrdf_shading_language)set->language.value,
+                                         .exact = set->exact};
     warn(model, &options);
     if (set->weights_path && write_weights(model, &options, set->weights_path) != CLI_OK)
         return CLI_FAILURE;
@@ -228,7 +265,8 @@ int cmd_export(int argc, char **argv)
 {
     settings set = {.only = -1,
                     .pack = -1,
-                    .weights = {HNBRDF_GLSL_CONSTANTS, cli_weights_word},
+                    .language = {HNBRDF_LANGUAGE_GLSL, cli_language_word},
+                    .weights = {-1, cli_weights_word},
                     .precision = {HNBRDF_GLSL_FLOAT, cli_precision_word}};
     int count;
     const cli_option options[] = {
@@ -242,8 +280,14 @@ int cmd_export(int argc, char **argv)
          "kd, eta, alpha that the shader changes carry the network's part along"},
         {"standalone", 0, CLI_FLAG, &set.standalone, 0, 0, NULL,
          "put the text of hybrid_brdf.glsl first"},
+        {"language", 'l', CLI_WORD, &set.language, 0, 0, "glsl|hlsl",
+         "what to write (default glsl)"},
+        {"exact", 0, CLI_FLAG, &set.exact, 0, 0, NULL,
+         "the bits of C, on devices that round + - * / sqrt correctly"},
+        {"library", 0, CLI_FLAG, &set.library, 0, 0, NULL,
+         "what all scenes share, hybrid_brdf.glsl, in that language; takes no MODEL"},
         {"weights", 'w', CLI_WORD, &set.weights, 0, 0, "constants|columns|uniform",
-         "how the shader holds the network (default constants)"},
+         "how the shader holds the network (default constants in glsl, else columns)"},
         {"weights-out", 0, CLI_WRITE_BYTES, &set.weights_path, 0, 0, "FILE",
          "with --weights uniform: where to write the bytes of the buffer"},
         {"precision", 0, CLI_WORD, &set.precision, 0, 0, "float|half",
@@ -261,10 +305,19 @@ int cmd_export(int argc, char **argv)
     int result = cli_parse(&command, options, argc, argv, &count);
     if (result >= 0)
         return result;
-    if (count != 1)
-        return cli_usage(&command, "found %d arguments, expected one MODEL", count);
+    if (set.weights.value < 0)
+        set.weights.value =
+            (int)hnbrdf_shading_language_weights((hnbrdf_shading_language)set.language.value);
+    if (count != (set.library ? 0 : 1))
+        return cli_usage(&command, "found %d arguments, expected %s", count,
+                         set.library ? "none with --library" : "one MODEL");
     if (!set.path)
         return cli_usage(&command, "no -o FILE.glsl");
+    if (set.library)
+        return export_library(&set);
+    if (set.exact && set.language.value == HNBRDF_LANGUAGE_GLSL && !set.standalone)
+        return cli_usage(&command, "--exact in glsl is chosen where hybrid_brdf.glsl stands: "
+                                   "--standalone, or #define HNBRDF_EXACT 1 before the include");
     if (set.weights_path && set.weights.value != HNBRDF_GLSL_UNIFORM)
         return cli_usage(&command, "--weights-out without --weights uniform");
     if (set.conserve && set.pack >= 0)

@@ -38,6 +38,11 @@ const char *cli_precision_word(int value)
     return hnbrdf_glsl_precision_name((hnbrdf_glsl_precision)value);
 }
 
+const char *cli_language_word(int value)
+{
+    return hnbrdf_shading_language_name((hnbrdf_shading_language)value);
+}
+
 /* Those that only commands name. */
 const char *cli_analytic_word(int value)
 {

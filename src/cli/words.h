@@ -9,6 +9,7 @@ const char *cli_encoding_word(int value);
 const char *cli_variant_word(int value);
 const char *cli_weights_word(int value);
 const char *cli_precision_word(int value);
+const char *cli_language_word(int value);
 const char *cli_analytic_word(int value);
 const char *cli_loss_word(int value);
 const char *cli_schedule_word(int value);

@@ -1,7 +1,9 @@
 /* export_glsl.c: writes a model and the materials of a scene as one GLSL include.
  * What the scene does not need is not written: anisotropy, rotation, what the kind does not use. */
 #include "base/error.h"
+#include "base/memory.h"
 #include "glsl/export_evaluate.h"
+#include "glsl/export_language.h"
 #include "glsl/export_library.h"
 #include "glsl/export_material.h"
 #include "glsl/export_network.h"
@@ -10,6 +12,7 @@
 #include "hnbrdf/glsl.h"
 
 #include <stdio.h>
+#include <string.h>
 
 /* ---- Sections -------------------------------------------------------------------------------- */
 
@@ -129,22 +132,82 @@ static void put_scene(hnbrdf_printer *out, const hnbrdf_scene *s)
     hnbrdf_put_evaluate(out, s);
 }
 
-hnbrdf_result hnbrdf_export_shader(const hnbrdf_model *model, const hnbrdf_glsl_options *options,
-                                   hnbrdf_write_fn write, void *user, hnbrdf_error *error)
+/* The GLSL that was asked for, through this function. */
+static void put_text(hnbrdf_printer *out, const hnbrdf_scene *s, const hnbrdf_glsl_options *options)
 {
-    hnbrdf_scene s;
-    hnbrdf_result result = hnbrdf_scene_make(model, options, &s, error);
-    if (result)
-        return result;
-    hnbrdf_printer out = {.write = write, .user = user};
-    if (options && options->standalone) {
-        hnbrdf_put_library(&out, &s, put_scene);
-        hnbrdf_put(&out, "\n");
+    const int with_library = options && (options->standalone || options->library);
+    if (with_library && options->exact && options->language == HNBRDF_LANGUAGE_GLSL)
+        hnbrdf_put(out, "#define HNBRDF_EXACT 1\n");
+    if (with_library && options->library) {
+        hnbrdf_put_bytes(out, hnbrdf_hybrid_brdf_glsl, strlen(hnbrdf_hybrid_brdf_glsl));
+    } else {
+        if (with_library) {
+            hnbrdf_put_library(out, s, put_scene);
+            hnbrdf_put(out, "\n");
+        }
+        put_scene(out, s);
     }
-    put_scene(&out, &s);
-    hnbrdf_put_flush(&out);
-    model->allocator.release(model->allocator.user, s.names);
+    hnbrdf_put_flush(out);
+}
+
+static hnbrdf_result write_glsl(const hnbrdf_scene *s, const hnbrdf_glsl_options *options,
+                                hnbrdf_write_fn write, void *user, hnbrdf_error *error)
+{
+    hnbrdf_printer out = {.write = write, .user = user};
+    put_text(&out, s, options);
     if (out.failed)
         return hnbrdf_fail(error, HNBRDF_ERROR_IO, "export: writing the shader failed");
     return HNBRDF_OK;
+}
+
+static hnbrdf_result write_translated(const hnbrdf_scene *s, const hnbrdf_glsl_options *options,
+                                      const hnbrdf_allocator *memory, hnbrdf_write_fn write,
+                                      void *user, hnbrdf_error *error)
+{
+    hnbrdf_grown text = {.memory = memory};
+    hnbrdf_printer out = {.write = hnbrdf_grow, .user = &text};
+    put_text(&out, s, options);
+    const hnbrdf_result result =
+        out.failed ? hnbrdf_fail_memory(error, 2 * text.room, "a shader")
+                   : hnbrdf_write_language(&text, options->standalone || options->library, options,
+                                           write, user, error);
+    hnbrdf_release(memory, text.text);
+    return result;
+}
+
+static hnbrdf_result check_language(const hnbrdf_glsl_options *options, hnbrdf_error *error)
+{
+    if (!options)
+        return HNBRDF_OK;
+    if (!hnbrdf_shading_language_name(options->language))
+        return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT, "export: language %d is unknown",
+                           (int)options->language);
+    if (options->exact && options->language == HNBRDF_LANGUAGE_GLSL && !options->standalone &&
+        !options->library)
+        return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT,
+                           "export: in GLSL an exact build is chosen in hybrid_brdf.glsl: expected "
+                           "a standalone text, or HNBRDF_EXACT 1 before the include");
+    return HNBRDF_OK;
+}
+
+hnbrdf_result hnbrdf_export_shader(const hnbrdf_model *model, const hnbrdf_glsl_options *options,
+                                   hnbrdf_write_fn write, void *user, hnbrdf_error *error)
+{
+    hnbrdf_scene s = {0};
+    hnbrdf_allocator memory;
+    hnbrdf_result result = check_language(options, error);
+    if (!result)
+        result = hnbrdf_choose_allocator(model ? &model->allocator : NULL, &memory, error);
+    if (result)
+        return result;
+    const int library = options && options->library;
+    if (!library)
+        result = hnbrdf_scene_make(model, options, &s, error);
+    if (result)
+        return result;
+    result = options && options->language != HNBRDF_LANGUAGE_GLSL
+                 ? write_translated(&s, options, &memory, write, user, error)
+                 : write_glsl(&s, options, write, user, error);
+    hnbrdf_release(&memory, s.names);
+    return result;
 }

@@ -7,9 +7,6 @@
 
 #include <string.h>
 
-/* The text of shaders/hybrid_brdf.glsl; the build makes it from that file. */
-extern const char hnbrdf_hybrid_brdf_glsl[];
-
 enum { MAX_PIECES = 128, MAX_WORD = 64 };
 
 /* name is what the piece defines, of length 0 for pieces that define nothing. */

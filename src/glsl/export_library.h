@@ -5,6 +5,9 @@
 #include "glsl/export_scene.h"
 #include "glsl/printer.h"
 
+/* The text of shaders/hybrid_brdf.glsl; the build makes it from that file. */
+extern const char hnbrdf_hybrid_brdf_glsl[];
+
 typedef void (*hnbrdf_put_scene_fn)(hnbrdf_printer *out, const hnbrdf_scene *s);
 
 /* The whole of it for a scene that leaves nothing out; else what the text written by put_scene

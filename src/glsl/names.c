@@ -12,10 +12,15 @@ static const char *const precision_names[] = {
     [HNBRDF_GLSL_FLOAT] = "float",
     [HNBRDF_GLSL_HALF] = "half",
 };
+static const char *const language_names[] = {
+    [HNBRDF_LANGUAGE_GLSL] = "glsl",
+    [HNBRDF_LANGUAGE_HLSL] = "hlsl",
+};
 
 enum {
     WEIGHTS = sizeof weights_names / sizeof weights_names[0],
-    PRECISIONS = sizeof precision_names / sizeof precision_names[0]
+    PRECISIONS = sizeof precision_names / sizeof precision_names[0],
+    LANGUAGES = sizeof language_names / sizeof language_names[0]
 };
 
 static int find(const char *const *names, int count, const char *name)
@@ -50,4 +55,22 @@ int hnbrdf_glsl_precision_from_name(const char *name, hnbrdf_glsl_precision *pre
     if (k >= 0)
         *precision = (hnbrdf_glsl_precision)k;
     return k >= 0;
+}
+
+const char *hnbrdf_shading_language_name(hnbrdf_shading_language language)
+{
+    return (unsigned)language < LANGUAGES ? language_names[language] : NULL;
+}
+
+int hnbrdf_shading_language_from_name(const char *name, hnbrdf_shading_language *language)
+{
+    int k = find(language_names, LANGUAGES, name);
+    if (k >= 0)
+        *language = (hnbrdf_shading_language)k;
+    return k >= 0;
+}
+
+hnbrdf_glsl_weights hnbrdf_shading_language_weights(hnbrdf_shading_language language)
+{
+    return language == HNBRDF_LANGUAGE_GLSL ? HNBRDF_GLSL_CONSTANTS : HNBRDF_GLSL_COLUMNS;
 }

@@ -79,9 +79,11 @@ static hnbrdf_result use_model(const void *with, hnbrdf_error *error)
     if (!result)
         result = hnbrdf_model_save(made, path, error);
     for (int style = 0; !result && style < 3; style++) {
-        const hnbrdf_glsl_options options = {.standalone = 1,
-                                             .weights = (hnbrdf_glsl_weights)style};
+        hnbrdf_glsl_options options = {.standalone = 1, .weights = (hnbrdf_glsl_weights)style};
         result = hnbrdf_export_shader(made, &options, count_bytes, &count, error);
+        options.language = HNBRDF_LANGUAGE_HLSL;
+        if (!result)
+            result = hnbrdf_export_shader(made, &options, count_bytes, &count, error);
         if (!result)
             result = hnbrdf_export_weights(made, &options, count_bytes, &count, error);
     }

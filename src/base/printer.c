@@ -1,6 +1,6 @@
 /* printer.c: text written piece by piece through the caller's function; the first failure sticks.
  * */
-#include "glsl/printer.h"
+#include "base/printer.h"
 
 #include "base/text.h"
 
@@ -48,14 +48,4 @@ void hnbrdf_put_float(hnbrdf_printer *out, float value)
     hnbrdf_put_bytes(out, text, (size_t)length);
     if (!strpbrk(text, ".e"))
         hnbrdf_put_bytes(out, ".0", 2);
-}
-
-void hnbrdf_put_vector(hnbrdf_printer *out, int size, const float *values, int given)
-{
-    hnbrdf_put(out, "vec%d(", size);
-    for (int i = 0; i < size; i++) {
-        hnbrdf_put_bytes(out, ", ", i > 0 ? 2 : 0);
-        hnbrdf_put_float(out, i < given ? values[i] : 0.0f);
-    }
-    hnbrdf_put(out, ")");
 }

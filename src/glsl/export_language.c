@@ -1,0 +1,82 @@
+/* export_language.c: an exported text in another language than GLSL, made from the GLSL by
+ * src/language. */
+#include "glsl/export_language.h"
+
+#include "base/error.h"
+#include "base/memory.h"
+#include "glsl/export_library.h"
+#include "language/language.h"
+
+#include <string.h>
+
+/* ---- Memory ---------------------------------------------------------------------------------- */
+
+int hnbrdf_grow(void *grown, const void *data, size_t size)
+{
+    hnbrdf_grown *to = grown;
+    if (to->room - to->size < size) {
+        const size_t room = 2 * to->room + size + 4096;
+        char *text = hnbrdf_allocate(to->memory, room);
+        if (!text)
+            return 1;
+        if (to->size > 0)
+            memcpy(text, to->text, to->size);
+        hnbrdf_release(to->memory, to->text);
+        to->text = text;
+        to->room = room;
+    }
+    memcpy(to->text + to->size, data, size);
+    to->size += size;
+    return 0;
+}
+
+/* ---- Languages ------------------------------------------------------------------------------- */
+
+/* What stands on top of the shared part: how to use it in this language. */
+#define HEADING(file, language, word, name)                                                        \
+    "// " file ": the parts a hybrid neural-microfacet BRDF is made of (De Oliveira et al., EGSR " \
+    "2026), in\n// " language ". Written by hnbrdf " HNBRDF_VERSION_STRING                         \
+    " from hybrid_brdf.glsl; export again rather than edit.\n"                                     \
+    "// Include it first, then what `hnbrdf export --language " word "` wrote for a scene:\n//\n"  \
+    "//     hnbrdf_material m = hnbrdf_scene_material(HNBRDF_MATERIAL_" name ");\n"
+
+#define MEANING                                                                               \
+    "//\n// The same functions as in the C library, named alike and in the same order of "    \
+    "operations. Frame and\n// units as there: n = +z, wi towards the light, wo towards the " \
+    "viewer, f in 1/sr without the cosine.\n"
+
+static const char HLSL[] = HEADING(
+    "hybrid_brdf.hlsl", "HLSL of Shader Model 5.0 and newer", "hlsl",
+    "NAME") "//     float3 radiance = hnbrdf_eval(m, wi, wo) * light * max(wi.z, 0.0);\n" MEANING;
+
+typedef struct language {
+    const hnbrdf_dialect *dialect;
+    const char *heading;
+} language;
+
+static language language_of(hnbrdf_shading_language which)
+{
+    switch (which) {
+    case HNBRDF_LANGUAGE_HLSL:
+        return (language){&hnbrdf_hlsl, HLSL};
+    default:
+        return (language){0};
+    }
+}
+
+hnbrdf_result hnbrdf_write_language(const hnbrdf_grown *text, int with_library,
+                                    const hnbrdf_glsl_options *options, hnbrdf_write_fn write,
+                                    void *user, hnbrdf_error *error)
+{
+    const language to = language_of(options->language);
+    const hnbrdf_source sources[] = {{.name = "hybrid_brdf.glsl",
+                                      .text = hnbrdf_hybrid_brdf_glsl,
+                                      .size = strlen(hnbrdf_hybrid_brdf_glsl)},
+                                     {.name = "the exported text",
+                                      .text = text->text,
+                                      .size = text->size,
+                                      .print = 1,
+                                      .heading = to.heading}};
+    return hnbrdf_translate(with_library ? sources + 1 : sources, with_library ? 1 : 2, to.dialect,
+                            options->exact != 0, text->memory, write, user, error);
+}

@@ -1,0 +1,55 @@
+#!/bin/sh
+# test_language.sh SCENES LANGUAGE: what is exported in LANGUAGE compiles: every scene standalone, and each third of them
+# also exact or as a text beside the shared part. SCENES writes the scenes (glsl_scenes.c). With glslang: hlsl.
+set -eu
+scenes=$1 language=$2
+need() { command -v "$1" > /dev/null || { echo "skipped: no $1"; exit 77; }; }
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+run() { "$@" > "$work/messages" 2>&1 || { echo "failed: $*"; cat "$work/messages"; exit 1; }; }
+has() { grep -q " $2(" "$work/$1"; } # does this text define that function?
+
+# FILE: the calls of all that a text has, as statements that add to `colour`.
+calls() {
+    has "$1" hnbrdf_eval_analytic && echo '    colour.rgb += hnbrdf_eval_analytic(m, wi, wo);'
+    has "$1" hnbrdf_sample && echo '    colour.rgb += hnbrdf_sample(m, wo, wi.xy).weight * hnbrdf_pdf(m, wi, wo);'
+    has "$1" hnbrdf_eval_GOLD_PAINT && echo '    colour.rgb += hnbrdf_eval_GOLD_PAINT(wi, wo);'
+    if has "$1" hnbrdf_material_unpack; then
+        texels=$(sed -n 's/^#define HNBRDF_TEXELS //p' "$work/$1") list=wi.xyzx
+        while [ "$texels" -gt 1 ]; do
+            list="$list, wo.zyxz" texels=$((texels - 1))
+        done
+        echo "    colour.rgb += hnbrdf_eval(hnbrdf_material_unpack($list), wi, wo);"
+    fi
+    return 0
+}
+
+hlsl() { # FILE...: a pixel shader of these texts, the last of which has the scene
+    for last; do :; done
+    for file; do cat "$work/$file"; done > "$work/main.hlsl"
+    {
+        echo 'float4 main(float3 wi : TEXCOORD0, float3 wo : TEXCOORD1) : SV_Target'
+        echo '{'
+        echo '    hnbrdf_material m = hnbrdf_scene_material(HNBRDF_MATERIAL_GOLD_PAINT);'
+        echo '    float4 colour = float4(hnbrdf_eval(m, wi, wo), 1.0f);'
+        calls "$last"
+        echo '    return colour;'
+        echo '}'
+    } >> "$work/main.hlsl"
+    run glslangValidator -D -V -S frag -e main "$work/main.hlsl" -o "$work/main.spv"
+}
+
+case $language in
+hlsl) need glslangValidator ;;
+esac
+"$scenes" "$work" "$language" > "$work/names"
+number=0
+while read -r scene; do
+    "$language" "$scene.alone.$language"
+    case $((number % 3)) in
+    0) "$language" "$scene.exact.$language" ;;
+    1) "$language" "hybrid_brdf.$language" "$scene.$language" ;;
+    esac
+    echo "ok: $scene"
+    number=$((number + 1))
+done < "$work/names"
