@@ -2,7 +2,7 @@
 # web.sh webgl|three|babylon|webgpu [FOLDER]: shows examples/NAME with a material of the shipped model in your browser.
 # Puts the page, the shader and the npm packages of examples/NAME/package.json (the exact versions there) into FOLDER
 # (out/web/NAME) and serves it at http://localhost:8000 (PORT). Nothing is fetched by the page from elsewhere.
-# HNBRDF names the command (build/hnbrdf), MATERIAL the material (vch_silk_blue). --prepare first: without serving.
+# HNBRDF names the command (build/hnbrdf), MATERIAL the material (irid_flake_paint1). --prepare first: without serving.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 serve=1
@@ -22,7 +22,7 @@ case $name in
 webgpu) set -- --language wgsl -o "$folder/scene.wgsl" ;;
 *) set -- -o "$folder/scene.glsl" ;;
 esac
-"$hnbrdf" export "$model" --materials "${MATERIAL:-vch_silk_blue}" --only eval --standalone "$@" > /dev/null
+"$hnbrdf" export "$model" --materials "${MATERIAL:-irid_flake_paint1}" --only eval --standalone "$@" > /dev/null
 if [ -f "$folder/package.json" ] && [ ! -e "$folder/node_modules" ]; then
     (cd "$folder" && npm install --ignore-scripts --no-audit --no-fund --no-save)
 fi

@@ -20,6 +20,6 @@ if [ -f "$source/examples/$example/package.json" ]; then
         done
     ln -s "$packages/node_modules" "$scratch/$name/node_modules"
 fi
-HNBRDF=$hnbrdf MATERIAL=vch_silk_blue sh "$source/examples/web.sh" --prepare "$example" "$scratch/$name"
+HNBRDF=$hnbrdf MATERIAL=irid_flake_paint1 sh "$source/examples/web.sh" --prepare "$example" "$scratch/$name"
 node "$source/tests/web/example.mjs" "$scratch/$name" "$hnbrdf" "$source/examples/models/rgl_32x2.safetensors" \
-    vch_silk_blue "$scratch/$name.png"
+    irid_flake_paint1 "$scratch/$name.png"

@@ -18,3 +18,9 @@ foreach(example webgl three babylon babylon_webgpu)
     ${example} ${PROJECT_SOURCE_DIR} $<TARGET_FILE:hnbrdf_cli> ${HNBRDF_WEB_PACKAGES}
     ${CMAKE_CURRENT_BINARY_DIR}/web_${example})
 endforeach()
+
+foreach(api webgl)
+  hnbrdf_web_test(test_web_parity_${api} sh ${CMAKE_CURRENT_LIST_DIR}/test_web_parity.sh ${api}
+    ${PROJECT_SOURCE_DIR} $<TARGET_FILE:hnbrdf_cli> $<TARGET_FILE:hnbrdf_glsl_scenes>
+    ${HNBRDF_WEB_PACKAGES} ${CMAKE_CURRENT_BINARY_DIR}/web_parity_${api})
+endforeach()

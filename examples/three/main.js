@@ -50,9 +50,9 @@ function standardMaterial() {
       #include <lights_physical_pars_fragment>
       ${brdf}
       ${toFrame}
-      void hnbrdfDirect(const in IncidentLight directLight, const in vec3 geometryPosition, const in vec3 geometryNormal,
-              const in vec3 geometryViewDir, const in vec3 geometryClearcoatNormal, const in PhysicalMaterial material,
-              inout ReflectedLight reflectedLight) {
+      void hnbrdfDirect(const in IncidentLight directLight, const in vec3 geometryPosition,
+              const in vec3 geometryNormal, const in vec3 geometryViewDir, const in vec3 geometryClearcoatNormal,
+              const in PhysicalMaterial material, inout ReflectedLight reflectedLight) {
           vec3 wi = toFrame(geometryNormal, directLight.direction);
           vec3 wo = toFrame(geometryNormal, geometryViewDir);
           hnbrdf_material m = hnbrdf_scene_material(0);

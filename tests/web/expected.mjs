@@ -57,7 +57,8 @@ export function expect(hnbrdf, model, material, size, pixels, { inner = 1, outer
   const out = execFileSync(hnbrdf, ['eval', model, '--material', material],
     { input: csv, encoding: 'utf8', maxBuffer: 1 << 26 });
   const values = out.trim().split('\n').slice(1).map((line) => line.split(',').map(Number));
-  if (values.length !== rows.length) throw new Error(`hnbrdf eval gave ${values.length} lines, expected ${rows.length}`);
+  if (values.length !== rows.length)
+    throw new Error(`hnbrdf eval gave ${values.length} lines, expected ${rows.length}`);
   const result = pixels.map((pixel) => ({ pixel, low: [255, 255, 255], high: [0, 0, 0] }));
   values.forEach((f, row) => f.forEach((value, c) => {
     const shown = toDisplay(value * view.irradiance * Math.max(rows[row].wi[2], 0));
