@@ -4,6 +4,7 @@ hnbrdf_test(test_fit_choices test_fit_choices.c)
 hnbrdf_test(test_fit_checkpoint test_fit_checkpoint.c)
 hnbrdf_test(test_fit_divergence test_fit_divergence.c)
 hnbrdf_test(test_fit_stiff test_fit_stiff.c)
+hnbrdf_test(test_fit_ranks test_fit_ranks.c ranks_support.c)
 # Long enough to be interrupted, so too long under sanitizers; test_fit holds the same of the
 # library there.
 if(NOT HNBRDF_SANITIZE)

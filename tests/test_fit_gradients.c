@@ -83,8 +83,15 @@ static double loss_at(problem *p, double *gradient, double mix)
                                                  &p->tile, mix, p->scratch,
                                                  gradient + p->layout.analytic + FIT_ANALYTIC);
     hnbrdf_fit_kernel_double.derive(&p->layout, p->parameters, p->derived);
-    return hnbrdf_fit_kernel_double.network(&p->layout, p->parameters, p->derived, &p->tile, 1, mix,
-                                            p->scratch, gradient);
+    double own[HNBRDF_MAX_LATENT + FIT_ANALYTIC] = {0};
+    double loss = hnbrdf_fit_kernel_double.network(&p->layout, p->parameters, p->derived, &p->tile,
+                                                   1, mix, p->scratch, gradient, own);
+    const size_t latent = (size_t)p->layout.latent_size;
+    for (size_t i = 0; i < latent; i++)
+        gradient[p->layout.codes + latent + i] += own[i];
+    for (size_t i = 0; i < FIT_ANALYTIC; i++)
+        gradient[p->layout.analytic + FIT_ANALYTIC + i] += own[latent + i];
+    return loss;
 }
 
 /* Central differences with h = 1e-6: truncation h^2 f''' and rounding 1e-16 |f|/h leave about
@@ -207,8 +214,13 @@ static void instruction_sets_agree_to_the_bit(void **state)
                 continue;
             memset(gradient, 0, sizeof(float) * count);
             kernel->derive(&p.layout, parameters, derived);
+            float own[HNBRDF_MAX_LATENT + FIT_ANALYTIC] = {0};
             double loss = kernel->network(&p.layout, parameters, derived, &p.tile, 1, 0.4f, scratch,
-                                          gradient);
+                                          gradient, own);
+            const size_t latent = (size_t)p.layout.latent_size;
+            memcpy(gradient + p.layout.codes + latent, own, latent * sizeof(float));
+            memcpy(gradient + p.layout.analytic + FIT_ANALYTIC, own + latent,
+                   FIT_ANALYTIC * sizeof(float));
             if (k == 0) {
                 first_loss = loss;
                 memcpy(first, gradient, sizeof(float) * count);

@@ -85,6 +85,25 @@ typedef struct hnbrdf_fit_drawn {
     double largest; /* value */
 } hnbrdf_fit_drawn;
 
+/* One fit made by several processes, called ranks, for data that outgrow a machine. All of them
+ * call hnbrdf_fit() with the same options, and get the same model and report, with the bits that
+ * one process gives. The library knows no MPI: these callbacks are all that it asks of one. They
+ * are called by the thread that called hnbrdf_fit(), by all ranks in the same order, with sizes
+ * that fit together; the bytes are those of machines alike. There is no callback for sums: the
+ * library adds in an order of its own, so that no bit depends on the number of ranks. Each returns
+ * 0, or non-zero where a rank cannot be reached: the fit then ends with HNBRDF_ERROR_IO. */
+typedef struct hnbrdf_communicator {
+    int rank, size; /* 0 <= rank < size */
+    /* What every rank has, to all: bytes[r] of them from rank r, one after the other in `all`. */
+    int (*gather)(void *user, const void *mine, void *all, const size_t *bytes);
+    /* send_bytes[r] for rank r, one after the other in `send`; so is what comes from them. */
+    int (*exchange)(void *user, const void *send, const size_t *send_bytes, void *received,
+                    const size_t *received_bytes);
+    /* What rank `root` has, to all. */
+    int (*broadcast)(void *user, void *data, size_t bytes, int root);
+    void *user;
+} hnbrdf_communicator;
+
 /* Zero-initialise for defaults: 0 is the default of every field. Where 0 itself is wanted, a flag
  * named ..._none asks for it; a number beside such a flag is refused. */
 typedef struct hnbrdf_fit_options {
@@ -132,6 +151,13 @@ typedef struct hnbrdf_fit_options {
      * it is done with it. */
     const char *checkpoint;
     int resume;
+    /* Fit with other processes; NULL: alone. data[m] may be NULL where another rank has it: its
+     * pairs, GGX fit and lobes are made there (where several have it, by one of them). `search` and
+     * `drawn` are complete on all ranks; `checkpoint` is read and written by rank 0, and good for
+     * any number of ranks. A callback that stops the fit stops it on all ranks. `threads` and the
+     * callback may differ between ranks, nothing else. A rank that fails alone before it can tell
+     * the others, as without memory, must be ended together with them by the caller. */
+    const hnbrdf_communicator *ranks;
 } hnbrdf_fit_options;
 
 /* Where the time of a fit went, in processor seconds summed over its threads; all but `waiting` is
@@ -142,6 +168,7 @@ typedef struct hnbrdf_fit_times {
     double encoding; /* what the network sees, and f_a where it is frozen */
     double network;  /* forward and backward passes */
     double update;   /* choice of pairs, sum of the gradients, Adam, checkpoints: on one thread */
+    double exchange; /* talking to other ranks and waiting for them: elapsed, of one thread */
     /* threads times elapsed time less all of these: idle, or taken by other programs */
     double waiting;
 } hnbrdf_fit_times;
@@ -173,7 +200,7 @@ typedef struct hnbrdf_fit_report {
     double ggx_loss;  /* of GGX alone; NaN but for a hybrid whose network was trained */
 } hnbrdf_fit_report;
 
-/* Fit one model to count materials. report may be NULL. */
+/* Fit one model to count materials. report may be NULL; its times are those of this process. */
 HNBRDF_API hnbrdf_result hnbrdf_fit(const hnbrdf_measured *const *data, int count,
                                     const hnbrdf_fit_options *options, hnbrdf_model **model,
                                     hnbrdf_fit_report *report, hnbrdf_error *error);

@@ -44,7 +44,7 @@ static uint64_t fingerprint(const trainer *t)
                               o->analytic,
                               (double)o->steps,
                               o->seconds,
-                              t->tiles_per_step,
+                              t->shares.tiles,
                               t->pool.tiles,
                               (double)o->learning_rate,
                               (double)o->seed,
@@ -57,24 +57,33 @@ static uint64_t fingerprint(const trainer *t)
     uint64_t h = HNBRDF_HASH_START;
     for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++)
         h = hash_number(h, numbers[i]);
-    for (int m = 0; m < t->count; m++) {
-        const char *name = hnbrdf_measured_name(t->data[m]);
-        h = hnbrdf_hash(h, name, strlen(name) + 1);
-    }
+    for (int m = 0; m < t->count; m++)
+        h = hnbrdf_hash(h, t->known[m].name, strlen(t->known[m].name) + 1);
     return h;
 }
 
+/* The arrays that follow the header. */
+typedef struct block {
+    void *data;
+    size_t size;
+} block;
+
+enum { BLOCKS = 4 };
+#define BLOCKS_OF(t)                                                 \
+    {                                                                \
+        {(t)->parameters, 3 * (t)->layout.count * sizeof(float)},    \
+            {(t)->best, (t)->layout.count * sizeof(float)},          \
+            {(t)->schedule.order, (size_t)(t)->count * sizeof(int)}, \
+        {                                                            \
+            (t)->schedule.cursor, (size_t)(t)->count * sizeof(int)   \
+        }                                                            \
+    }
+
 /* One pass over all blocks of the file, reading or writing. */
-static int transfer(trainer *t, FILE *file, int writing)
+static int transfer(const trainer *t, FILE *file, int writing)
 {
-    struct {
-        void *data;
-        size_t size;
-    } blocks[] = {{t->parameters, 3 * t->layout.count * sizeof(float)},
-                  {t->best, t->layout.count * sizeof(float)},
-                  {t->order, (size_t)t->count * sizeof(int)},
-                  {t->cursor, (size_t)t->count * sizeof(int)}};
-    for (size_t i = 0; i < sizeof blocks / sizeof blocks[0]; i++) {
+    const block blocks[BLOCKS] = BLOCKS_OF(t);
+    for (size_t i = 0; i < BLOCKS; i++) {
         size_t done = writing ? fwrite(blocks[i].data, 1, blocks[i].size, file)
                               : fread(blocks[i].data, 1, blocks[i].size, file);
         if (done != blocks[i].size)
@@ -99,24 +108,23 @@ hnbrdf_result hnbrdf_fit_checkpoint_save(const trainer *t, hnbrdf_error *error)
     memset(&h, 0, sizeof h);
     memcpy(h.magic, magic, sizeof magic);
     h.fingerprint = fingerprint(t);
-    h.rng = t->rng;
+    h.rng = t->schedule.rng;
     h.share = t->share;
     h.peak = t->peak;
     h.running = t->running;
     h.step = t->step;
-    h.order_at = t->order_at;
+    h.order_at = t->schedule.at;
     h.since = t->since;
     h.best_step = t->best_step;
     h.best_dead = t->best_dead;
     h.set_backs = t->set_backs;
     h.best_loss = t->best_loss;
-    trainer view = *t; /* transfer() takes what it may write to; it only reads here */
     hnbrdf_output output;
     const hnbrdf_result result = hnbrdf_output_open(path, &output, error);
     if (result)
         return result;
     if (fwrite(&h, sizeof h, 1, output.stream) == 1)
-        transfer(&view, output.stream, 1); /* closing tells whether it failed */
+        transfer(t, output.stream, 1); /* closing tells whether it failed */
     return hnbrdf_output_close(&output, error);
 }
 
@@ -130,26 +138,26 @@ static int is_sound(const trainer *t, const header *h)
                h->best_dead <= HNBRDF_MAX_HIDDEN && h->set_backs >= 0 && h->set_backs <= h->step &&
                h->set_backs <= INT_MAX && h->best_loss >= 0.0 && h->best_loss <= DBL_MAX;
     for (int m = 0; m < t->count; m++)
-        good &= t->order[m] >= 0 && t->order[m] < t->count && t->cursor[m] >= 0 &&
-                t->cursor[m] < t->pool.tiles;
+        good &= t->schedule.order[m] >= 0 && t->schedule.order[m] < t->count &&
+                t->schedule.cursor[m] >= 0 && t->schedule.cursor[m] < t->pool.tiles;
     for (size_t i = 0; i < t->layout.count; i++)
         good &= isfinite(t->best[i]) != 0;
     return good && numbers_are_sound(t->parameters, t->layout.count);
 }
 
-hnbrdf_result hnbrdf_fit_checkpoint_load(trainer *t, hnbrdf_error *error)
+/* The file as it is, into t and *h. */
+static hnbrdf_result read_file(trainer *t, header *h, hnbrdf_error *error)
 {
     const char *path = t->options.checkpoint;
     FILE *file = hnbrdf_open_to_read(path);
     if (!file)
         return hnbrdf_fail(error, HNBRDF_ERROR_IO,
                            "%s: no checkpoint to resume from can be read there", path);
-    header h;
     hnbrdf_result result = HNBRDF_OK;
-    if (fread(&h, sizeof h, 1, file) != 1 || memcmp(h.magic, magic, sizeof magic) != 0)
+    if (fread(h, sizeof *h, 1, file) != 1 || memcmp(h->magic, magic, sizeof magic) != 0)
         result = hnbrdf_fail(error, HNBRDF_ERROR_FORMAT,
                              "%s: not a checkpoint of this version of hnbrdf", path);
-    else if (h.fingerprint != fingerprint(t))
+    else if (h->fingerprint != fingerprint(t))
         result = hnbrdf_fail(
             error, HNBRDF_ERROR_ARGUMENT,
             "%s: the checkpoint is of a fit with other data, options or seed; repeat that "
@@ -158,19 +166,39 @@ hnbrdf_result hnbrdf_fit_checkpoint_load(trainer *t, hnbrdf_error *error)
     else if (!transfer(t, file, 0) || fgetc(file) != EOF)
         result = hnbrdf_fail(error, HNBRDF_ERROR_FORMAT,
                              "%s: the checkpoint is damaged: its size is wrong", path);
-    else if (!is_sound(t, &h))
+    else if (!is_sound(t, h))
         result = hnbrdf_fail(error, HNBRDF_ERROR_FORMAT,
                              "%s: the checkpoint is damaged: it holds numbers that no training has",
                              path);
     fclose(file);
+    return result;
+}
+
+/* What rank 0 has read, to all. */
+static int spread(trainer *t, header *h)
+{
+    const block blocks[BLOCKS] = BLOCKS_OF(t);
+    int good = hnbrdf_fit_broadcast(t, h, sizeof *h);
+    for (int i = 0; i < BLOCKS && good; i++)
+        good = hnbrdf_fit_broadcast(t, blocks[i].data, blocks[i].size);
+    return good;
+}
+
+hnbrdf_result hnbrdf_fit_checkpoint_load(trainer *t, hnbrdf_error *error)
+{
+    header h;
+    hnbrdf_result result = t->ranks.rank == 0 ? read_file(t, &h, error) : HNBRDF_OK;
+    result = hnbrdf_fit_agree(t, result, error);
+    if (!result && !spread(t, &h))
+        result = hnbrdf_fit_fail_lost(t, error);
     if (result)
         return result;
-    t->rng = h.rng;
+    t->schedule.rng = h.rng;
     t->share = h.share;
     t->peak = h.peak;
     t->running = h.running;
     t->step = (long)h.step;
-    t->order_at = (int)h.order_at;
+    t->schedule.at = (int)h.order_at;
     t->since = (long)h.since;
     t->best_step = (long)h.best_step;
     t->best_dead = (int)h.best_dead;

@@ -13,7 +13,7 @@ enum {
     SCOUT_TILES = 24,
     KEEP = 3, /* starts that go on, on REFINE_TILES */
     REFINE_STEPS = 250,
-    REFINE_TILES = 96
+    REFINE_TILES = FIT_GGX_TILES
 };
 
 /* SMAPE saturates: far from the data it is flat, and the channels of a grey lobe then settle on

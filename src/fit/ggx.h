@@ -5,6 +5,8 @@
 #include "fit/pool.h"
 #include "hnbrdf/fit.h"
 
+enum { FIT_GGX_TILES = 96 }; /* of a material, at most, that its fit sees */
+
 /* Fits parameters[FIT_ANALYTIC] (kernel.h) to the material's tiles: Adam from several starts, the
  * best of them refined. Isotropic data tie the two alphas and keep the rotation 0. Returns the
  * mean loss; search may be NULL. */

@@ -43,16 +43,12 @@ static int is_due(const trainer *t)
 static double loss_now(trainer *t, int *dead)
 {
     const fit_layout *l = &t->layout;
-    const int rounds = (t->count + t->tiles_per_step - 1) / t->tiles_per_step;
+    const int rounds = hnbrdf_fit_supply_rounds(t);
     char moved[HNBRDF_MAX_LAYERS][HNBRDF_MAX_HIDDEN] = {{0}};
     double loss = 0.0;
     t->mix = t->options.loss == HNBRDF_FIT_LOG ? 0.0f : 1.0f;
     for (int r = 0; r < rounds; r++) {
-        for (int k = 0; k < t->tiles_per_step; k++) {
-            int index = r * t->tiles_per_step + k;
-            t->tile_material[k] = index % t->count;
-            t->tile_index[k] = index / t->count % t->pool.tiles;
-        }
+        hnbrdf_fit_supply_round(t, r);
         loss += hnbrdf_fit_step_gradient(t) / rounds;
         for (int k = 0; k < l->layers; k++)
             for (int u = 0; u < l->hidden_size; u++) {
@@ -152,8 +148,8 @@ void hnbrdf_fit_judge_end(trainer *t, hnbrdf_fit_report *report)
         memcpy(t->best, t->parameters, bytes);
         for (int m = 0; m < t->count && t->layout.train_analytic;
              m++) /* back from where it was trained to */
-            hnbrdf_fit_ggx_parameters(&t->materials[m], t->parameters + t->layout.analytic +
-                                                            (size_t)m * FIT_ANALYTIC);
+            hnbrdf_fit_ggx_parameters(&t->found[m].material, t->parameters + t->layout.analytic +
+                                                                 (size_t)m * FIT_ANALYTIC);
         leave_ggx_alone(&t->layout, t->parameters);
         report->ggx_loss = loss_now(t, &dead);
         if (clearly_worse(loss, report->ggx_loss)) {

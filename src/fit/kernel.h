@@ -65,14 +65,17 @@ typedef struct fit_tile {
 #define FIT_MOST 1e15f
 
 /* The kernels of one instruction set. loss returned is the sum over the tile's pairs and
- * channels; the gradient of that sum is added to gradient. */
+ * channels. The gradient of that sum by the network is added to gradient [network_count], by what
+ * the tile's material has of its own to own: [latent_size] its code, then, where that is trained,
+ * [FIT_ANALYTIC]. A tile adds one number to each of them, so that it is all the same whether tiles
+ * are added up here or by the caller. */
 typedef struct fit_kernel {
     const char *name;
     /* Layouts of the weights that the backward pass wants, once a step. */
     void (*derive)(const fit_layout *layout, const float *parameters, float *derived);
     double (*network)(const fit_layout *layout, const float *parameters, const float *derived,
                       const fit_tile *tile, int material, float mix, float *scratch,
-                      float *gradient);
+                      float *gradient, float *own);
     /* The analytic part alone, wi, wo and target of the tile; parameters and gradient
      * [FIT_ANALYTIC]. */
     double (*analytic)(const float *parameters, const fit_tile *tile, float mix, float *scratch,
@@ -94,7 +97,7 @@ typedef struct fit_kernel_double_table {
     void (*derive)(const fit_layout *layout, const double *parameters, double *derived);
     double (*network)(const fit_layout *layout, const double *parameters, const double *derived,
                       const fit_tile *tile, int material, double mix, double *scratch,
-                      double *gradient);
+                      double *gradient, double *own);
     double (*analytic)(const double *parameters, const fit_tile *tile, double mix, double *scratch,
                        double *gradient);
 } fit_kernel_double_table;

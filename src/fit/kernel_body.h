@@ -299,7 +299,7 @@ static double compose_loss(const fit_layout *l, const REAL *out, const fit_tile 
 
 static double kernel_network(const fit_layout *l, const REAL *parameters, const REAL *derived,
                              const fit_tile *tile, int material, REAL mix, REAL *scratch,
-                             REAL *gradient)
+                             REAL *gradient, REAL *by_own)
 {
     const int n = l->padded, area = FIT_TILE * n;
     const size_t code = l->codes + (size_t)material * (size_t)l->latent_size;
@@ -339,7 +339,7 @@ static double kernel_network(const fit_layout *l, const REAL *parameters, const 
     }
     double loss = compose_loss(l, out, tile, analytic, mix, by_out, by_analytic);
     if (l->kind == HNBRDF_KIND_HYBRID && l->train_analytic)
-        analytic_backward(&cache, by_analytic, gradient + own);
+        analytic_backward(&cache, by_analytic, by_own + l->latent_size);
 
     /* Backward: back holds the derivative by the pre-activation of the layer at hand. */
     outer(by_out, FIT_LANES, l->outputs, activation + (l->layers - 1) * area, n, n,
@@ -370,7 +370,7 @@ static double kernel_network(const fit_layout *l, const REAL *parameters, const 
             row_gradient[u] += sums[u] * parameters[code + (size_t)j];
             by_code += sums[u] * row[u];
         }
-        gradient[code + (size_t)j] += by_code;
+        by_own[j] += by_code;
     }
     return loss;
 }

@@ -5,76 +5,162 @@
 #include "core/frame.h"
 #include "core/microfacet.h"
 
-float *hnbrdf_fit_pool_tile(const fit_pool *pool, int material, int tile)
+int hnbrdf_fit_pool_keeps(int held, int tiles, double bytes)
 {
-    return pool->data + ((size_t)material * (size_t)pool->tiles + (size_t)tile) * FIT_POOL_TILE;
+    const double most = bytes / ((double)tiles * FIT_POOL_TILE * sizeof(float));
+    return most < held ? (int)most : held;
 }
 
-fit_tile hnbrdf_fit_pool_view(const fit_pool *pool, int material, int tile)
+static float *kept_tile(const fit_pool *pool, int at, int tile)
 {
-    const float *p = hnbrdf_fit_pool_tile(pool, material, tile);
-    fit_tile view = {p + 12 * FIT_TILE, p + 9 * FIT_TILE, p, p + 3 * FIT_TILE, p + 6 * FIT_TILE};
-    return view;
+    return pool->data + ((size_t)at * (size_t)pool->tiles + (size_t)tile) * FIT_POOL_TILE;
 }
 
-int hnbrdf_fit_pool_draw(const fit_pool *pool, int material, const hnbrdf_measured *measured,
-                         float uniform_share, uint64_t seed, hnbrdf_fit_drawn *drawn)
+fit_tile hnbrdf_fit_tile_view(const float *p)
 {
+    return (fit_tile){p + FIT_POOL_X, p + FIT_POOL_ANALYTIC, p + FIT_POOL_WI, p + FIT_POOL_WO,
+                      p + FIT_POOL_TARGET};
+}
+
+fit_tile hnbrdf_fit_pool_view(const fit_pool *pool, int at, int tile)
+{
+    return hnbrdf_fit_tile_view(kept_tile(pool, at, tile));
+}
+
+/* ---- Drawing --------------------------------------------------------------------------------- */
+
+/* What a drawing under way has come to. */
+typedef struct drawing {
     hnbrdf_rng rng;
-    hnbrdf_rng_seed(&rng, seed, (uint64_t)material);
-    long pairs = (long)pool->tiles * FIT_TILE, draws = 0;
-    *drawn = (hnbrdf_fit_drawn){0.0, 0.0, 0.0, 0.0};
-    for (long k = 0; k < pairs; k++) {
-        float *tile = hnbrdf_fit_pool_tile(pool, material, (int)(k / FIT_TILE));
-        size_t b = (size_t)(k % FIT_TILE);
+    long draws, most; /* so far; before it gives up */
+    hnbrdf_fit_drawn sums;
+} drawing;
+
+static void put(float *tile, size_t b, const float wi[3], const float wo[3], const float f[3],
+                hnbrdf_fit_drawn *sums)
+{
+    for (size_t c = 0; c < 3; c++) {
+        tile[FIT_POOL_WI + c * FIT_TILE + b] = wi[c];
+        tile[FIT_POOL_WO + c * FIT_TILE + b] = wo[c];
+        tile[FIT_POOL_TARGET + c * FIT_TILE + b] =
+            hnbrdf_clamp(f[c], 0.0f, FIT_MOST); /* a model is never negative */
+        sums->largest = fmax(sums->largest, (double)f[c]);
+        sums->dark += f[c] < (float)FIT_SMAPE_OFFSET;
+        sums->cut += f[c] > FIT_MOST;
+    }
+}
+
+/* The pairs of tile `index` of a material; how many there are before it gives up. */
+static int draw_tile(const fit_pool *pool, const fit_source *source, int index, drawing *d,
+                     float *tile)
+{
+    const double share = (double)pool->uniform_share;
+    for (int b = 0; b < FIT_TILE; b++) {
+        const double k = (double)index * FIT_TILE + b;
+        const int is_uniform = floor(share * (k + 1.0)) > floor(share * k);
         float wi[3], wo[3], f[3];
-        int is_uniform = floor((double)uniform_share * (double)(k + 1)) >
-                         floor((double)uniform_share * (double)k);
         do {
-            if (draws == 100 * pairs) {
-                drawn->valid = (double)k / (double)draws;
-                return 0;
-            }
-            draws++;
-            hnbrdf_sampler_draw(is_uniform ? HNBRDF_SAMPLER_UNIFORM : HNBRDF_SAMPLER_GRID, &rng, wi,
-                                wo);
-        } while (!hnbrdf_measured_eval(measured, wi, wo, f));
-        for (size_t c = 0; c < 3; c++) {
-            tile[c * FIT_TILE + b] = wi[c];
-            tile[(3 + c) * FIT_TILE + b] = wo[c];
-            tile[(6 + c) * FIT_TILE + b] =
-                hnbrdf_clamp(f[c], 0.0f, FIT_MOST); /* a model is never negative */
-            drawn->largest = fmax(drawn->largest, (double)f[c]);
-            drawn->dark += f[c] < (float)FIT_SMAPE_OFFSET;
-            drawn->cut += f[c] > FIT_MOST;
+            if (d->draws == d->most)
+                return b;
+            d->draws++;
+            hnbrdf_sampler_draw(is_uniform ? HNBRDF_SAMPLER_UNIFORM : HNBRDF_SAMPLER_GRID, &d->rng,
+                                wi, wo);
+        } while (!hnbrdf_measured_eval(source->measured, wi, wo, f));
+        put(tile, (size_t)b, wi, wo, f, &d->sums);
+    }
+    return FIT_TILE;
+}
+
+int hnbrdf_fit_pool_draw(const fit_pool *pool, int at, hnbrdf_fit_drawn *drawn)
+{
+    const fit_source *source = &pool->sources[at];
+    const long pairs = (long)pool->tiles * FIT_TILE;
+    float room[FIT_POOL_TILE];
+    drawing d = {.most = 100 * pairs};
+    hnbrdf_rng_seed(&d.rng, pool->seed, source->sequence);
+    for (int t = 0; t < pool->tiles; t++) {
+        int done = draw_tile(pool, source, t, &d, at < pool->kept ? kept_tile(pool, at, t) : room);
+        if (done < FIT_TILE) {
+            *drawn = d.sums;
+            drawn->valid = (double)((long)t * FIT_TILE + done) / (double)d.draws;
+            return 0;
         }
     }
-    drawn->valid = (double)pairs / (double)draws;
+    *drawn = d.sums;
+    drawn->valid = (double)pairs / (double)d.draws;
     drawn->dark /= 3.0 * (double)pairs;
     drawn->cut /= 3.0 * (double)pairs;
     return 1;
 }
 
-void hnbrdf_fit_pool_encode(const fit_pool *pool, int material, hnbrdf_encoding encoding,
-                            const hnbrdf_material *fitted)
+/* ---- Drawing again --------------------------------------------------------------------------- */
+
+static void draw_next(const fit_pool *pool, fit_source *source, float *tile)
 {
-    hnbrdf_frame frame = hnbrdf_frame_of(fitted);
-    for (int t = 0; t < pool->tiles; t++) {
-        float *tile = hnbrdf_fit_pool_tile(pool, material, t);
-        for (size_t b = 0; b < FIT_TILE; b++) {
-            float wi[3], wo[3], i[3], o[3], *x = tile + 12 * FIT_TILE + b * FIT_INPUTS;
-            for (size_t c = 0; c < 3; c++) {
-                wi[c] = tile[c * FIT_TILE + b];
-                wo[c] = tile[(3 + c) * FIT_TILE + b];
-            }
-            hnbrdf_to_tangent(frame, wi, i);
-            hnbrdf_to_tangent(frame, wo, o);
-            hnbrdf_pair pair = hnbrdf_pair_make(i, o);
-            hnbrdf_encode(encoding, &pair, x);
-            float specular = hnbrdf_specular(&pair, fitted->alpha[0], fitted->alpha[1]);
-            for (size_t c = 0; c < 3; c++)
-                tile[(9 + c) * FIT_TILE + b] =
-                    hnbrdf_microfacet(fitted->kd[c], fitted->eta[c], pair.c, specular);
-        }
+    drawing d = {.rng = source->rng, .most = -1}; /* it ended before, and does now */
+    draw_tile(pool, source, source->next, &d, tile);
+    source->rng = d.rng;
+    source->next++;
+}
+
+static void draw_again(const fit_pool *pool, int at, int tile, float *room)
+{
+    fit_source *source = &pool->sources[at];
+    if (source->next > tile || source->next == 0) {
+        hnbrdf_rng_seed(&source->rng, pool->seed, source->sequence);
+        source->next = 0;
     }
+    while (source->next <= tile)
+        draw_next(pool, source, room);
+}
+
+fit_pool hnbrdf_fit_pool_head(const fit_pool *pool, int at, int tiles, float *room)
+{
+    fit_pool head = *pool;
+    head.kept = 1;
+    head.sources = pool->sources + at;
+    head.tiles = tiles < pool->tiles ? tiles : pool->tiles;
+    head.data = at < pool->kept ? kept_tile(pool, at, 0) : room;
+    for (int t = 0; t < head.tiles && at >= pool->kept; t++)
+        draw_again(pool, at, t, room + (size_t)t * FIT_POOL_TILE);
+    return head;
+}
+
+/* ---- Encoding -------------------------------------------------------------------------------- */
+
+static void encode_tile(const fit_pool *pool, const hnbrdf_material *fitted, hnbrdf_frame frame,
+                        float *tile)
+{
+    for (size_t b = 0; b < FIT_TILE; b++) {
+        float wi[3], wo[3], i[3], o[3];
+        for (size_t c = 0; c < 3; c++) {
+            wi[c] = tile[FIT_POOL_WI + c * FIT_TILE + b];
+            wo[c] = tile[FIT_POOL_WO + c * FIT_TILE + b];
+        }
+        hnbrdf_to_tangent(frame, wi, i);
+        hnbrdf_to_tangent(frame, wo, o);
+        hnbrdf_pair pair = hnbrdf_pair_make(i, o);
+        hnbrdf_encode(pool->encoding, &pair, tile + FIT_POOL_X + b * FIT_INPUTS);
+        float specular = hnbrdf_specular(&pair, fitted->alpha[0], fitted->alpha[1]);
+        for (size_t c = 0; c < 3; c++)
+            tile[FIT_POOL_ANALYTIC + c * FIT_TILE + b] =
+                hnbrdf_microfacet(fitted->kd[c], fitted->eta[c], pair.c, specular);
+    }
+}
+
+void hnbrdf_fit_pool_encode(const fit_pool *pool, int at, const hnbrdf_material *fitted)
+{
+    pool->sources[at].fitted = *fitted;
+    for (int t = 0; t < pool->tiles && at < pool->kept; t++)
+        encode_tile(pool, fitted, hnbrdf_frame_of(fitted), kept_tile(pool, at, t));
+}
+
+const float *hnbrdf_fit_pool_fetch(const fit_pool *pool, int at, int tile, float *room)
+{
+    if (at < pool->kept)
+        return kept_tile(pool, at, tile);
+    const hnbrdf_material *fitted = &pool->sources[at].fitted;
+    draw_again(pool, at, tile, room);
+    encode_tile(pool, fitted, hnbrdf_frame_of(fitted), room);
+    return room;
 }

@@ -1,32 +1,66 @@
-/* pool.h: the training data, drawn once: for every material a number of tiles of random pairs
- * with the measured value, some of them from the grid sampler and some uniform. */
+/* pool.h: the training data: for every material that this process holds a number of tiles of random
+ * pairs with the measured value, some of them from the grid sampler and some uniform.
+ *
+ * The tiles of the first materials are drawn once and kept. Those of the others, where memory has
+ * an end, are drawn again whenever they are wanted: tiles are wanted in turn, so that their random
+ * numbers go on from tile to tile. */
 #ifndef HNBRDF_FIT_POOL_H
 #define HNBRDF_FIT_POOL_H
 
 #include "fit/kernel.h"
 #include "hnbrdf/fit.h"
 
-/* Floats of one tile: wi, wo, target, analytic [3][FIT_TILE] each, then x [FIT_TILE][6]. */
-enum { FIT_POOL_TILE = (12 + FIT_INPUTS) * FIT_TILE };
+/* Floats of one tile: x [FIT_TILE][6], then analytic, target, wi, wo [3][FIT_TILE] each. Training
+ * wants the first three parts, and the directions only where the analytic part is trained. */
+enum {
+    FIT_POOL_X = 0,
+    FIT_POOL_ANALYTIC = FIT_INPUTS * FIT_TILE,
+    FIT_POOL_TARGET = FIT_POOL_ANALYTIC + 3 * FIT_TILE,
+    FIT_POOL_WI = FIT_POOL_TARGET + 3 * FIT_TILE,
+    FIT_POOL_WO = FIT_POOL_WI + 3 * FIT_TILE,
+    FIT_POOL_TILE = FIT_POOL_WO + 3 * FIT_TILE
+};
+
+/* One material held. */
+typedef struct fit_source {
+    const hnbrdf_measured *measured;
+    uint64_t sequence;      /* of its random numbers: its number among the materials of all */
+    hnbrdf_material fitted; /* whose frame and f_a the tiles are encoded with */
+    hnbrdf_rng rng;         /* of one that is not kept: before tile `next` */
+    int next;
+} fit_source;
 
 typedef struct fit_pool {
-    float *data; /* [materials][tiles][FIT_POOL_TILE] */
+    float *data; /* [kept][tiles][FIT_POOL_TILE] */
+    int kept;    /* of the materials held, the first ones */
     int tiles;   /* per material */
+    float uniform_share;
+    uint64_t seed;
+    hnbrdf_encoding encoding;
+    fit_source *sources; /* [held] */
 } fit_pool;
 
-/* Where one tile lies. */
-float *hnbrdf_fit_pool_tile(const fit_pool *pool, int material, int tile);
-/* The same, as the kernels see it. */
-fit_tile hnbrdf_fit_pool_view(const fit_pool *pool, int material, int tile);
+/* How many of `held` materials are kept: all, or what goes into so many bytes. */
+int hnbrdf_fit_pool_keeps(int held, int tiles, double bytes);
 
-/* Draw all tiles of one material, uniform_share of the pairs by the uniform sampler; depends on
- * (seed, material) only. 0 if less than 1 % of the drawn pairs were valid measurements, 1
- * otherwise. drawn says what was found. */
-int hnbrdf_fit_pool_draw(const fit_pool *pool, int material, const hnbrdf_measured *measured,
-                         float uniform_share, uint64_t seed, hnbrdf_fit_drawn *drawn);
+/* A tile as the kernels see it. */
+fit_tile hnbrdf_fit_tile_view(const float *tile);
+/* The same of a material that is kept. */
+fit_tile hnbrdf_fit_pool_view(const fit_pool *pool, int at, int tile);
 
-/* Fill x, and f_a of `fitted`, for one material: what a frozen analytic part needs. */
-void hnbrdf_fit_pool_encode(const fit_pool *pool, int material, hnbrdf_encoding encoding,
-                            const hnbrdf_material *fitted);
+/* Draw all tiles of material `at` of those held, uniform_share of the pairs by the uniform sampler;
+ * depends on (seed, sequence) only. 0 if less than 1 % of the drawn pairs were valid
+ * measurements, 1 otherwise. drawn says what was found. */
+int hnbrdf_fit_pool_draw(const fit_pool *pool, int at, hnbrdf_fit_drawn *drawn);
+
+/* The first tiles of it as a pool of one material: those kept, or drawn into `room`, which has
+ * room for so many. */
+fit_pool hnbrdf_fit_pool_head(const fit_pool *pool, int at, int tiles, float *room);
+
+/* What its tiles are encoded with from now on: fills x and f_a of those kept. */
+void hnbrdf_fit_pool_encode(const fit_pool *pool, int at, const hnbrdf_material *fitted);
+
+/* An encoded tile: where it is kept, or in `room`, [FIT_POOL_TILE]. One thread a material. */
+const float *hnbrdf_fit_pool_fetch(const fit_pool *pool, int at, int tile, float *room);
 
 #endif

@@ -12,6 +12,11 @@ void hnbrdf_fit_stage_begin(trainer *t)
     t->shown = 0.0;
 }
 
+double hnbrdf_fit_stage_seconds(const trainer *t)
+{
+    return hnbrdf_seconds() - t->stage_started;
+}
+
 void hnbrdf_fit_tell(trainer *t, const char *stage, double done, double loss, double pairs,
                      int always)
 {
@@ -24,5 +29,7 @@ void hnbrdf_fit_tell(trainer *t, const char *stage, double done, double loss, do
     if (done > 0.01 || elapsed > 2.0)
         p.seconds_left = elapsed * (1.0 - done) / fmax(done, 1e-6);
     if (t->options.progress(t->options.progress_user, &p))
-        t->stopped = 1;
+        t->asked = 1;
+    if (hnbrdf_fit_is_alone(t)) /* others hear of it first */
+        t->stopped = t->asked;
 }

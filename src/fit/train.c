@@ -45,7 +45,7 @@ static void initialise(trainer *t)
             p[l->last + o * n + u] = uniform(&rng, sqrt(0.5 / (double)h));
         p[l->bias[l->layers] + o] = o < 3 ? -3.0f : 1.5f;
     }
-    for (size_t i = 0; i < (size_t)(l->materials * l->latent_size); i++)
+    for (size_t i = 0; i < (size_t)l->materials * (size_t)l->latent_size; i++)
         p[l->codes + i] = uniform(&rng, 0.5);
 }
 
@@ -70,68 +70,63 @@ static void take_network(trainer *t)
     }
 }
 
-static double loss_of_code(trainer *t, int material, int tiles)
+enum { CODE_TILES = 8 }; /* that a latent code is chosen by */
+
+static double loss_of_code(trainer *t, int material, const float *const *tiles, int count)
 {
     double loss = 0.0;
-    for (int k = 0; k < tiles; k++) {
-        fit_tile tile = hnbrdf_fit_pool_view(&t->pool, material, k);
+    float own[HNBRDF_MAX_LATENT + FIT_ANALYTIC] = {0};
+    for (int k = 0; k < count; k++) {
+        fit_tile tile = hnbrdf_fit_tile_view(tiles[k]);
         loss += t->kernel->network(&t->layout, t->parameters, t->derived, &tile, material, 1.0f,
-                                   t->scratch, t->gradient);
+                                   t->scratch, t->gradient, own);
     }
     return loss;
 }
 
-/* Every new material starts from the latent code of the known one that describes it best. */
-static void take_codes(trainer *t)
+/* The code, of those of the known materials, that describes a material best. */
+static void take_code(trainer *t, int material)
+{
+    const size_t size = (size_t)t->layout.latent_size;
+    float *code = t->parameters + t->layout.codes + (size_t)material * size;
+    float room[CODE_TILES][FIT_POOL_TILE];
+    const float *tiles[CODE_TILES];
+    int count = t->pool.tiles < CODE_TILES ? t->pool.tiles : CODE_TILES, best = 0;
+    double least = INFINITY;
+    for (int k = 0; k < count; k++)
+        tiles[k] = hnbrdf_fit_pool_fetch(&t->pool, t->at[material], k, room[k]);
+    for (int k = 0; k < hnbrdf_model_material_count(t->options.freeze); k++) {
+        memcpy(code, hnbrdf_model_material(t->options.freeze, k)->latent, sizeof(float) * size);
+        double loss = loss_of_code(t, material, tiles, count);
+        if (loss < least) {
+            least = loss;
+            best = k;
+        }
+    }
+    memcpy(code, hnbrdf_model_material(t->options.freeze, best)->latent, sizeof(float) * size);
+}
+
+/* Every new material starts from the latent code of a known one. */
+static hnbrdf_result take_codes(trainer *t, hnbrdf_error *error)
 {
     const fit_layout *l = &t->layout;
-    size_t size = (size_t)l->latent_size;
-    int tiles = t->pool.tiles < 8 ? t->pool.tiles : 8;
     t->kernel->derive(l, t->parameters, t->derived);
-    for (int m = 0; m < t->count; m++) {
-        float *code = t->parameters + l->codes + (size_t)m * size;
-        int best = 0;
-        double least = INFINITY;
-        for (int k = 0; k < hnbrdf_model_material_count(t->options.freeze); k++) {
-            memcpy(code, hnbrdf_model_material(t->options.freeze, k)->latent, sizeof(float) * size);
-            double loss = loss_of_code(t, m, tiles);
-            if (loss < least) {
-                least = loss;
-                best = k;
-            }
-        }
-        memcpy(code, hnbrdf_model_material(t->options.freeze, best)->latent, sizeof(float) * size);
-    }
+    for (int k = 0; k < t->held_count; k++)
+        take_code(t, t->held[k]);
+    return hnbrdf_fit_share_records(t, t->parameters + l->codes,
+                                    sizeof(float) * (size_t)l->latent_size, error);
 }
 
 /* ---- Steps ----------------------------------------------------------------------------------- */
-
-/* Choose the tiles of a step: materials in shuffled rounds, each material's tiles in turn. */
-static void schedule(trainer *t)
-{
-    for (int k = 0; k < t->tiles_per_step; k++) {
-        if (t->order_at == 0)
-            for (int i = t->count - 1; i > 0; i--) {
-                int j = (int)(((uint64_t)hnbrdf_rng_u32(&t->rng) * (uint64_t)(i + 1)) >> 32);
-                int swap = t->order[i];
-                t->order[i] = t->order[j];
-                t->order[j] = swap;
-            }
-        int material = t->order[t->order_at];
-        t->order_at = (t->order_at + 1) % t->count;
-        t->tile_material[k] = material;
-        t->tile_index[k] = t->cursor[material];
-        t->cursor[material] = (t->cursor[material] + 1) % t->pool.tiles;
-    }
-}
 
 /* The analytic parameters after a step: ranges, ties, rotation. */
 static void settle_analytic(trainer *t)
 {
     for (int m = 0; m < t->count; m++) {
         float *p = t->parameters + t->layout.analytic + (size_t)m * FIT_ANALYTIC;
-        p[FIT_ROTATION] = t->materials[m].rotation; /* the encoded directions were turned by it */
-        hnbrdf_fit_ggx_project(p, t->isotropic[m]);
+        /* the encoded directions were turned by it */
+        p[FIT_ROTATION] = t->found[m].material.rotation;
+        hnbrdf_fit_ggx_project(p, t->known[m].isotropic);
     }
 }
 
@@ -179,17 +174,24 @@ static void advance(trainer *t, double loss)
 
 static hnbrdf_result start(trainer *t, hnbrdf_error *error)
 {
-    hnbrdf_rng_seed(&t->rng, t->options.seed, UINT64_C(2) << 40);
+    hnbrdf_result result = HNBRDF_OK;
     t->peak = (double)t->options.learning_rate;
     t->running = NAN;
     if (t->options.freeze) {
         take_network(t);
-        take_codes(t);
+        result = take_codes(t, error);
     } else {
         initialise(t);
     }
+    if (!result)
+        result = hnbrdf_fit_supply_make(t, error);
+    if (result)
+        return result;
     hnbrdf_fit_judge_start(t);
-    return t->options.resume ? hnbrdf_fit_checkpoint_load(t, error) : HNBRDF_OK;
+    if (t->options.resume)
+        result = hnbrdf_fit_checkpoint_load(t, error);
+    hnbrdf_fit_supply_restart(t);
+    return result;
 }
 
 /* Floating-point operations of both passes over one pair; see hnbrdf_fit_report. */
@@ -201,44 +203,85 @@ static double flops_a_pair(const fit_layout *l)
     return 2.0 * (forward + backward);
 }
 
+/* By steps, or by the time that is over since this call began, at this share. */
+static void see_share(trainer *t, double share_before)
+{
+    const double elapsed = hnbrdf_fit_is_alone(t) ? hnbrdf_fit_stage_seconds(t) : t->elapsed;
+    t->share = t->options.seconds > 0.0 ? share_before + elapsed / t->options.seconds
+                                        : (double)t->step / (double)t->options.steps;
+}
+
+/* By rank 0; the others hear of a failure with the next step. */
+static void save(trainer *t, double *saved, hnbrdf_error *error)
+{
+    const double now = hnbrdf_seconds();
+    if (t->ranks.rank > 0 || !t->options.checkpoint || t->share >= 1.0 ||
+        !(t->stopped || now - *saved > CHECKPOINT_SECONDS))
+        return;
+    t->trouble = hnbrdf_fit_checkpoint_save(t, error);
+    *saved = now;
+}
+
+/* What is left to save when a rank is lost: the state before the step that failed. */
+static hnbrdf_result fail_lost(trainer *t, hnbrdf_error *error)
+{
+    if (t->ranks.rank == 0 && t->options.checkpoint && t->step > 0 &&
+        hnbrdf_fit_checkpoint_save(t, error) == HNBRDF_OK)
+        return hnbrdf_fail(error, HNBRDF_ERROR_IO,
+                           "another of %d ranks has ended or cannot be reached; %s holds the %ld "
+                           "steps that were made",
+                           t->ranks.size, t->options.checkpoint, t->step);
+    return hnbrdf_fit_fail_lost(t, error);
+}
+
+/* Steps until the end, or until one is not made. */
+static hnbrdf_result run_steps(trainer *t, double *pairs, hnbrdf_error *error)
+{
+    const double share_before = t->share, each = (double)t->shares.tiles * FIT_TILE;
+    double saved = hnbrdf_seconds();
+    while (t->share < 1.0 && !t->stopped && !t->trouble && !t->troubled) {
+        t->mix = mix_now(t);
+        double loss = hnbrdf_fit_supply_step(t) ? hnbrdf_fit_step_gradient(t) : 0.0;
+        if (t->lost)
+            return fail_lost(t, error);
+        hnbrdf_fit_schedule_step(&t->schedule, t->shares.tiles, NULL, NULL);
+        t->step++;
+        *pairs += each;
+        advance(t, loss);
+        if (t->lost) /* in the middle of a judgement: an earlier checkpoint is better */
+            return hnbrdf_fit_fail_lost(t, error);
+        see_share(t, share_before);
+        hnbrdf_fit_tell(t, "network", fmin(t->share, 1.0), t->running, *pairs,
+                        t->step % LOG_EVERY == 0);
+        save(t, &saved, error);
+    }
+    return hnbrdf_fit_agree(t, t->trouble, error);
+}
+
 hnbrdf_result hnbrdf_fit_train(trainer *t, hnbrdf_fit_report *report, hnbrdf_error *error)
 {
-    const double busy_before = hnbrdf_threads_busy(t->workers);
+    const double busy_before = hnbrdf_threads_busy(t->workers), exchange_before = t->exchange;
     const double alone_before = hnbrdf_thread_seconds() - hnbrdf_threads_busy_here(t->workers);
     hnbrdf_result result = start(t, error);
     if (result)
         return result;
     hnbrdf_fit_stage_begin(t);
-    const double share_before = t->share, each = (double)t->tiles_per_step * FIT_TILE;
-    double saved = hnbrdf_seconds(), pairs = 0.0;
-    while (t->share < 1.0 && !t->stopped) {
-        t->mix = mix_now(t);
-        schedule(t);
-        double loss = hnbrdf_fit_step_gradient(t);
-        t->step++;
-        pairs += each;
-        advance(t, loss);
-        double now = hnbrdf_seconds();
-        t->share = t->options.seconds > 0.0
-                       ? share_before + (now - t->stage_started) / t->options.seconds
-                       : (double)t->step / (double)t->options.steps;
-        hnbrdf_fit_tell(t, "network", fmin(t->share, 1.0), t->running, pairs,
-                        t->step % LOG_EVERY == 0);
-        if (t->options.checkpoint && t->share < 1.0 &&
-            (t->stopped || now - saved > CHECKPOINT_SECONDS)) {
-            if ((result = hnbrdf_fit_checkpoint_save(t, error)))
-                return result;
-            saved = now;
-        }
-    }
-    double elapsed = hnbrdf_seconds() - t->stage_started;
+    double pairs = 0.0;
+    if ((result = run_steps(t, &pairs, error)))
+        return result;
+    double elapsed = hnbrdf_fit_stage_seconds(t);
     hnbrdf_fit_judge_end(t, report);
+    if (t->lost)
+        return hnbrdf_fit_fail_lost(t, error);
     report->pairs_per_s = elapsed > 0.0 ? pairs / elapsed : 0.0;
     report->steps = t->step;
     report->pairs = pairs;
     report->flops = pairs * flops_a_pair(&t->layout);
-    report->times.network = hnbrdf_threads_busy(t->workers) - busy_before;
+    report->times.drawing += t->redrawing;
+    report->times.network = hnbrdf_threads_busy(t->workers) - busy_before - t->redrawing;
+    /* of this thread; it waits for others awake */
     report->times.update =
-        hnbrdf_thread_seconds() - hnbrdf_threads_busy_here(t->workers) - alone_before;
+        fmax(0.0, hnbrdf_thread_seconds() - hnbrdf_threads_busy_here(t->workers) - alone_before -
+                      (t->exchange - exchange_before));
     return HNBRDF_OK;
 }

@@ -9,7 +9,7 @@
 
 enum { NUMBERS = 5, MATERIALS = 2, TILES = 4, MAGIC = 16, FINGERPRINT = 8, ROOM = 4096 };
 
-static hnbrdf_measured *data_of[MATERIALS];
+static fit_material known[MATERIALS] = {{.name = "a"}, {.name = "b"}};
 static unsigned char start[MAGIC + FINGERPRINT]; /* of every checkpoint of this fit */
 static char path[64];
 static int file;
@@ -19,15 +19,16 @@ static trainer make_trainer(float *parameters, float *best, int *order, int *cur
 {
     trainer t;
     memset(&t, 0, sizeof t);
-    t.data = (const hnbrdf_measured *const *)data_of;
+    t.known = known;
+    t.ranks.size = 1;
     t.count = MATERIALS;
     t.options.checkpoint = path;
     t.layout.count = NUMBERS;
     t.pool.tiles = TILES;
     t.parameters = parameters;
     t.best = best;
-    t.order = order;
-    t.cursor = cursor;
+    t.schedule.order = order;
+    t.schedule.cursor = cursor;
     return t;
 }
 
@@ -39,8 +40,6 @@ static void learn_start(void)
     char folder[] = "/tmp/hnbrdf_fuzz_XXXXXX";
     FUZZ_CHECK(mkdtemp(folder) != NULL);
     snprintf(path, sizeof path, "%s/c", folder);
-    for (int m = 0; m < MATERIALS; m++)
-        FUZZ_CHECK(hnbrdf_measured_open_builtin(m, &data_of[m], NULL) == HNBRDF_OK);
     trainer t = make_trainer(parameters, best, order, cursor);
     FUZZ_CHECK(hnbrdf_fit_checkpoint_save(&t, NULL) == HNBRDF_OK);
     FILE *written = fopen(path, "rb");
@@ -57,7 +56,7 @@ static void check_state(const trainer *t)
 {
     FUZZ_CHECK(t->step >= 0 && t->share >= 0.0 && t->share < 1.0 && t->peak > 0.0 &&
                isfinite(t->peak));
-    FUZZ_CHECK(t->order_at >= 0 && t->order_at < MATERIALS);
+    FUZZ_CHECK(t->schedule.at >= 0 && t->schedule.at < MATERIALS);
     for (int i = 0; i < 3 * NUMBERS; i++)
         FUZZ_CHECK(isfinite(t->parameters[i]));
     FUZZ_CHECK(t->since >= 0 && t->since <= t->step && t->best_step >= 0 &&
@@ -67,8 +66,8 @@ static void check_state(const trainer *t)
     for (int i = 0; i < NUMBERS; i++)
         FUZZ_CHECK(isfinite(t->best[i]));
     for (int m = 0; m < MATERIALS; m++)
-        FUZZ_CHECK(t->order[m] >= 0 && t->order[m] < MATERIALS && t->cursor[m] >= 0 &&
-                   t->cursor[m] < TILES);
+        FUZZ_CHECK(t->schedule.order[m] >= 0 && t->schedule.order[m] < MATERIALS &&
+                   t->schedule.cursor[m] >= 0 && t->schedule.cursor[m] < TILES);
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
@@ -79,7 +78,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     int *order = calloc(MATERIALS, sizeof *order), *cursor = calloc(MATERIALS, sizeof *cursor);
     hnbrdf_error error = {""};
     FUZZ_CHECK(parameters && best && order && cursor);
-    if (!data_of[0])
+    if (!path[0])
         learn_start();
     size = size < ROOM ? size : ROOM;
     memcpy(bytes, start, sizeof start);
