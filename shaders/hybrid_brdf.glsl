@@ -18,6 +18,9 @@
 // wi, wo, pdf, weight. So macros of the program around it may be called like any other plain word (c, low, first, sum).
 #ifndef HNBRDF_HYBRID_BRDF_GLSL
 #define HNBRDF_HYBRID_BRDF_GLSL
+#ifdef HNBRDF_HYBRID_BRDF_PARTS
+#error a standalone text came before hybrid_brdf.glsl: include that first, or export all with --prefix
+#endif
 
 #ifndef HNBRDF_EXACT
 #define HNBRDF_EXACT 0

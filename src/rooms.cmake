@@ -24,9 +24,9 @@ hnbrdf_room(file
 hnbrdf_room(import
   brdf_network.c brdf_parameters.c brdf_text.c import_brdf.c published_name.c)
 hnbrdf_room(glsl
-  export_evaluate.c export_glsl.c export_input.c export_language.c export_library.c export_loops.c
-  export_material.c export_network.c export_scene.c export_unpack.c export_weights.c half.c
-  macro_names.c names.c vector.c)
+  export_evaluate.c export_filter.c export_glsl.c export_input.c export_language.c export_library.c
+  export_loops.c export_material.c export_network.c export_scene.c export_unpack.c export_weights.c
+  half.c macro_names.c names.c vector.c)
 hnbrdf_room(language
   builtin.c c_like.c condition.c hlsl.c macro.c parse.c parse_expression.c parse_statement.c
   parse_tokens.c preprocess.c print.c print_expression.c print_statement.c token.c translate.c

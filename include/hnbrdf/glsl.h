@@ -113,6 +113,16 @@ typedef struct hnbrdf_glsl_options {
     /* 1: the shared part alone, what hybrid_brdf.glsl is in GLSL; texts that are not standalone
      * need it before them. The model may be NULL; of the options language and exact matter */
     int library;
+    /* NULL: hnbrdf. Any other name takes the place of hnbrdf, in capitals of HNBRDF, in all names
+     * that the text defines, so that many texts can stand in one shader: NAME_eval,
+     * NAME_scene_material, struct NAME_material, NAME_MATERIAL_GOLD, NAME_weights_block,
+     * NAME_WEIGHTS_BINDING. A letter, then letters, digits and single underscores, 40 at most.
+     * The names of hybrid_brdf.glsl stay (hnbrdf_sample_result), and so do HNBRDF_HALF_NATIVE and
+     * HNBRDF_LOOP: that is there once, included before all of them or, of standalone texts, each
+     * of its parts in the first text that needs it. Then all of them have to have a prefix; it may
+     * be hnbrdf. */
+    const char *prefix;
+    int without_comments; /* 1: no comments and no empty lines */
 } hnbrdf_glsl_options;
 
 /* Write one shader include with the network, the chosen materials, and the functions

@@ -11,8 +11,9 @@
 static const cli_command command = {
     "export",
     "MODEL [--materials A,B] [--only eval|eval+sample] [--fixed|--editable] [--weights STYLE]\n"
-    "              [--precision P] [--conserve] [--pack P] [--standalone] [--language L] [--exact] "
-    "-o FILE\n"
+    "              [--precision P] [--conserve] [--pack P] [--standalone] [--language L] "
+    "[--exact]\n"
+    "              [--prefix NAME] [--strip-comments] -o FILE\n"
     "       hnbrdf export --library [--language L] [--exact] -o FILE",
     "Writes one GLSL include: the network, the chosen materials, and\n"
     "  vec3 hnbrdf_eval(hnbrdf_material m, vec3 wi, vec3 wo)      1/sr, without the cosine\n"
@@ -50,7 +51,16 @@ static const cli_command command = {
     "and any\n"
     "network of the same size can be loaded at run time (hnbrdf.h tells the layout). --precision "
     "half\n"
-    "computes the hidden layers in float16 (GLSL 450) or mediump (ES).\n"
+    "computes the hidden layers in float16 (GLSL 450) or mediump (ES): for GPUs that have it, a "
+    "CPU driver\n"
+    "becomes ten times slower. With columns four numbers at a time, for GPUs with packed halves.\n"
+    "\n"
+    "--prefix gold: all names of the text begin with gold instead of hnbrdf (gold_eval, "
+    "gold_scene_material,\n"
+    "GOLD_MATERIAL_NAME, GOLD_WEIGHTS_BINDING), so that many networks fit into one shader. Those "
+    "of "
+    "hybrid_brdf.glsl\n"
+    "stay, it is there once. Several standalone texts need a prefix each.\n"
     "\n"
     "--pack is for scenes with a material of its own in every pixel: the include also has\n"
     "  hnbrdf_material hnbrdf_material_unpack(vec4 t0, vec4 t1, ...)      HNBRDF_TEXELS texels\n"
@@ -67,6 +77,7 @@ static const cli_command command = {
     "dust.glsl\n"
     "hnbrdf export model.safetensors --language hlsl --standalone -o scene.hlsl\n"
     "hnbrdf export --library --language hlsl -o hybrid_brdf.hlsl\n"
+    "hnbrdf export model.safetensors --prefix dust --standalone -o dust.glsl\n"
     "hnbrdf export model.safetensors --pack half --texels materials.bin -o scene.glsl",
 };
 
@@ -102,6 +113,21 @@ static void print_summary(FILE *file, const hnbrdf_model *model, const hnbrdf_gl
                 hnbrdf_glsl_precision_name(options->precision),
                 hnbrdf_model_multiplications(model) - saved);
     fprintf(file, ", %d material%s, %zu bytes\n", materials, materials == 1 ? "" : "s", bytes);
+}
+
+/* What one who runs the text has to know besides. */
+static void print_hints(FILE *file, const hnbrdf_model *model, const hnbrdf_glsl_options *options,
+                        const char *weights_path)
+{
+    const char *prefix = options->prefix ? options->prefix : "hnbrdf";
+    if (options->weights == HNBRDF_GLSL_UNIFORM && hnbrdf_weights_size(model) > 0 && !weights_path)
+        fprintf(file,
+                "the shader reads its weights from the uniform block %s_weights_block, %zu bytes: "
+                "--weights-out FILE writes them\n",
+                prefix, hnbrdf_weights_size(model));
+    if (options->precision == HNBRDF_GLSL_HALF)
+        fprintf(file, "half precision is for GPUs that have it: a CPU driver emulates float16 and "
+                      "takes ten times as long\n");
 }
 
 /* Measured with lavapipe (Mesa 22.3, `hnbrdf verify --weights STYLE`, one run): the first
@@ -178,12 +204,13 @@ static int write_shader(const hnbrdf_model *model, const hnbrdf_glsl_options *op
 }
 
 static int export_to(const hnbrdf_model *model, const hnbrdf_glsl_options *options,
-                     const char *path, const report_texels *texels)
+                     const char *path, const char *weights_path, const report_texels *texels)
 {
     size_t bytes = 0;
     if (write_shader(model, options, path, &bytes) != CLI_OK)
         return CLI_FAILURE;
     print_summary(cli_words(), model, options, path, bytes);
+    print_hints(cli_words(), model, options, weights_path);
     if (texels)
         print_packing(texels, cli_words());
     return CLI_OK;
@@ -197,6 +224,8 @@ typedef struct settings {
     int conserve;
     cli_word language;
     int exact, library;
+    const char *prefix;
+    int strip;
     cli_word weights, precision;
 } settings;
 
@@ -246,6 +275,8 @@ static int export_materials(const hnbrdf_model *model, const settings *set, cons
                                          .standalone = set->standalone,
                                          .only = (hnbrdf_glsl_only)(set->only + 1),
                                          .fixed = set->fixed,
+                                         .prefix = set->prefix,
+                                         .without_comments = set->strip,
                                          .editable = set->editable,
                                          .energy = energy,
                                          .packing = set->pack >= 0 ? &texels.packing : NULL,
@@ -258,7 +289,8 @@ static int export_materials(const hnbrdf_model *model, const settings *set, cons
         return CLI_FAILURE;
     if (set->texels && write_texels(&texels, set->texels) != CLI_OK)
         return CLI_FAILURE;
-    return export_to(model, &options, set->path, set->pack >= 0 ? &texels : NULL);
+    return export_to(model, &options, set->path, set->weights_path,
+                     set->pack >= 0 ? &texels : NULL);
 }
 
 int cmd_export(int argc, char **argv)
@@ -286,6 +318,9 @@ int cmd_export(int argc, char **argv)
          "the bits of C, on devices that round + - * / sqrt correctly"},
         {"library", 0, CLI_FLAG, &set.library, 0, 0, NULL,
          "what all scenes share, hybrid_brdf.glsl, in that language; takes no MODEL"},
+        {"prefix", 0, CLI_TEXT, &set.prefix, 0, 0, "NAME",
+         "names begin with NAME, not hnbrdf: many texts in one shader"},
+        {"strip-comments", 0, CLI_FLAG, &set.strip, 0, 0, NULL, "no comments, no empty lines"},
         {"weights", 'w', CLI_WORD, &set.weights, 0, 0, "constants|columns|uniform",
          "how the shader holds the network (default constants in glsl, else columns)"},
         {"weights-out", 0, CLI_WRITE_BYTES, &set.weights_path, 0, 0, "FILE",

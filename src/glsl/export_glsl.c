@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "glsl/export_evaluate.h"
+#include "glsl/export_filter.h"
 #include "glsl/export_language.h"
 #include "glsl/export_library.h"
 #include "glsl/export_material.h"
@@ -11,6 +12,7 @@
 #include "glsl/export_weights.h"
 #include "hnbrdf/glsl.h"
 
+#include <stdint.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -98,8 +100,7 @@ static void put_heading(hnbrdf_printer *out, const hnbrdf_scene *s)
         "//\n// f = hnbrdf_eval(hnbrdf_scene_material(HNBRDF_MATERIAL_%s), wi, wo), without the "
         "cosine.\n",
         s->names[0]);
-    hnbrdf_put(out, "#ifndef HNBRDF_HYBRID_BRDF_GLSL\n#error include hybrid_brdf.glsl before this "
-                    "file\n#endif\n\n");
+    hnbrdf_put(out, "\n");
 }
 
 /* For code that serves scenes of every kind. */
@@ -119,9 +120,8 @@ static void put_switches(hnbrdf_printer *out, const hnbrdf_scene *s)
     hnbrdf_put(out, "\n");
 }
 
-static void put_scene(hnbrdf_printer *out, const hnbrdf_scene *s)
+static void put_body(hnbrdf_printer *out, const hnbrdf_scene *s)
 {
-    put_heading(out, s);
     put_switches(out, s);
     hnbrdf_put_material_struct(out, s);
     hnbrdf_put_materials(out, s);
@@ -132,13 +132,46 @@ static void put_scene(hnbrdf_printer *out, const hnbrdf_scene *s)
     hnbrdf_put_evaluate(out, s);
 }
 
-/* The GLSL that was asked for, through this function. */
+/* FNV-1a. */
+static int hash_bytes(void *user, const void *data, size_t size)
+{
+    uint32_t *hash = user;
+    const unsigned char *bytes = data;
+    for (size_t i = 0; i < size; i++)
+        *hash = (*hash ^ bytes[i]) * 16777619u;
+    return 0;
+}
+
+/* The same text twice is there once, another one under the same names is an error that says so. */
+static void put_scene(hnbrdf_printer *out, const hnbrdf_scene *s)
+{
+    uint32_t hash = 2166136261u;
+    hnbrdf_printer hashed = {.write = hash_bytes, .user = &hash};
+    put_body(&hashed, s);
+    hnbrdf_put_flush(&hashed);
+    hnbrdf_put(out, "#ifndef HNBRDF_SCENE_%08X_GLSL\n#define HNBRDF_SCENE_%08X_GLSL\n",
+               (unsigned)hash, (unsigned)hash);
+    hnbrdf_put(out, "#ifdef HNBRDF_SCENE\n"
+                    "#error two exported texts with the same names: export one with --prefix NAME\n"
+                    "#endif\n#define HNBRDF_SCENE\n");
+    if (!s->parts)
+        hnbrdf_put(out, "#ifndef HNBRDF_HYBRID_BRDF_GLSL\n"
+                        "#error include hybrid_brdf.glsl before this file\n#endif\n");
+    hnbrdf_put(out, "\n");
+    put_body(out, s);
+    hnbrdf_put(out, "\n#endif\n");
+}
+
+/* The GLSL that was asked for: what it holds, hybrid_brdf.glsl if it is standalone, the scene. */
 static void put_text(hnbrdf_printer *out, const hnbrdf_scene *s, const hnbrdf_glsl_options *options)
 {
     const int with_library = options && (options->standalone || options->library);
+    const int alone = options && options->library;
+    if (!alone)
+        put_heading(out, s);
     if (with_library && options->exact && options->language == HNBRDF_LANGUAGE_GLSL)
         hnbrdf_put(out, "#define HNBRDF_EXACT 1\n");
-    if (with_library && options->library) {
+    if (alone) {
         hnbrdf_put_bytes(out, hnbrdf_hybrid_brdf_glsl, strlen(hnbrdf_hybrid_brdf_glsl));
     } else {
         if (with_library) {
@@ -150,12 +183,24 @@ static void put_text(hnbrdf_printer *out, const hnbrdf_scene *s, const hnbrdf_gl
     hnbrdf_put_flush(out);
 }
 
+/* Through what the options ask for; 1 where writing failed. */
+static int write_text(const hnbrdf_scene *s, const hnbrdf_glsl_options *options,
+                      hnbrdf_write_fn write, void *user)
+{
+    const int strip = options && options->without_comments;
+    hnbrdf_renamer renamer = {.write = write, .user = user, .prefix = s->prefix};
+    hnbrdf_stripper stripper = {.write = s->prefix ? hnbrdf_rename : write,
+                                .user = s->prefix ? &renamer : user};
+    hnbrdf_printer out = {.write = strip ? hnbrdf_strip : stripper.write,
+                          .user = strip ? &stripper : stripper.user};
+    put_text(&out, s, options);
+    return out.failed || (s->prefix && hnbrdf_rename_end(&renamer));
+}
+
 static hnbrdf_result write_glsl(const hnbrdf_scene *s, const hnbrdf_glsl_options *options,
                                 hnbrdf_write_fn write, void *user, hnbrdf_error *error)
 {
-    hnbrdf_printer out = {.write = write, .user = user};
-    put_text(&out, s, options);
-    if (out.failed)
+    if (write_text(s, options, write, user))
         return hnbrdf_fail(error, HNBRDF_ERROR_IO, "export: writing the shader failed");
     return HNBRDF_OK;
 }
@@ -165,12 +210,11 @@ static hnbrdf_result write_translated(const hnbrdf_scene *s, const hnbrdf_glsl_o
                                       void *user, hnbrdf_error *error)
 {
     hnbrdf_grown text = {.memory = memory};
-    hnbrdf_printer out = {.write = hnbrdf_grow, .user = &text};
-    put_text(&out, s, options);
+    const int failed = write_text(s, options, hnbrdf_grow, &text);
     const hnbrdf_result result =
-        out.failed ? hnbrdf_fail_memory(error, 2 * text.room, "a shader")
-                   : hnbrdf_write_language(&text, options->standalone || options->library, options,
-                                           write, user, error);
+        failed ? hnbrdf_fail_memory(error, 2 * text.room, "a shader")
+               : hnbrdf_write_language(&text, options->standalone || options->library, options,
+                                       write, user, error);
     hnbrdf_release(memory, text.text);
     return result;
 }

@@ -25,11 +25,6 @@ typedef struct library {
 
 /* ---- Taking apart ---------------------------------------------------------------------------- */
 
-static int in_word(char c)
-{
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
-}
-
 /* The word in front of the first of "({" on the first line that is neither comment nor directive.
  * */
 static void find_name(piece *p)
@@ -44,10 +39,10 @@ static void find_name(piece *p)
         after++;
     if (after == end || *after == '\n')
         return;
-    while (after > line && !in_word(after[-1]))
+    while (after > line && !hnbrdf_in_word(after[-1]))
         after--;
     p->name = after;
-    while (p->name > line && in_word(p->name[-1]))
+    while (p->name > line && hnbrdf_in_word(p->name[-1]))
         p->name--;
     p->name_size = (size_t)(after - p->name);
 }
@@ -98,7 +93,7 @@ static int need_words(void *user, const void *data, size_t size)
     library *lib = user;
     const char *text = data;
     for (size_t i = 0; i < size; i++) {
-        if (in_word(text[i])) {
+        if (hnbrdf_in_word(text[i])) {
             if (lib->word_size < MAX_WORD)
                 lib->word[lib->word_size] = text[i];
             lib->word_size++;
@@ -131,25 +126,99 @@ static int is_heading(const piece *p)
     return p->size > 7 && memcmp(p->text, "// ----", 7) == 0 && p->name_size == 0;
 }
 
+/* Says that parts are missing, so that a text which needs them can say so. */
+static const char LEAN[] = "#define HNBRDF_HYBRID_BRDF_LEAN\n\n";
+
 /* All of it, but for the section on edits where nothing is edited. */
 static void put_whole(hnbrdf_printer *out, int edited)
 {
     const char *text = hnbrdf_hybrid_brdf_glsl, *end = text + strlen(text);
-    const char *edits = strstr(text, "// ---- Edits ");
+    const char *first = piece_end(text), *edits = strstr(text, "// ---- Edits ");
     const char *after = edits ? strstr(edits + 1, "\n// ---- ") : NULL;
     if (edited || !after) {
         hnbrdf_put_bytes(out, text, (size_t)(end - text));
         return;
     }
-    hnbrdf_put_bytes(out, text, (size_t)(edits - text));
+    hnbrdf_put_bytes(out, text, (size_t)(first - text));
+    hnbrdf_put_bytes(out, LEAN, sizeof LEAN - 1);
+    hnbrdf_put_bytes(out, first, (size_t)(edits - first));
     hnbrdf_put_bytes(out, after + 1, (size_t)(end - after - 1));
+}
+
+/* ---- Parts that several texts share ---------------------------------------------------------- */
+
+static const char PARTS[] =
+    "//\n// Here are the parts that this text needs. Each is there once, however many texts with a "
+    "prefix have it.\n"
+    "#ifdef HNBRDF_HYBRID_BRDF_LEAN\n"
+    "#error a standalone text without a prefix came before this one: export it with --prefix too\n"
+    "#endif\n"
+    "#ifndef HNBRDF_HYBRID_BRDF_GLSL\n"
+    "#define HNBRDF_HYBRID_BRDF_PARTS\n\n";
+
+/* The comment on top of the library. */
+static void put_top(hnbrdf_printer *out, const piece *p)
+{
+    const char *end = p->text;
+    while (end[0] == '/')
+        end = strchr(end, '\n') + 1;
+    hnbrdf_put_bytes(out, p->text, (size_t)(end - p->text));
+    hnbrdf_put_bytes(out, PARTS, sizeof PARTS - 1);
+}
+
+/* HNBRDF_HAS_CLAMP for hnbrdf_clamp, with its number where several have the name. */
+static void put_guard(hnbrdf_printer *out, const library *lib, int index)
+{
+    const piece *p = &lib->pieces[index];
+    char name[MAX_WORD + 1] = "";
+    int same = 1;
+    for (int k = 0; k < index; k++)
+        same += lib->pieces[k].name_size == p->name_size &&
+                memcmp(lib->pieces[k].name, p->name, p->name_size) == 0;
+    for (size_t i = sizeof "hnbrdf_" - 1; i < p->name_size && i < MAX_WORD; i++) {
+        const char c = p->name[i];
+        name[i - (sizeof "hnbrdf_" - 1)] = c >= 'a' && c <= 'z' ? (char)(c - 'a' + 'A') : c;
+    }
+    hnbrdf_put(out, same > 1 ? "HNBRDF_HAS_%s_%d\n" : "HNBRDF_HAS_%s\n", name, same);
+}
+
+static void put_part(hnbrdf_printer *out, const library *lib, int index)
+{
+    const piece *p = &lib->pieces[index];
+    size_t size = p->size;
+    while (size > 0 && p->text[size - 1] == '\n')
+        size--;
+    hnbrdf_put(out, "#ifndef ");
+    put_guard(out, lib, index);
+    hnbrdf_put(out, "#define ");
+    put_guard(out, lib, index);
+    hnbrdf_put_bytes(out, p->text, size);
+    hnbrdf_put(out, "\n#endif\n\n");
+}
+
+/* ---- All of it ------------------------------------------------------------------------------- */
+
+static void put_pieces(hnbrdf_printer *out, const library *lib, int shared)
+{
+    for (int k = 0; k < lib->count; k++) {
+        const piece *p = &lib->pieces[k];
+        if (k == 0 && shared) {
+            put_top(out, p);
+        } else if (p->needed && shared) {
+            put_part(out, lib, k);
+        } else if (p->needed || (p->name_size == 0 && !is_heading(p))) {
+            hnbrdf_put_bytes(out, p->text, p->size);
+            if (k == 0)
+                hnbrdf_put_bytes(out, LEAN, sizeof LEAN - 1);
+        }
+    }
 }
 
 void hnbrdf_put_library(hnbrdf_printer *out, const hnbrdf_scene *s, hnbrdf_put_scene_fn put_scene)
 {
     library lib;
-    if (s->only == HNBRDF_GLSL_EVERYTHING && !s->fixed) {
-        put_whole(out, s->edited);
+    if (s->whole || (s->only == HNBRDF_GLSL_EVERYTHING && !s->fixed && !s->parts)) {
+        put_whole(out, s->whole || s->edited);
         return;
     }
     take_apart(&lib);
@@ -157,7 +226,5 @@ void hnbrdf_put_library(hnbrdf_printer *out, const hnbrdf_scene *s, hnbrdf_put_s
     put_scene(&reader, s);
     hnbrdf_put_flush(&reader);
     need_what_is_needed(&lib);
-    for (int k = 0; k < lib.count; k++)
-        if (lib.pieces[k].needed || (lib.pieces[k].name_size == 0 && !is_heading(&lib.pieces[k])))
-            hnbrdf_put_bytes(out, lib.pieces[k].text, lib.pieces[k].size);
+    put_pieces(out, &lib, s->parts);
 }

@@ -2,6 +2,7 @@
 #include "glsl/export_scene.h"
 
 #include "base/error.h"
+#include "glsl/export_filter.h"
 
 #include <string.h>
 
@@ -89,6 +90,14 @@ hnbrdf_result hnbrdf_scene_make(const hnbrdf_model *model, const hnbrdf_glsl_opt
         return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT,
                            "export: weights %d, precision %d, expected 0 to 2 and 0 to 1",
                            (int)s->style, (int)s->precision);
+    s->prefix = options ? options->prefix : NULL;
+    if (s->prefix && !hnbrdf_prefix_is_valid(s->prefix))
+        return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT,
+                           "export: the prefix is \"%.60s\", expected a letter, then letters, "
+                           "digits and single underscores, at most %d, and not gl or hnbrdf_",
+                           s->prefix, HNBRDF_MAX_PREFIX);
+    s->whole = s->prefix && options->standalone && options->language != HNBRDF_LANGUAGE_GLSL;
+    s->parts = s->prefix && options->standalone && !s->whole;
     s->only = options ? options->only : HNBRDF_GLSL_EVERYTHING;
     s->fixed = options && options->fixed;
     s->folded = s->fixed && hnbrdf_scene_has_network(s) && s->style != HNBRDF_GLSL_UNIFORM &&

@@ -10,7 +10,10 @@ typedef struct hnbrdf_scene {
     const hnbrdf_model *model;
     const hnbrdf_model_desc *desc;
     hnbrdf_glsl_only only;
-    int fixed; /* 1: materials are constants */
+    const char *prefix; /* NULL: hnbrdf */
+    int parts;          /* 1: hybrid_brdf.glsl is in the text, each part of it with its guard */
+    int whole;          /* 1: all of it, for whatever else is in the same shader */
+    int fixed;          /* 1: materials are constants */
     /* 1: their latent codes are in the first layer's bias; not for half or loaded weights */
     int folded;
     const hnbrdf_packing *packing; /* NULL: no materials from textures */

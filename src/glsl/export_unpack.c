@@ -178,7 +178,7 @@ void hnbrdf_put_unpack(hnbrdf_printer *out, const hnbrdf_scene *s)
     int texels = hnbrdf_packing_texels(packing);
     hnbrdf_texel_layout_make(packing, &layout);
     hnbrdf_put(out,
-               "// A material from its %d texel%s of %s, as hnbrdf_material_pack() wrote them, "
+               "// A material from its %d texel%s of %s, as `hnbrdf export --texels` writes them, "
                "filtered or not.\n",
                texels, texels == 1 ? "" : "s", format_name(packing));
     hnbrdf_put(out, "#define HNBRDF_TEXELS %d\nhnbrdf_material hnbrdf_material_unpack(", texels);

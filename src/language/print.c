@@ -175,9 +175,10 @@ static void print_guarded(hnbrdf_print *p, const hnbrdf_node *node)
         hnbrdf_write(p, "#define ");
         hnbrdf_write_guard(p, node->token.text);
     }
-    if (p->dialect->prelude)
+    const int library = hnbrdf_span_is(node->token.text, "HNBRDF_HYBRID_BRDF_GLSL");
+    if (library && p->dialect->prelude)
         hnbrdf_write_lines(p, p->dialect->prelude);
-    if (p->dialect->exact && p->t->exact)
+    if (library && p->dialect->exact && p->t->exact)
         hnbrdf_write_lines(p, p->dialect->exact);
     print_items(p, node->first);
     if (define) {
