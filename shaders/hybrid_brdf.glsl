@@ -742,21 +742,24 @@ float hnbrdf_azimuth(float u_0, float part_low, float part_size)
     return hnbrdf_clamp(u_within, 0.0, 0.99999994);
 }
 
-// The lobe that u.x falls to, or cosine. NaN counts as 0.
+// The lobe that u.x falls to, or cosine. NaN counts as 0. One return: FXC warns of two around calls that return early.
 vec3 hnbrdf_draw(vec2 alpha, hnbrdf_lobes ggx_lobes, vec3 wo, vec2 u_rand)
 {
     vec2 lobe_share = hnbrdf_lobe_shares(ggx_lobes, wo.z);
     HNBRDF_PRECISE float share_both = lobe_share.x + lobe_share.y;
     float u_0 = hnbrdf_clamp(u_rand.x, 0.0, 0.99999994), u_1 = hnbrdf_clamp(u_rand.y, 0.0, 0.99999994);
+    vec3 wi_drawn;
     if (u_0 < share_both) {
         bool is_first = u_0 < lobe_share.x;
         float u_turn = is_first ? hnbrdf_azimuth(u_0, 0.0, lobe_share.x)
                                 : hnbrdf_azimuth(u_0, lobe_share.x, lobe_share.y);
         float scale_drawn = is_first ? ggx_lobes.lobe_scale.x : ggx_lobes.lobe_scale.y;
-        return hnbrdf_draw_lobe(scale_drawn, alpha, wo, vec2(u_turn, u_1));
+        wi_drawn = hnbrdf_draw_lobe(scale_drawn, alpha, wo, vec2(u_turn, u_1));
+    } else {
+        HNBRDF_PRECISE float share_rest = 1.0 - share_both;
+        wi_drawn = hnbrdf_draw_cosine(vec2(hnbrdf_azimuth(u_0, share_both, share_rest), u_1));
     }
-    HNBRDF_PRECISE float share_rest = 1.0 - share_both;
-    return hnbrdf_draw_cosine(vec2(hnbrdf_azimuth(u_0, share_both, share_rest), u_1));
+    return wi_drawn;
 }
 
 #endif

@@ -24,3 +24,13 @@ foreach(api webgl)
     ${PROJECT_SOURCE_DIR} $<TARGET_FILE:hnbrdf_cli> $<TARGET_FILE:hnbrdf_glsl_scenes>
     ${HNBRDF_WEB_PACKAGES} ${CMAKE_CURRENT_BINARY_DIR}/web_parity_${api})
 endforeach()
+
+foreach(tool naga babylon)
+  hnbrdf_web_test(test_web_${tool}_texts sh ${CMAKE_CURRENT_LIST_DIR}/test_web_tool.sh ${tool}
+    ${PROJECT_SOURCE_DIR} $<TARGET_FILE:hnbrdf_glsl_scenes> ${HNBRDF_WEB_PACKAGES}
+    ${CMAKE_CURRENT_BINARY_DIR}/web_${tool}_texts)
+endforeach()
+
+hnbrdf_web_test(test_web_hlsl sh ${CMAKE_CURRENT_LIST_DIR}/test_web_hlsl.sh
+  ${PROJECT_SOURCE_DIR} $<TARGET_FILE:hnbrdf_cli> ${HNBRDF_WEB_PACKAGES}
+  ${CMAKE_CURRENT_BINARY_DIR}/web_hlsl)

@@ -1,0 +1,77 @@
+// unity.shader: one material in Unity's Universal Render Pipeline, lit by the main light and additional lights.
+// Not run in the engine: compiled by DXC, FXC and glslang, with a stand-in for URP's headers.
+//
+//   hnbrdf export MODEL --materials NAME --only eval --language hlsl --standalone -o hnbrdf_scene.hlsl
+//
+// Put both files into one folder of Assets.
+Shader "hnbrdf/Measured"
+{
+    SubShader
+    {
+        Tags { "RenderType" = "Opaque" "RenderPipeline" = "UniversalPipeline" }
+        Pass
+        {
+            Tags { "LightMode" = "UniversalForward" }
+            HLSLPROGRAM
+            #pragma target 4.5
+            #pragma vertex vertex
+            #pragma fragment fragment
+            #pragma multi_compile _ _ADDITIONAL_LIGHTS
+            #include "Packages/com.unity.render-pipelines.universal/ShaderLibrary/Core.hlsl"
+            #include "Packages/com.unity.render-pipelines.universal/ShaderLibrary/Lighting.hlsl"
+            #include "hnbrdf_scene.hlsl"
+
+            struct Corner
+            {
+                float4 positionOS : POSITION;
+                float3 normalOS : NORMAL;
+            };
+
+            struct Varying
+            {
+                float4 positionCS : SV_POSITION;
+                float3 positionWS : TEXCOORD0;
+                float3 normalWS : TEXCOORD1;
+            };
+
+            Varying vertex(Corner corner)
+            {
+                Varying result;
+                result.positionWS = TransformObjectToWorld(corner.positionOS.xyz);
+                result.normalWS = TransformObjectToWorldNormal(corner.normalOS);
+                result.positionCS = TransformWorldToHClip(result.positionWS);
+                return result;
+            }
+
+            // v in a frame whose z axis is n. The tangent does not matter to a material that is isotropic.
+            float3 to_frame(float3 n, float3 v)
+            {
+                float3 t = normalize(cross(abs(n.y) < 0.9 ? float3(0, 1, 0) : float3(1, 0, 0), n));
+                return float3(dot(v, t), dot(v, cross(n, t)), dot(v, n));
+            }
+
+            // Lights of URP are scaled so that a white surface which faces a light of intensity 1 has the value 1: the
+            // irradiance is pi times their colour.
+            float3 reflected(hnbrdf_material m, float3 n, float3 wo, Light light)
+            {
+                float3 wi = to_frame(n, light.direction);
+                float3 irradiance = PI * light.color * (light.distanceAttenuation * light.shadowAttenuation);
+                return hnbrdf_eval(m, wi, wo) * irradiance * max(wi.z, 0.0);
+            }
+
+            float4 fragment(Varying varying) : SV_Target
+            {
+                float3 n = normalize(varying.normalWS);
+                float3 wo = to_frame(n, GetWorldSpaceNormalizeViewDir(varying.positionWS));
+                hnbrdf_material m = hnbrdf_scene_material(0);
+                float3 radiance = reflected(m, n, wo, GetMainLight());
+                #ifdef _ADDITIONAL_LIGHTS
+                for (uint i = 0u; i < uint(GetAdditionalLightsCount()); i++)
+                    radiance += reflected(m, n, wo, GetAdditionalLight(i, varying.positionWS));
+                #endif
+                return float4(radiance, 1.0);
+            }
+            ENDHLSL
+        }
+    }
+}
