@@ -41,6 +41,11 @@ endif()
 if(PROJECT_IS_TOP_LEVEL OR HNBRDF_BUILD_CLI OR HNBRDF_BUILD_FUZZERS)
   find_package(OpenEXR CONFIG QUIET)
   find_package(Vulkan QUIET)
+  # EGL for contexts, types of GL; GL itself comes from the driver when the harness runs.
+  find_path(HNBRDF_EGL_INCLUDE_DIR EGL/eglext.h)
+  find_path(HNBRDF_GL_INCLUDE_DIR GL/glcorearb.h)
+  find_library(HNBRDF_EGL_LIBRARY EGL)
+  mark_as_advanced(HNBRDF_EGL_INCLUDE_DIR HNBRDF_GL_INCLUDE_DIR HNBRDF_EGL_LIBRARY)
   find_package(embree CONFIG QUIET) # 3.13 or 4: the headers tell
   if(TARGET embree)
     get_target_property(_embree_include embree INTERFACE_INCLUDE_DIRECTORIES)
@@ -56,6 +61,8 @@ if(PROJECT_IS_TOP_LEVEL OR HNBRDF_BUILD_CLI OR HNBRDF_BUILD_FUZZERS)
   find_path(STB_INCLUDE_DIR stb_image_write.h PATH_SUFFIXES stb)
   hnbrdf_option(HNBRDF_WITH_OPENEXR "OpenEXR images in the tools" OpenEXR_FOUND)
   hnbrdf_option(HNBRDF_WITH_VULKAN "the Vulkan harness in the tools" Vulkan_FOUND)
+  hnbrdf_option(HNBRDF_WITH_EGL "the OpenGL harness in the tools, through EGL"
+    HNBRDF_EGL_INCLUDE_DIR HNBRDF_GL_INCLUDE_DIR HNBRDF_EGL_LIBRARY)
   hnbrdf_option(HNBRDF_WITH_EMBREE "meshes and scenes in the tools" HNBRDF_EMBREE_MAJOR)
 endif()
 # The command is of POSIX.

@@ -67,6 +67,8 @@ hnbrdf_room(gpu
   compile.c compute.c device.c evaluate.c picture.c probe.c probe_half.c sphere.c
   stability.c timed.c
   verify.c)
+hnbrdf_room(gl
+  context.c draw.c timed.c verify.c)
 hnbrdf_room(edit
   fields.c materials.c mix_fit.c mix_goal.c mix_pairs.c mix_path.c)
 hnbrdf_room(bake
@@ -88,4 +90,5 @@ hnbrdf_room(cli
   cmd_fit.c cmd_gallery.c cmd_import.c cmd_info.c cmd_lobes.c cmd_mix.c cmd_render.c
   cmd_report.c cmd_report_editing.c cmd_report_images.c cmd_report_sampling.c cmd_scene.c
   cmd_sheet.c cmd_stability.c cmd_verify.c files.c main.c message.c option.c output.c
-  picture.c progress.c reading.c report_options.c sources.c standard.c watch.c words.c)
+  picture.c progress.c reading.c report_options.c sources.c standard.c verify_devices.c watch.c
+  words.c)

@@ -4,7 +4,7 @@
 set -eu
 
 optional=""
-wanted="gcc g++ libc6-dev make cmake pkg-config libopenexr-dev libhdf5-dev libvulkan-dev mesa-vulkan-drivers glslang-tools libstb-dev libembree-dev"
+wanted="gcc g++ libc6-dev make cmake pkg-config libopenexr-dev libhdf5-dev libvulkan-dev mesa-vulkan-drivers libegl-dev libgl-dev libegl-mesa0 libgl1-mesa-dri glslang-tools libstb-dev libembree-dev"
 case ${1:-} in
 demo) ;;
 tests)

@@ -47,7 +47,7 @@ status 1 "$hnbrdf" export "$work/ggx.safetensors" --weights uniform --weights-ou
 status 2 "$hnbrdf" verify
 status 2 "$hnbrdf" verify "$model" --pairs 1
 status 1 "$hnbrdf" verify "$work/missing.safetensors"
-"$hnbrdf" verify --list >"$work/devices" 2>"$work/err" || { grep -q 'without Vulkan' "$work/err" && exit 0; fail "--list"; }
+"$hnbrdf" verify --list --api vulkan >"$work/devices" 2>"$work/err" || { grep -q 'without Vulkan' "$work/err" && exit 0; fail "--list"; }
 [ -s "$work/devices" ] || { echo "the rest skipped: no Vulkan device"; exit 77; }
 PATH=/nonexistent status 1 "$hnbrdf" verify "$model" --device 0
 grep -q glslang-tools "$work/out" || fail "a missing compiler is named with its package"

@@ -2,27 +2,20 @@
  * was run, against the C library. */
 #include "cli/cli.h"
 
-#include "base/text_buffer.h"
-#include "check/exchange.h"
+#include "cli/verify_devices.h"
 #include "cli/words.h"
 #include "hnbrdf/glsl.h"
-#include "report/verify_report.h"
 
-#ifdef HNBRDF_WITH_VULKAN
-#include "gpu/verify.h"
-#endif
-
+#include <limits.h>
 #include <stdlib.h>
 #include <string.h>
 
 static const cli_command command = {
     "verify",
     "MODEL [--materials A,B] [--weights STYLE] [--precision P] [--fixed|--editable]\n"
-    "              [--device N|all] [--pairs N] [--hand-out DIR]\n"
+    "              [--api A] [--device N|all] [--pairs N] [--hand-out DIR]\n"
     "       hnbrdf verify MODEL --hand-in DIR",
-    "Proves on every Vulkan device that the exported shader gives what the C library gives. "
-    "Compared "
-    "are\n"
+    "Proves on every device that the exported shader gives what the C library gives. Compared are\n"
     "the encoding, the network alone, the analytic part, the whole BRDF, and what is sampled with "
     "its\n"
     "density and weight, on random, mirror, grazing, retroreflecting and extreme pairs of "
@@ -32,6 +25,14 @@ static const cli_command command = {
     "which is probed) and fast (built-in exp and log). How far a device may differ is derived for "
     "every\n"
     "pair from the error of each operation (Vulkan's limits).\n"
+    "\n"
+    "--api vulkan runs compute shaders and needs glslangValidator. gl and gles run fragment "
+    "shaders through\n"
+    "EGL without a window: GL 3.3 and 4.5 core; GL ES 3.0 and 3.2 with float render targets, each "
+    "as far as\n"
+    "the driver has it. Before GLSL 400 and ES 320 there is no `precise`: compilers may order the "
+    "exact\n"
+    "build anew, and its bounds are wider.\n"
     "\n"
     "--hand-out is for engines, browsers and other languages: it writes into DIR, which is made, "
     "the scene\n"
@@ -50,10 +51,11 @@ static const cli_command command = {
     "of a device here; it takes all options from DIR/case.json. Neither needs a device or "
     "compiler.\n"
     "\n"
-    "Exit status 0 only if everything tried is within the bounds. Devices need glslangValidator.",
+    "Exit status 0 only if everything tried is within the bounds.",
     "hnbrdf verify model.safetensors\n"
     "hnbrdf verify model.safetensors --device 0 --pairs 100000 --json verify.json\n"
     "hnbrdf verify model.safetensors --weights uniform --precision half\n"
+    "hnbrdf verify model.safetensors --api gl --pairs 1024\n"
     "hnbrdf verify model.safetensors --pairs 1024 --hand-out case\n"
     "hnbrdf verify model.safetensors --hand-in case\n"
     "hnbrdf verify --list",
@@ -62,6 +64,7 @@ static const cli_command command = {
 typedef struct settings {
     const char *materials, *device, *csv, *json, *hand_out, *hand_in;
     long pairs, seed;
+    int api, device_number; /* -1: not given; all */
     int validate, list, without_timing, fixed, editable;
     cli_word weights, precision;
 } settings;
@@ -84,6 +87,23 @@ static check_exchange exchange_of(const settings *set, const int *materials, int
                                       .material_count = count,
                                       .pairs = (size_t)set->pairs,
                                       .seed = (uint64_t)set->seed}};
+}
+
+/* The number of --device, -1 for all. Returns -1 to go on, else the exit code. */
+static int read_device(settings *set)
+{
+    char *end;
+    set->device_number = -1;
+    if (strcmp(set->device, "all") == 0)
+        return -1;
+    long number = strtol(set->device, &end, 10);
+    if (end == set->device || *end || number < 0)
+        return cli_usage(&command, "--device: found '%s', expected a number or all", set->device);
+    if (set->api == VERIFY_ALL)
+        return cli_usage(&command, "--device %s and --api all: each API has its own numbers",
+                         set->device);
+    set->device_number = number < INT_MAX ? (int)number : INT_MAX;
+    return -1;
 }
 
 /* ---- Results --------------------------------------------------------------------------------- */
@@ -135,7 +155,8 @@ static int hand_in(const hnbrdf_model *model, const settings *set, const char *p
         return cli_fail("%s", error.text);
     verified_device device = {.index = -1,
                               .name = found.device,
-                              .kind = check_language_name(found.exchange.options.language),
+                              .api = check_language_name(found.exchange.options.language),
+                              .kind = "handed in",
                               .driver = set->hand_in,
                               .report = found.report};
     const verification v = {.path = path,
@@ -152,101 +173,34 @@ static int hand_in(const hnbrdf_model *model, const settings *set, const char *p
     return result;
 }
 
-#ifdef HNBRDF_WITH_VULKAN
+/* ---- Here ------------------------------------------------------------------------------------ */
 
-/* ---- The scene ------------------------------------------------------------------------------- */
-
-typedef struct exported_scene {
-    char *text;
-    hnbrdf_text_buffer weights;
-} exported_scene;
-
-static int export_scene(const hnbrdf_model *model, const check_exchange *exchange,
-                        exported_scene *scene)
+static int run_scene(const hnbrdf_model *model, const settings *set, verification *v,
+                     verify_job *job)
 {
+    hnbrdf_text_buffer weights = {0};
+    const check_exchange *exchange = &job->exchange;
+    char *text = NULL;
     hnbrdf_error error;
-    hnbrdf_result result =
-        check_exchange_scene(model, exchange, CHECK_BUILD_FAST, &scene->text, &error);
-    if (!result && exchange->options.weights == HNBRDF_GLSL_UNIFORM &&
+    hnbrdf_result failed = check_exchange_scene(model, exchange, CHECK_BUILD_FAST, &text, &error);
+    if (!failed && exchange->options.weights == HNBRDF_GLSL_UNIFORM &&
         hnbrdf_weights_size(model) > 0)
-        result = hnbrdf_export_weights(model, &exchange->options, hnbrdf_text_buffer_append,
-                                       &scene->weights, &error);
-    return result ? cli_fail("%s", error.text) : CLI_OK;
-}
-
-/* ---- Devices --------------------------------------------------------------------------------- */
-
-static void list_devices(const gpu_instance *instance)
-{
-    for (int i = 0; i < instance->count; i++)
-        printf("%d: %s, %s, %s\n", i, instance->properties[i].deviceName,
-               gpu_kind_name(instance, i), instance->drivers[i]);
-}
-
-/* Numbers of the devices meant: all, or one. Returns -1 to go on, else the exit code. */
-static int choose_devices(const gpu_instance *instance, const char *text, int *first, int *count)
-{
-    *first = 0;
-    *count = instance->count;
-    if (instance->count == 0)
-        return cli_fail(
-            "no Vulkan device found (Debian: apt-get install mesa-vulkan-drivers brings "
-            "one in software)");
-    if (strcmp(text, "all") == 0)
-        return -1;
-    char *end;
-    long number = strtol(text, &end, 10);
-    if (end == text || *end)
-        return cli_usage(&command, "--device: found '%s', expected a number or all", text);
-    if (number < 0 || number >= instance->count)
-        return cli_fail("--device %ld: this machine has devices 0 to %d (hnbrdf verify --list)",
-                        number, instance->count - 1);
-    *first = (int)number;
-    *count = 1;
-    return -1;
-}
-
-static void verify_device(const gpu_instance *instance, const hnbrdf_model *model,
-                          gpu_verify_options *options, verified_device *to)
-{
-    cli_progress progress;
-    gpu_device device;
-    options->check.progress = on_progress;
-    options->check.progress_user = &progress;
-    to->name = instance->properties[to->index].deviceName;
-    to->kind = gpu_kind_name(instance, to->index);
-    to->driver = instance->drivers[to->index];
-    if (gpu_device_open(instance, to->index, &device, &to->failed))
-        return;
-    cli_progress_begin(&progress, to->name);
-    if (gpu_verify(&device, model, options, &to->report, &to->failed) == HNBRDF_OK)
-        to->failed.text[0] = '\0';
-    cli_progress_end(&progress);
-    gpu_device_close(&device);
-}
-
-/* ---- All of it ------------------------------------------------------------------------------- */
-
-static int verify_scene(gpu_instance *instance, verification *v, const settings *set, int first,
-                        gpu_verify_options *options)
-{
-    v->devices = calloc((size_t)v->device_count, sizeof *v->devices);
-    if (!v->devices)
-        return cli_fail("out of memory");
-    for (int d = 0; d < v->device_count; d++) {
-        v->devices[d].index = first + d;
-        verify_device(instance, v->model, options, &v->devices[d]);
-    }
-    v->messages = instance->messages;
-    int result = write_results(v, set);
-    for (int d = 0; d < v->device_count; d++)
-        check_report_free(&v->devices[d].report);
-    free(v->devices);
+        failed = hnbrdf_export_weights(model, &exchange->options, hnbrdf_text_buffer_append,
+                                       &weights, &error);
+    job->text = text;
+    job->weights = &weights;
+    int result = cli_code(failed, &error);
+    if (result == CLI_OK)
+        result = verify_on_devices((verify_api)set->api, job, v);
+    if (result == CLI_OK)
+        result = write_results(v, set);
+    verify_free_devices(v);
+    free(text);
+    free(weights.bytes);
     return result;
 }
 
-static int verify_here(gpu_instance *instance, const hnbrdf_model *model, const settings *set,
-                       const char *path)
+static int verify_here(const hnbrdf_model *model, const settings *set, const char *path)
 {
     verification v = {.path = path,
                       .model = model,
@@ -254,54 +208,19 @@ static int verify_here(gpu_instance *instance, const hnbrdf_model *model, const 
                       .validated = set->validate,
                       .weights = (hnbrdf_glsl_weights)set->weights.value,
                       .precision = (hnbrdf_glsl_precision)set->precision.value};
-    int first, *materials = NULL;
-    int result = choose_devices(instance, set->device, &first, &v.device_count);
-    if (result < 0)
-        result = cli_choose_materials(model, set->materials, &materials, &v.material_count);
+    int *materials = NULL;
+    int result = cli_choose_materials(model, set->materials, &materials, &v.material_count);
     if (result == CLI_OK) {
-        const check_exchange exchange = exchange_of(set, materials, v.material_count);
-        exported_scene scene = {0};
+        verify_job job = {.exchange = exchange_of(set, materials, v.material_count),
+                          .device = set->device_number,
+                          .validate = set->validate,
+                          .without_timing = set->without_timing};
         v.materials = materials;
-        result = export_scene(model, &exchange, &scene);
-        gpu_verify_options options = {
-            .scene = {scene.text, scene.weights.bytes, scene.weights.size},
-            .check = exchange.check,
-            .without_timing = set->without_timing};
-        if (result == CLI_OK)
-            result = verify_scene(instance, &v, set, first, &options);
-        free(scene.text);
-        free(scene.weights.bytes);
+        result = run_scene(model, set, &v, &job);
     }
     free(materials);
     return result;
 }
-
-static int verify_devices(const hnbrdf_model *model, const settings *set, const char *path)
-{
-    gpu_instance instance;
-    hnbrdf_error error;
-    int result = CLI_OK;
-    if (gpu_open(set->validate ? GPU_VALIDATED_SYNC : GPU_NOT_VALIDATED, &instance, &error))
-        return cli_fail("%s", error.text);
-    if (set->list)
-        list_devices(&instance);
-    else
-        result = verify_here(&instance, model, set, path);
-    gpu_close(&instance);
-    return result;
-}
-
-#else
-
-static int verify_devices(const hnbrdf_model *model, const settings *set, const char *path)
-{
-    (void)model;
-    (void)set;
-    (void)path;
-    return cli_fail("verify: this hnbrdf was built without Vulkan (HNBRDF_WITH_VULKAN)");
-}
-
-#endif
 
 static int verify_model(const settings *set, const char *path)
 {
@@ -310,14 +229,15 @@ static int verify_model(const settings *set, const char *path)
         return CLI_FAILURE;
     int result = set->hand_out  ? hand_out(model, set)
                  : set->hand_in ? hand_in(model, set, path)
-                                : verify_devices(model, set, path);
+                                : verify_here(model, set, path);
     hnbrdf_model_free(model);
     return result;
 }
 
 int cmd_verify(int argc, char **argv)
 {
-    settings set = {.device = "all",
+    settings set = {.api = -1,
+                    .device = "all",
                     .pairs = 16384,
                     .seed = 1,
                     .weights = {HNBRDF_GLSL_CONSTANTS, cli_weights_word},
@@ -332,6 +252,8 @@ int cmd_verify(int argc, char **argv)
         {"fixed", 0, CLI_FLAG, &set.fixed, 0, 0, NULL,
          "materials as constants, as export --fixed writes them"},
         {"editable", 0, CLI_FLAG, &set.editable, 0, 0, NULL, "as export --editable writes them"},
+        {"api", 0, CLI_CHOICE, &set.api, 0, 0, "vulkan|gl|gles|all",
+         "by which devices are asked (default vulkan)"},
         {"device", 'd', CLI_TEXT, &set.device, 0, 0, "N|all",
          "number of a device, see --list (default: all)"},
         {"pairs", 'n', CLI_INT, &set.pairs, 64, 1 << 22, "N",
@@ -349,7 +271,7 @@ int cmd_verify(int argc, char **argv)
          "with the Vulkan validation layer; any message fails"},
         {"without-timing", 0, CLI_FLAG, &set.without_timing, 0, 0, NULL,
          "do not measure the run time"},
-        {"list", 0, CLI_FLAG, &set.list, 0, 0, NULL, "list the devices and stop"},
+        {"list", 0, CLI_FLAG, &set.list, 0, 0, NULL, "list the devices of every API and stop"},
         {0},
     };
     int count, result = cli_parse(&command, options, argc, argv, &count);
@@ -364,5 +286,10 @@ int cmd_verify(int argc, char **argv)
         return cli_usage(&command, "--hand-out and --hand-in: one after the other");
     if (set.hand_out && (set.csv || set.json))
         return cli_usage(&command, "--hand-out has no results yet: found --csv or --json");
-    return set.list ? verify_devices(NULL, &set, NULL) : verify_model(&set, argv[1]);
+    if (set.list)
+        return verify_list_devices(set.api < 0 ? VERIFY_ALL : (verify_api)set.api, set.validate);
+    if (set.api < 0)
+        set.api = VERIFY_VULKAN;
+    result = read_device(&set);
+    return result >= 0 ? result : verify_model(&set, argv[1]);
 }

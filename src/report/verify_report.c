@@ -121,7 +121,9 @@ static void print_timing(const check_timing *timing, FILE *file)
 static void print_device(const verification *v, const verified_device *device, FILE *file)
 {
     if (device->index >= 0)
-        fprintf(file, "device %d: ", device->index);
+        fprintf(file, "%s device %d: ", device->api, device->index);
+    else
+        fprintf(file, "%s: ", device->api);
     fprintf(file, "%s, %s, %s\n", device->name, device->kind, device->driver);
     if (device->failed.text[0]) {
         fprintf(file, "  FAILED      %s\n\n", device->failed.text);
@@ -195,7 +197,7 @@ static void write_row(const verification *v, const verified_device *device, int 
         if (found)
             write_number(file, (double)here->worst.pair[i]);
     }
-    putc('\n', file);
+    fprintf(file, ",%s\n", device->api);
 }
 
 void verification_write_csv(const void *what, FILE *file)
@@ -203,7 +205,7 @@ void verification_write_csv(const void *what, FILE *file)
     const verification *v = what;
     fputs("device,material,build,stage,values,identical,unbounded,outside,mean_ulp,worst_ulp,mean_"
           "relative,"
-          "worst_relative,worst_of_bound,worst_pair,wi_x,wi_y,wi_z,wo_x,wo_y,wo_z\n",
+          "worst_relative,worst_of_bound,worst_pair,wi_x,wi_y,wi_z,wo_x,wo_y,wo_z,api\n",
           file);
     for (int d = 0; d < v->device_count; d++)
         for (int k = 0; k < v->devices[d].report.material_count; k++)
@@ -258,6 +260,7 @@ static void write_json_report(const verification *v, const verified_device *devi
         a->flushes_denormals ? "true" : "false");
     fprintf(file, ", \"has_half\": %s, \"exact_half\": %s", a->has_half ? "true" : "false",
             a->exact_half ? "true" : "false");
+    fprintf(file, ", \"ordered\": %s", report->ordered ? "true" : "false");
     write_member(file, ", \"divide_ulp\": ", a->divide_ulp);
     write_member(file, ", \"sqrt_ulp\": ", a->sqrt_ulp);
     write_member(file, ", \"exp_ulp\": ", a->exp_ulp);
@@ -291,7 +294,8 @@ void verification_write_json(const void *what, FILE *file)
             v->messages);
     for (int d = 0; d < v->device_count; d++) {
         const verified_device *device = &v->devices[d];
-        fprintf(file, "%s\n    {\"index\": %d, \"name\": ", d ? "," : "", device->index);
+        fprintf(file, "%s\n    {\"index\": %d, \"api\": \"%s\", \"name\": ", d ? "," : "",
+                device->index, device->api);
         hnbrdf_write_json_text(file, device->name);
         fprintf(file, ", \"kind\": \"%s\", \"driver\": ", device->kind);
         hnbrdf_write_json_text(file, device->driver);

@@ -10,6 +10,7 @@
  * of the devices of this machine that are listed, but a program with a folder. */
 typedef struct verified_device {
     int index;
+    const char *api; /* "vulkan", "gl 330"; of a program the language */
     const char *name, *kind, *driver;
     hnbrdf_error failed;
     check_report report;
