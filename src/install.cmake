@@ -5,7 +5,7 @@ include(CMakePackageConfigHelpers)
 get_property(HNBRDF_PARTS GLOBAL PROPERTY HNBRDF_PARTS)
 set(_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/hnbrdf)
 
-set(_headers_hnbrdf hnbrdf glsl edit)
+set(_headers_hnbrdf ${HNBRDF_PUBLIC_HEADERS})
 set(_headers_hnbrdf_measured measured)
 set(_headers_hnbrdf_hdf5 hdf5)
 set(_headers_hnbrdf_metrics metrics)

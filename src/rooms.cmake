@@ -8,6 +8,7 @@ endfunction()
 hnbrdf_room(base
   clock.c csv.c files.c files_posix.c files_windows.c foreign.c guess.c interrupt.c json.c printer.c
   probe.c text.c text_buffer.c threads.c write.c)
+set(HNBRDF_PUBLIC_HEADERS hnbrdf glsl edit) # of libhnbrdf
 # Each file of base that an installed library needs is in exactly one of the static ones: here what
 # libhnbrdf, libhnbrdf_fit and libhnbrdf_bake hold. Shared libraries take what they need from
 # hnbrdf_base and hide it.

@@ -171,7 +171,7 @@ void hnbrdf_output_discard(hnbrdf_output *output)
 
 int hnbrdf_write_stream(void *file, const void *data, size_t size)
 {
-    return fwrite(data, 1, size, file) != size;
+    return fwrite(data, 1, size, (FILE *)file) != size;
 }
 
 hnbrdf_result hnbrdf_write_file(const char *path, const void *data, size_t size,

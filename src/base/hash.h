@@ -11,7 +11,7 @@
 /* The hash so far, with more bytes. */
 static inline uint64_t hnbrdf_hash(uint64_t hash, const void *data, size_t size)
 {
-    const unsigned char *bytes = data;
+    const unsigned char *bytes = (const unsigned char *)data;
     for (size_t i = 0; i < size; ++i)
         hash = (hash ^ bytes[i]) * UINT64_C(1099511628211);
     return hash;
@@ -19,7 +19,7 @@ static inline uint64_t hnbrdf_hash(uint64_t hash, const void *data, size_t size)
 
 static inline uint32_t hnbrdf_hash32(uint32_t hash, const void *data, size_t size)
 {
-    const unsigned char *bytes = data;
+    const unsigned char *bytes = (const unsigned char *)data;
     for (size_t i = 0; i < size; ++i)
         hash = (hash ^ bytes[i]) * UINT32_C(16777619);
     return hash;

@@ -42,7 +42,11 @@ static inline const char *hnbrdf_print_number(char text[HNBRDF_NUMBER_TEXT], dou
     return text;
 }
 
-/* A number for a person to read, as "%g": the argument of a %s in the same expression. */
-#define HNBRDF_NUMBER(value) hnbrdf_print_number((char[HNBRDF_NUMBER_TEXT]){""}, (double)(value), 6)
+/* A number for a person to read, as "%g": the argument of a %s in the same expression. A struct, as
+ * C++ takes no address of a temporary array. */
+typedef struct hnbrdf_number {
+    char text[HNBRDF_NUMBER_TEXT];
+} hnbrdf_number;
+#define HNBRDF_NUMBER(value) hnbrdf_print_number((hnbrdf_number){{0}}.text, (double)(value), 6)
 
 #endif

@@ -33,7 +33,7 @@ static inline void hnbrdf_sort_sift(unsigned char *items, size_t parent, size_t 
 /* Ascending, not stable, O(n log n) whatever the input. */
 static inline void hnbrdf_sort(void *array, size_t count, size_t size, hnbrdf_compare_fn compare)
 {
-    unsigned char *items = array;
+    unsigned char *items = (unsigned char *)array;
     for (size_t i = count / 2; i-- > 0;)
         hnbrdf_sort_sift(items, i, count, size, compare);
     for (size_t last = count; last-- > 1;) {

@@ -219,7 +219,7 @@ int hnbrdf_packing_texels(const hnbrdf_packing *packing)
 static void store(const hnbrdf_packing *packing, void *texels, int channel,
                   const hnbrdf_field *field, float value)
 {
-    unsigned char *bytes = texels;
+    unsigned char *bytes = (unsigned char *)texels;
     value = hnbrdf_clamp(value, field->low, field->high);
     if (packing->format == HNBRDF_TEXEL_RGBA16F) {
         uint16_t half = hnbrdf_half_of(value);
@@ -324,7 +324,7 @@ void hnbrdf_material_unpack(const hnbrdf_packing *packing, const void *texels,
                             hnbrdf_material *material)
 {
     float channels[HNBRDF_MAX_TEXELS * 4];
-    const unsigned char *bytes = texels;
+    const unsigned char *bytes = (const unsigned char *)texels;
     int count = 4 * hnbrdf_packing_texels(packing);
     for (int c = 0; c < count && c < HNBRDF_MAX_TEXELS * 4; c++) {
         uint16_t half;

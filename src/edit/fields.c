@@ -8,14 +8,14 @@
 #include <string.h>
 
 /* Offsets in hnbrdf_material, of the field and of what it was fitted with. */
-typedef struct field {
+typedef struct edit_field {
     const char *name;
     size_t offset;
     int count;     /* floats there */
     size_t fitted; /* 0: nothing is kept of it */
-} field;
+} edit_field;
 
-static const field fields[] = {
+static const edit_field fields[] = {
     {"kd", offsetof(hnbrdf_material, kd), 3, offsetof(hnbrdf_material, fitted.kd)},
     {"eta", offsetof(hnbrdf_material, eta), 3, offsetof(hnbrdf_material, fitted.eta)},
     {"alpha", offsetof(hnbrdf_material, alpha), 2, offsetof(hnbrdf_material, fitted.alpha)},
@@ -29,13 +29,13 @@ enum { FIELDS = sizeof fields / sizeof fields[0], MAX_VALUES = 3 };
 
 /* FIELD=VALUE[:VALUE...], or with *= or +=; or FIELD=fitted. */
 typedef struct assignment {
-    const field *field;
+    const edit_field *field;
     char operation; /* '=', '*', '+', or 'f': what it was fitted with */
     float values[MAX_VALUES];
     int count; /* 1: the same for every float of the field */
 } assignment;
 
-static const field *find_field(const char *name, size_t length, hnbrdf_error *error)
+static const edit_field *find_field(const char *name, size_t length, hnbrdf_error *error)
 {
     char word[HNBRDF_MAX_NAME + 1];
     hnbrdf_guess guess;
@@ -74,7 +74,7 @@ static const char *read_value(const assignment *a, const char *from, const char 
 static hnbrdf_result read_values(assignment *a, const char *from, const char *end,
                                  hnbrdf_error *error)
 {
-    const field *f = a->field;
+    const edit_field *f = a->field;
     if (f->fitted && a->operation == '=' && (size_t)(end - from) == sizeof FITTED - 1 &&
         strncmp(from, FITTED, sizeof FITTED - 1) == 0) {
         a->operation = 'f';
@@ -106,7 +106,7 @@ static hnbrdf_result read_values(assignment *a, const char *from, const char *en
 static hnbrdf_result read_assignment(assignment *a, const char *from, const char *end,
                                      hnbrdf_error *error)
 {
-    const char *equals = memchr(from, '=', (size_t)(end - from));
+    const char *equals = (const char *)memchr(from, '=', (size_t)(end - from));
     if (!equals) {
         return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT, "'%.*s' is not FIELD=VALUE",
                            (int)(end - from), from);

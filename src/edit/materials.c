@@ -247,7 +247,7 @@ hnbrdf_result hnbrdf_model_with_materials(const hnbrdf_model *model,
                                           const hnbrdf_edit_options *options, hnbrdf_model **out,
                                           hnbrdf_error *error)
 {
-    static const hnbrdf_edit_options defaults;
+    static const hnbrdf_edit_options defaults = {0};
     hnbrdf_allocator memory;
     hnbrdf_model_desc desc;
     hnbrdf_result result;
@@ -262,7 +262,7 @@ hnbrdf_result hnbrdf_model_with_materials(const hnbrdf_model *model,
     const size_t capacity = capacity_for(&desc, changes, count);
     const size_t size = capacity * (sizeof(char *) + sizeof(hnbrdf_material) + sizeof(uint32_t));
     /* Names first: pointers need the strictest alignment. */
-    const char **names = hnbrdf_allocate(&memory, size);
+    const char **names = (const char **)hnbrdf_allocate(&memory, size);
     if (!names)
         return hnbrdf_fail_memory(error, size, "the materials");
     material_list list = {.model = model,

@@ -93,7 +93,7 @@ void hnbrdf_mix_pairs_make(const hnbrdf_model *model, const hnbrdf_material *mat
                            int bounded, mix_pairs *pairs)
 {
     const int halved = is_round(model, material);
-    const int count = bounded ? MIX_BOUNDED : halved ? ROUND_VIEWS : MIX_MAX_VIEWS;
+    const int count = bounded ? (int)MIX_BOUNDED : halved ? (int)ROUND_VIEWS : (int)MIX_MAX_VIEWS;
     pairs->count = 0;
     for (int view = 0; view < count; view++) {
         const chart c = make_chart(model, material, views[view], side);

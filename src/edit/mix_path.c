@@ -110,7 +110,7 @@ hnbrdf_result hnbrdf_mix_path_fit(const hnbrdf_model *model, const hnbrdf_materi
     straight_path(&ends[0], &ends[1], made);
     if (model->desc.kind != HNBRDF_KIND_GGX) {
         const size_t size = sizeof(path_work) + hnbrdf_mix_work_size;
-        path_work *p = hnbrdf_allocate(&model->allocator, size);
+        path_work *p = (path_work *)hnbrdf_allocate(&model->allocator, size);
         if (!p)
             return hnbrdf_fail_memory(error, size, "a path between two materials");
         memset(p, 0, sizeof *p);

@@ -126,9 +126,9 @@ static hnbrdf_result check_count(const loading *l, uint64_t count)
 static hnbrdf_result allocate_names(loading *l, size_t text_size, uint64_t count)
 {
     const size_t size = (size_t)count * sizeof *l->names;
-    if (!l->text && !(l->text = hnbrdf_allocate(&l->memory, text_size)))
+    if (!l->text && !(l->text = (char *)hnbrdf_allocate(&l->memory, text_size)))
         return hnbrdf_fail_memory(l->error, text_size, "the names of materials");
-    if (size > 0 && !(l->names = hnbrdf_allocate(&l->memory, size)))
+    if (size > 0 && !(l->names = (const char **)hnbrdf_allocate(&l->memory, size)))
         return hnbrdf_fail_memory(l->error, size, "the names of materials");
     l->desc.names = l->names;
     l->desc.material_count = (int)count;
@@ -340,7 +340,7 @@ static hnbrdf_result read_weights(loading *l)
     size_t count = 0;
     for (int i = 0; i < HNBRDF_TENSOR_KD; ++i)
         count += number_count(&l->file->tensors[i]);
-    if (count > 0 && !(l->weights = hnbrdf_allocate(&l->memory, count * sizeof(float))))
+    if (count > 0 && !(l->weights = (float *)hnbrdf_allocate(&l->memory, count * sizeof(float))))
         return hnbrdf_fail_memory(l->error, count * sizeof(float), "weights");
     float *to = l->weights;
     for (int i = 0; i < HNBRDF_TENSOR_KD; ++i) {
@@ -359,7 +359,7 @@ static hnbrdf_result read_weights(loading *l)
 static hnbrdf_result read_materials(loading *l)
 {
     const size_t count = (size_t)l->desc.material_count, size = count * sizeof *l->materials;
-    if (!(l->materials = hnbrdf_allocate(&l->memory, size)))
+    if (!(l->materials = (hnbrdf_material *)hnbrdf_allocate(&l->memory, size)))
         return hnbrdf_fail_memory(l->error, size, "materials");
     for (size_t m = 0; m < count; ++m) {
         hnbrdf_material_init(&l->materials[m]);

@@ -26,7 +26,7 @@ typedef struct source {
 
 static size_t read_stream(void *user, void *buffer, size_t size)
 {
-    const size_t count = fread(buffer, 1, size, user);
+    const size_t count = fread(buffer, 1, size, (FILE *)user);
     return count < size && ferror((FILE *)user) ? (size_t)-1 : count;
 }
 
@@ -39,15 +39,15 @@ static hnbrdf_result fail_size(const source *s)
 /* Twice the room, with what is there. */
 static hnbrdf_result grow(const source *s, unsigned char **bytes, size_t *room)
 {
-    const size_t wanted = *room == 0 ? FIRST_CHUNK : *room * 2;
-    unsigned char *larger = *room <= SIZE_MAX / 2 ? hnbrdf_allocate(&s->memory, wanted) : NULL;
+    const size_t wanted = *room == 0 ? (size_t)FIRST_CHUNK : *room * 2;
+    void *larger = *room <= SIZE_MAX / 2 ? hnbrdf_allocate(&s->memory, wanted) : NULL;
     if (!larger)
         return hnbrdf_fail_memory(s->error, wanted, s->path);
     if (*bytes) {
         memcpy(larger, *bytes, *room);
         hnbrdf_release(&s->memory, *bytes);
     }
-    *bytes = larger;
+    *bytes = (unsigned char *)larger;
     *room = wanted;
     return HNBRDF_OK;
 }
@@ -91,9 +91,9 @@ static hnbrdf_result load_bytes(const source *s, const unsigned char *bytes, siz
 static hnbrdf_result begin(const char *path, const hnbrdf_load_options *options,
                            hnbrdf_model **model, hnbrdf_error *error, source *s)
 {
-    static const hnbrdf_load_options defaults;
+    static const hnbrdf_load_options defaults = {0};
     const hnbrdf_load_options *chosen = options ? options : &defaults;
-    const hnbrdf_kernel *kernel;
+    const hnbrdf_kernel *kernel = NULL;
     hnbrdf_result result;
     s->path = path;
     s->max_bytes = chosen->max_bytes ? chosen->max_bytes : DEFAULT_MAX_BYTES;
@@ -121,7 +121,8 @@ hnbrdf_result hnbrdf_model_load_memory(const void *data, size_t size,
         return result;
     if (!data)
         return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT, "%s: data is NULL", s.path);
-    return size > s.max_bytes ? fail_size(&s) : load_bytes(&s, data, size, model);
+    return size > s.max_bytes ? fail_size(&s)
+                              : load_bytes(&s, (const unsigned char *)data, size, model);
 }
 
 hnbrdf_result hnbrdf_model_load(const char *path, const hnbrdf_load_options *options,

@@ -308,7 +308,7 @@ static hnbrdf_result read_entries(header *h)
 
 static int compare_extents(const void *a, const void *b)
 {
-    const extent *x = a, *y = b;
+    const extent *x = (const extent *)a, *y = (const extent *)b;
     return x->begin != y->begin ? (x->begin < y->begin ? -1 : 1)
                                 : (x->end > y->end) - (x->end < y->end);
 }
@@ -385,7 +385,7 @@ hnbrdf_result hnbrdf_safetensors_read(const char *path, const unsigned char *byt
         return result;
     header h = {.path = path, .data_size = size - 8 - length, .file = file, .error = error};
     const size_t room = (length / MIN_ENTRY + 1) * sizeof *h.extents;
-    h.extents = hnbrdf_allocate(allocator, room);
+    h.extents = (extent *)hnbrdf_allocate(allocator, room);
     if (!h.extents)
         return hnbrdf_fail_memory(error, room, "the header of a model file");
     memset(file, 0, sizeof *file);

@@ -29,8 +29,8 @@ static void flush(sink *s)
 /* An hnbrdf_write_fn, so that escaped text can go into a sink. */
 static int put(void *user, const void *data, size_t size)
 {
-    sink *s = user;
-    const unsigned char *bytes = data;
+    sink *s = (sink *)user;
+    const unsigned char *bytes = (const unsigned char *)data;
     s->count += size;
     while (size > 0) {
         const size_t free_bytes = sizeof s->buffer - s->held;
@@ -93,7 +93,7 @@ static void put_number_key(sink *s, int key, float value, float standard)
 /* Text inside a JSON list that is itself the text of a JSON string. */
 static int put_nested(void *user, const void *data, size_t size)
 {
-    return hnbrdf_json_escape(data, size, put, user);
+    return hnbrdf_json_escape((const char *)data, size, put, user);
 }
 
 static void put_names(sink *s, const hnbrdf_model_desc *desc)

@@ -89,8 +89,8 @@ int hnbrdf_rename_end(hnbrdf_renamer *r)
 
 int hnbrdf_rename(void *renamer, const void *data, size_t size)
 {
-    hnbrdf_renamer *r = renamer;
-    const char *text = data;
+    hnbrdf_renamer *r = (hnbrdf_renamer *)renamer;
+    const char *text = (const char *)data;
     for (size_t i = 0; i < size; i++) {
         if (!hnbrdf_in_word(text[i])) {
             if (hnbrdf_rename_end(r) || r->write(r->user, text + i, 1))
@@ -141,8 +141,8 @@ static int put_other(hnbrdf_stripper *s, const char *c)
 
 int hnbrdf_strip(void *stripper, const void *data, size_t size)
 {
-    hnbrdf_stripper *s = stripper;
-    const char *text = data;
+    hnbrdf_stripper *s = (hnbrdf_stripper *)stripper;
+    const char *text = (const char *)data;
     int failed = 0;
     for (size_t i = 0; i < size && !failed; i++)
         if (text[i] == '\n')

@@ -135,8 +135,8 @@ static void put_body(hnbrdf_printer *out, const hnbrdf_scene *s)
 /* FNV-1a. */
 static int hash_bytes(void *user, const void *data, size_t size)
 {
-    uint32_t *hash = user;
-    const unsigned char *bytes = data;
+    uint32_t *hash = (uint32_t *)user;
+    const unsigned char *bytes = (const unsigned char *)data;
     for (size_t i = 0; i < size; i++)
         *hash = (*hash ^ bytes[i]) * 16777619u;
     return 0;

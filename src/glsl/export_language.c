@@ -13,10 +13,10 @@
 
 int hnbrdf_grow(void *grown, const void *data, size_t size)
 {
-    hnbrdf_grown *to = grown;
+    hnbrdf_grown *to = (hnbrdf_grown *)grown;
     if (to->room - to->size < size) {
         const size_t room = 2 * to->room + size + 4096;
-        char *text = hnbrdf_allocate(to->memory, room);
+        char *text = (char *)hnbrdf_allocate(to->memory, room);
         if (!text)
             return 1;
         if (to->size > 0)

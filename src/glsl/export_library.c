@@ -31,7 +31,7 @@ static void find_name(piece *p)
 {
     const char *line = p->text, *end = p->text + p->size;
     while (line < end && (*line == '/' || *line == '#' || *line == '\n')) {
-        const char *next = memchr(line, '\n', (size_t)(end - line));
+        const char *next = (const char *)memchr(line, '\n', (size_t)(end - line));
         line = next ? next + 1 : end;
     }
     const char *after = line;
@@ -90,8 +90,8 @@ static void need_word(library *lib)
 /* An hnbrdf_write_fn: marks what these bytes name. */
 static int need_words(void *user, const void *data, size_t size)
 {
-    library *lib = user;
-    const char *text = data;
+    library *lib = (library *)user;
+    const char *text = (const char *)data;
     for (size_t i = 0; i < size; i++) {
         if (hnbrdf_in_word(text[i])) {
             if (lib->word_size < MAX_WORD)

@@ -118,8 +118,9 @@ void hnbrdf_put_material(hnbrdf_printer *out, const hnbrdf_scene *s, int k)
     if (hnbrdf_scene_has_analytic(s))
         put_analytic_fields(out, s, material, &prepared, &fields);
     if (hnbrdf_scene_has_rotation(s)) {
+        const float turned[2] = {prepared.cosine, prepared.sine};
         put_next(out, &fields);
-        hnbrdf_put_vector(out, 2, (const float[2]){prepared.cosine, prepared.sine}, 2);
+        hnbrdf_put_vector(out, 2, turned, 2);
     }
     for (int v = 0; v < hnbrdf_scene_latent_vectors(s); v++) {
         put_next(out, &fields);

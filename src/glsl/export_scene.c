@@ -148,7 +148,8 @@ hnbrdf_result hnbrdf_scene_make(const hnbrdf_model *model, const hnbrdf_glsl_opt
     }
     set_first_bias(s);
     const hnbrdf_allocator *memory = &model->allocator;
-    s->names = memory->allocate(memory->user, (size_t)s->count * sizeof *s->names);
+    s->names =
+        (hnbrdf_macro_name *)memory->allocate(memory->user, (size_t)s->count * sizeof *s->names);
     if (!s->names)
         return hnbrdf_fail(error, HNBRDF_ERROR_MEMORY, "export: no memory for %d names", s->count);
     result = hnbrdf_macro_names(model, s->indices, s->count, s->names, error);

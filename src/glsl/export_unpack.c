@@ -117,8 +117,10 @@ static void put_fitted(hnbrdf_printer *out, const hnbrdf_scene *s,
                        const hnbrdf_texel_layout *layout)
 {
     if (s->packing->edited) {
-        put_analytic_fields(out, &(unpacked){"material_out.fitted_", "fitted_", &layout->fitted_kd,
-                                             &layout->fitted_r, &layout->fitted_alpha, 1});
+        const unpacked fitted = {"material_out.fitted_", "fitted_",
+                                 &layout->fitted_kd,     &layout->fitted_r,
+                                 &layout->fitted_alpha,  1};
+        put_analytic_fields(out, &fitted);
     } else { /* others of the scene are edited */
         hnbrdf_put(out,
                    "    material_out.fitted_kd = material_out.kd;\n"
@@ -185,9 +187,11 @@ void hnbrdf_put_unpack(hnbrdf_printer *out, const hnbrdf_scene *s)
     for (int t = 0; t < texels; t++)
         hnbrdf_put(out, "%svec4 t_%d", t > 0 ? ", " : "", t);
     hnbrdf_put(out, ")\n{\n    hnbrdf_material material_out;\n");
-    if (packing->analytic)
-        put_analytic_fields(out, &(unpacked){"material_out.", "", &layout.kd, &layout.r,
-                                             &layout.alpha, s->anisotropic});
+    if (packing->analytic) {
+        const unpacked own = {"material_out.", "", &layout.kd, &layout.r, &layout.alpha,
+                              s->anisotropic};
+        put_analytic_fields(out, &own);
+    }
     if (s->edited)
         put_fitted(out, s, &layout);
     if (packing->rotated)

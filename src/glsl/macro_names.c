@@ -169,8 +169,9 @@ hnbrdf_result hnbrdf_macro_names(const hnbrdf_model *model, const int *indices, 
     macro_set set = {.slots = 4};
     while (set.slots < 2 * entries)
         set.slots *= 2;
-    named *all = memory->allocate(memory->user, entries * sizeof *all);
-    named **order = memory->allocate(memory->user, (materials + 1 + set.slots) * sizeof *order);
+    named *all = (named *)memory->allocate(memory->user, entries * sizeof *all);
+    named **order =
+        (named **)memory->allocate(memory->user, (materials + 1 + set.slots) * sizeof *order);
     hnbrdf_result result = HNBRDF_OK;
     if (all && order) {
         set.table = order + materials + 1;

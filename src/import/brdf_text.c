@@ -147,6 +147,7 @@ hnbrdf_result hnbrdf_words_fail(const hnbrdf_words *words, const char *expected,
                            (unsigned)(unsigned char)*words->begin, expected);
     }
     return hnbrdf_fail(error, HNBRDF_ERROR_FORMAT, "%s: line %d: found %.*s, expected %s",
-                       words->file, words->line, (int)(length < MAX_SHOWN ? length : MAX_SHOWN),
-                       words->begin, expected);
+                       words->file, words->line,
+                       (int)(length < MAX_SHOWN ? length : (ptrdiff_t)MAX_SHOWN), words->begin,
+                       expected);
 }

@@ -327,7 +327,7 @@ hnbrdf_result hnbrdf_model_import_brdf(const char *const *texts, const size_t *s
                            "%d .brdf files, expected 1 to %d", count, HNBRDF_MAX_MATERIALS);
     }
     const size_t size = sizeof(importing) + (size_t)count * sizeof(hnbrdf_material);
-    importing *all = hnbrdf_allocate(&memory, size);
+    importing *all = (importing *)hnbrdf_allocate(&memory, size);
     if (!all)
         return hnbrdf_fail_memory(error, size, "an import");
     result = read_files(all, texts, sizes, names, count, &settled, error);

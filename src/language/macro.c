@@ -27,7 +27,7 @@ static hnbrdf_macro *add_macro(hnbrdf_preprocessor *p, hnbrdf_span name)
 {
     if (p->macro_count == p->macro_room) {
         const size_t room = p->macro_room ? 2 * p->macro_room : 64;
-        hnbrdf_macro *macros = hnbrdf_allocate(p->t->memory, room * sizeof *macros);
+        hnbrdf_macro *macros = (hnbrdf_macro *)hnbrdf_allocate(p->t->memory, room * sizeof *macros);
         if (!macros) {
             hnbrdf_refuse_memory(p->t, room * sizeof *macros);
             return NULL;

@@ -220,8 +220,8 @@ static void read_text(hnbrdf_preprocessor *p, const hnbrdf_source *source, int n
     hnbrdf_lexer lexer = {.at = source->text,
                           .end = source->text + source->size,
                           .line = 1,
-                          .own_line = 1,
-                          .source = (unsigned char)number};
+                          .source = (unsigned char)number,
+                          .own_line = 1};
     hnbrdf_tokens part = {0};
     while (!p->t->result) {
         const hnbrdf_token token = hnbrdf_lex(&lexer);

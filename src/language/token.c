@@ -125,7 +125,7 @@ hnbrdf_token hnbrdf_lex(hnbrdf_lexer *lexer)
 
 hnbrdf_span hnbrdf_lex_line(hnbrdf_lexer *lexer)
 {
-    const char *end = memchr(lexer->at, '\n', (size_t)(lexer->end - lexer->at));
+    const char *end = (const char *)memchr(lexer->at, '\n', (size_t)(lexer->end - lexer->at));
     hnbrdf_span line = {lexer->at, 0};
     end = end ? end : lexer->end;
     lexer->at = end;

@@ -37,7 +37,7 @@ static void parse_and_print(hnbrdf_translation *t, hnbrdf_node **names, hnbrdf_w
                             void *user)
 {
     hnbrdf_parser parser = {.t = t, .names = names};
-    hnbrdf_node all = {0};
+    hnbrdf_node all = {.kind = HNBRDF_NODE_TEXT};
     for (int k = 0; k < t->count && !t->result; k++)
         hnbrdf_add_child(&all, hnbrdf_parse_text(&parser));
     if (!t->result)
@@ -61,12 +61,12 @@ hnbrdf_result hnbrdf_translate(const hnbrdf_source *sources, int count,
     hnbrdf_node **names = NULL;
     if (!t.result) {
         t.node_room = t.tokens.count + 1;
-        t.nodes = hnbrdf_allocate(memory, t.node_room * sizeof *t.nodes);
+        t.nodes = (hnbrdf_node *)hnbrdf_allocate(memory, t.node_room * sizeof *t.nodes);
         if (!t.nodes)
             hnbrdf_refuse_memory(&t, t.node_room * sizeof *t.nodes);
     }
     if (!t.result) {
-        names = hnbrdf_allocate(memory, t.node_room * sizeof(hnbrdf_node *));
+        names = (hnbrdf_node **)hnbrdf_allocate(memory, t.node_room * sizeof(hnbrdf_node *));
         if (!names)
             hnbrdf_refuse_memory(&t, t.node_room * sizeof(hnbrdf_node *));
     }

@@ -35,7 +35,7 @@ void hnbrdf_add_token(hnbrdf_translation *t, hnbrdf_tokens *tokens, const hnbrdf
 {
     if (tokens->count == tokens->room) {
         const size_t room = tokens->room ? 2 * tokens->room : 64;
-        hnbrdf_token *list = hnbrdf_allocate(t->memory, room * sizeof *list);
+        hnbrdf_token *list = (hnbrdf_token *)hnbrdf_allocate(t->memory, room * sizeof *list);
         if (!list) {
             hnbrdf_refuse_memory(t, room * sizeof *list);
             return;

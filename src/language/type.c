@@ -20,7 +20,7 @@ hnbrdf_type hnbrdf_type_of_name(hnbrdf_span name)
         for (int width = 1; width <= 4; width++)
             if (names[scalar][width] && hnbrdf_span_is(name, names[scalar][width]))
                 return (hnbrdf_type){.scalar = (hnbrdf_scalar)scalar, .width = width};
-    return (hnbrdf_type){0};
+    return (hnbrdf_type){.scalar = HNBRDF_VOID};
 }
 
 hnbrdf_span hnbrdf_type_name(hnbrdf_type type)
@@ -229,7 +229,7 @@ void hnbrdf_type_swizzle(hnbrdf_translation *t, hnbrdf_node *node)
     const char *set = name.size > 0 && strchr(sets[1], name.at[0]) ? sets[1] : sets[0];
     int known = of.width > 1 && !of.length && name.size >= 1 && name.size <= 4;
     for (size_t k = 0; known && k < name.size; k++) {
-        const char *at = memchr(set, name.at[k], (size_t)of.width);
+        const char *at = (const char *)memchr(set, name.at[k], (size_t)of.width);
         known = at != NULL;
     }
     node->type = with_width(of.scalar, (int)name.size);

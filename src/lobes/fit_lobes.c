@@ -304,7 +304,7 @@ hnbrdf_result hnbrdf_lobes_fit(const hnbrdf_model *model, const hnbrdf_material 
     hnbrdf_result result = hnbrdf_material_check(&straight, error);
     if (result)
         return result;
-    search *s = hnbrdf_allocate(&model->allocator, sizeof *s);
+    search *s = (search *)hnbrdf_allocate(&model->allocator, sizeof *s);
     if (!s)
         return hnbrdf_fail_memory(error, sizeof *s, "fitting lobes");
     hnbrdf_prepare(model, &straight, &s->source);

@@ -8,7 +8,7 @@
 
 hnbrdf_result hnbrdf_check_name(const char *name, hnbrdf_error *error)
 {
-    const char *end = name ? memchr(name, '\0', HNBRDF_MAX_NAME + 1) : NULL;
+    const char *end = name ? (const char *)memchr(name, '\0', HNBRDF_MAX_NAME + 1) : NULL;
     if (!name || !end || end == name) {
         return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT, "is %s, expected 1 to %d bytes",
                            !name ? "NULL"

@@ -241,7 +241,7 @@ static void copy_names(const char **names, char *text, const hnbrdf_model_desc *
 {
     for (int i = 0; i < desc->material_count; ++i) {
         const size_t size = strlen(desc->names[i]) + 1;
-        names[i] = memcpy(text, desc->names[i], size);
+        names[i] = (const char *)memcpy(text, desc->names[i], size);
         text += size;
     }
 }
@@ -281,7 +281,7 @@ static hnbrdf_result fill(hnbrdf_model *model, const hnbrdf_model_desc *desc, hn
 hnbrdf_result hnbrdf_model_create(const hnbrdf_model_desc *desc, const hnbrdf_allocator *allocator,
                                   hnbrdf_model **model, hnbrdf_error *error)
 {
-    const hnbrdf_kernel *kernel;
+    const hnbrdf_kernel *kernel = NULL;
     hnbrdf_allocator memory;
     hnbrdf_result result;
     if (!desc || !model)
@@ -292,7 +292,7 @@ hnbrdf_result hnbrdf_model_create(const hnbrdf_model_desc *desc, const hnbrdf_al
         (result = hnbrdf_choose_kernel(desc->variant, &kernel, error)))
         return result;
     const size_t size = model_size(desc);
-    hnbrdf_model *made = hnbrdf_allocate(&memory, size);
+    hnbrdf_model *made = (hnbrdf_model *)hnbrdf_allocate(&memory, size);
     if (!made)
         return hnbrdf_fail_memory(error, size, "the model");
     made->allocator = memory;
