@@ -29,9 +29,9 @@ hnbrdf_room(glsl
   export_loops.c export_material.c export_network.c export_scene.c export_unpack.c export_weights.c
   half.c macro_names.c names.c vector.c)
 hnbrdf_room(language
-  builtin.c c_like.c condition.c hlsl.c macro.c parse.c parse_expression.c parse_statement.c
+  builtin.c c_like.c condition.c hlsl.c macro.c msl.c parse.c parse_expression.c parse_statement.c
   parse_tokens.c preprocess.c print.c print_expression.c print_statement.c token.c translate.c
-  translation.c type.c)
+  translation.c type.c wgsl.c wgsl_expression.c wgsl_statement.c)
 hnbrdf_room(lobes
   fit_lobes.c)
 hnbrdf_room(measured

@@ -159,6 +159,95 @@ static void hlsl_has_its_own_words(void **state)
            "};\nfloat f(int i)\n{\n    return a_weights[i].x;\n}\n");
 }
 
+static void wgsl_has_its_own_words(void **state)
+{
+    (void)state;
+    expect(&hnbrdf_wgsl, 0,
+           "#define SCENE\n#define PI 3.14\n#define LARGEST 3.40282347e38\n"
+           "struct s {\n    vec3 a, b; // two\n    bool c;\n};\n\n"
+           "float f(float x)\n{\n    return x == PI ? 1.0 : x;\n}\n\n"
+           "vec2 f(vec2 x)\n{\n    return vec2(f(x.x), f(x.y));\n}\n\n"
+           "float f(vec2 x, s y)\n{\n    return f(x).x;\n}\n",
+           "const PI: f32 = 3.14;\nconst LARGEST: f32 = 3.4028234663852886e+38;\n"
+           "struct s {\n    a: vec3f, b: vec3f, // two\n    c: bool,\n}\n\n"
+           "fn f(x: f32) -> f32 {\n    return select(x, 1.0, x == PI);\n}\n\n"
+           "fn f_vec2(x: vec2f) -> vec2f {\n    return vec2f(f(x.x), f(x.y));\n}\n\n"
+           "fn f_vec2_s(x: vec2f, y: s) -> f32 {\n    return f_vec2(x).x;\n}\n");
+    expect(&hnbrdf_wgsl, 1, /* no `precise` */
+           "#if __VERSION__ < 400\nint f(int x, uint n)\n{\n    x += 1 & 2;\n    int y = 3, z;\n"
+           "    z = (x >> n) + (y << 2);\n    bool a = true;\n"
+           "    if (a && z == 1 || (x & 1) != 0 && !a)\n        return z;\n    else if (a)\n"
+           "        y++;\n    return z;\n}\n#endif\n",
+           "fn f(x_in: i32, n: u32) -> i32 {\n    var x = x_in;\n    x += 1 & 2;\n"
+           "    var y = 3;\n    var z: i32;\n    z = (x >> u32(n)) + (y << 2);\n"
+           "    let a = true;\n    if ((a && z == 1) || ((x & 1) != 0 && !a)) {\n"
+           "        return z;\n    } else if (a) {\n        y++;\n    }\n    return z;\n}\n");
+    expect(&hnbrdf_wgsl, 0,
+           "struct s {\n    vec3 a;\n};\nvoid g(out vec3 x, inout float y)\n{\n    x = vec3(y);\n"
+           "    x.y = y + x.z;\n}\nvoid f(out vec3 x)\n{\n    s t;\n    float y = 0.0;\n"
+           "    g(x, y);\n    g(t.a, y);\n    x = y > 0.0 ? t.a : vec3(y);\n}\n",
+           "struct s {\n    a: vec3f,\n}\nfn g(x: ptr<function, vec3f>, y: ptr<function, f32>) {\n"
+           "    *x = vec3f((*y));\n    (*x).y = (*y) + (*x).z;\n}\n"
+           "fn f(x: ptr<function, vec3f>) {\n    var t: s;\n    var y = 0.0;\n    g(x, &y);\n"
+           "    {\n        var a_out: vec3f;\n        g(&a_out, &y);\n        t.a = a_out;\n    }\n"
+           "    *x = select(vec3f(y), t.a, y > 0.0);\n}\n");
+    expect(&hnbrdf_wgsl, 0,
+           "float g(float x)\n{\n    return x;\n}\nfloat f(float x)\n{\n"
+           "    float y = x > 0.0 ? g(x) : 0.0;\n    y = x > 1.0 ? y : g(y);\n"
+           "    for (int i = 0; i < 3; i++)\n        y = y * float(i);\n"
+           "    return x > 2.0 ? g(x) : g(y);\n}\n",
+           "fn g(x: f32) -> f32 {\n    return x;\n}\nfn f(x: f32) -> f32 {\n    var y: f32;\n"
+           "    if (x > 0.0) {\n        y = g(x);\n    } else {\n        y = 0.0;\n    }\n"
+           "    if (x > 1.0) {\n        y = y;\n    } else {\n        y = g(y);\n    }\n"
+           "    for (var i: i32 = 0; i < 3; i++) {\n        y = y * f32(i);\n    }\n"
+           "    if (x > 2.0) {\n        return g(x);\n    } else {\n        return g(y);\n    }\n"
+           "}\n");
+    expect(&hnbrdf_wgsl, 0,
+           "layout(std140, set = 2, binding = 1) uniform b { vec4 w[3]; };\n"
+           "int f(float target)\n{\n    f16vec4 h = f16vec4(vec3(target), target);\n"
+           "    return floatBitsToInt(w[1].x);\n}\n",
+           "@group(2) @binding(1) var<uniform> w: array<vec4f, 3>;\n"
+           "fn f(target_: f32) -> i32 {\n"
+           "    let h = HNBRDF_HALF4(HNBRDF_HALF3(vec3f(target_)), HNBRDF_HALF(target_));\n"
+           "    return bitcast<i32>(w[1].x);\n}\n");
+}
+
+static void msl_has_its_own_words(void **state)
+{
+    (void)state;
+    expect(&hnbrdf_msl, 0,
+           "struct s {\n    vec3 a;\n    float kernel;\n};\n"
+           "s f(float x, out vec3 y, inout int k)\n{\n    y = vec3(x);\n"
+           "    k = floatBitsToInt(x) & k;\n    f16vec2 h = f16vec2(float16_t(0.5));\n"
+           "    return s(min(y, x), inversesqrt(x));\n}\n",
+           "struct s {\n    float3 a;\n    float kernel_;\n};\n"
+           "inline s f(float x, thread float3 &y, thread int &k)\n{\n    y = float3(x);\n"
+           "    k = as_type<int>(x) & k;\n    half2 h = half2(half(0.5f));\n"
+           "    return s{min(y, float3(x)), rsqrt(x)};\n}\n");
+    expect(&hnbrdf_msl, 0,
+           "layout(std140) uniform b { vec4 w[3]; };\nfloat g()\n{\n    return w[1].x;\n}\n"
+           "float h(float x)\n{\n    return x;\n}\n"
+           "float f(float x)\n{\n    return h(x) * g();\n}\nfloat e()\n{\n    return "
+           "f(1.0);\n}\n",
+           "// w: a buffer of 3 float4, the last parameter of each function that reads it.\n"
+           "inline float g(constant float4 *w)\n{\n    return w[1].x;\n}\n"
+           "inline float h(float x)\n{\n    return x;\n}\n"
+           "inline float f(float x, constant float4 *w)\n{\n    return h(x) * g(w);\n}\n"
+           "inline float e(constant float4 *w)\n{\n    return f(1.0f, w);\n}\n");
+    expect(&hnbrdf_msl, 0, "const float a[2] = float[](1.0, 2.0);\n",
+           "constant float a[2] = {1.0f, 2.0f};\n");
+}
+
+static void slang_has_half(void **state)
+{
+    (void)state;
+    expect(&hnbrdf_slang, 1,
+           "f16vec3 f(float x)\n{\n    precise float y = x;\n    return f16vec3(vec3(y));\n}\n",
+           "half3 f(float x)\n{\n    precise float y = x;\n    return half3((float3)y);\n}\n");
+    expect(&hnbrdf_slang, 0, "const float a[2] = float[2](1.0, 2.0);\n",
+           "static const float a[2] = {1.0f, 2.0f};\n");
+}
+
 static void comments_and_lines_stay(void **state)
 {
     (void)state;
@@ -288,6 +377,9 @@ int main(void)
         cmocka_unit_test(macros_are_replaced_and_constants_stay),
         cmocka_unit_test(settings_leave_nothing),
         cmocka_unit_test(hlsl_has_its_own_words),
+        cmocka_unit_test(wgsl_has_its_own_words),
+        cmocka_unit_test(msl_has_its_own_words),
+        cmocka_unit_test(slang_has_half),
         cmocka_unit_test(comments_and_lines_stay),
         cmocka_unit_test(what_is_not_known_is_refused),
         cmocka_unit_test(what_is_too_deep_is_refused),

@@ -1,6 +1,7 @@
 #!/bin/sh
 # test_language.sh SCENES LANGUAGE: what is exported in LANGUAGE compiles: every scene standalone, and each third of them
 # also exact or as a text beside the shared part. SCENES writes the scenes (glsl_scenes.c). With glslang: hlsl.
+# With a C++ compiler, which is not Apple's: msl.
 set -eu
 scenes=$1 language=$2
 need() { command -v "$1" > /dev/null || { echo "skipped: no $1"; exit 77; }; }
@@ -39,8 +40,36 @@ hlsl() { # FILE...: a pixel shader of these texts, the last of which has the sce
     run glslangValidator -D -V -S frag -e main "$work/main.hlsl" -o "$work/main.spv"
 }
 
+msl() { # FILE...: a function of these texts, as C++ beside msl/metal_stdlib
+    for last; do :; done
+    for file; do cat "$work/$file"; done > "$work/main.cc"
+    {
+        weights='' parameter=''
+        if grep -q '^inline float3 hnbrdf_eval(.*hnbrdf_weights' "$work/$last"; then
+            weights=', hnbrdf_weights' parameter=', constant float4 *hnbrdf_weights'
+        fi
+        echo '#define rgb xyz'
+        echo "float3 shade(float3 wi, float3 wo$parameter)"
+        echo '{'
+        echo '    hnbrdf_material m = hnbrdf_scene_material(HNBRDF_MATERIAL_GOLD_PAINT);'
+        echo "    float3 sum = hnbrdf_eval(m, wi, wo$weights);"
+        calls "$last" | sed "s/colour\.rgb/sum/; s/\(hnbrdf_eval[A-Z_]*(.*wi, wo\))/\1$weights)/; s/wi\.xy)\.weight/wi.xy$weights).weight/"
+        echo '    return sum;'
+        echo '}'
+    } >> "$work/main.cc"
+    run "$compiler" -std=c++14 -fsyntax-only -Wall -Wno-unknown-pragmas -I"$here/msl" "$work/main.cc"
+}
+
+here=$(cd "$(dirname "$0")" && pwd) compiler=''
 case $language in
 hlsl) need glslangValidator ;;
+msl)
+    for compiler in clang++ clang++-14 g++; do
+        command -v $compiler > /dev/null && break
+        compiler=''
+    done
+    [ "$compiler" ] || { echo 'skipped: no C++ compiler'; exit 77; }
+    ;;
 esac
 "$scenes" "$work" "$language" > "$work/names"
 number=0

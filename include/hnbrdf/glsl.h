@@ -64,10 +64,16 @@ typedef enum hnbrdf_glsl_only {
  * directives are resolved, and names, order and comments are those of the GLSL. */
 typedef enum hnbrdf_shading_language {
     HNBRDF_LANGUAGE_GLSL = 0, /* Vulkan GLSL 450, desktop GL 330, GL ES 300 */
-    HNBRDF_LANGUAGE_HLSL      /* Shader Model 5.0 (FXC) and 6 (DXC) */
+    HNBRDF_LANGUAGE_HLSL,     /* Shader Model 5.0 (FXC) and 6 (DXC) */
+    /* Metal. What reads the uniform block has it as its last parameter, constant float4 * */
+    HNBRDF_LANGUAGE_MSL,
+    /* WebGPU. A function of several forms has a name for each: the first form its own, others end
+     * in the types in which they differ */
+    HNBRDF_LANGUAGE_WGSL,
+    HNBRDF_LANGUAGE_SLANG
 } hnbrdf_shading_language;
 
-/* "glsl", "hlsl": also the ending of files; NULL for any other value. */
+/* "glsl", "hlsl", "msl", "wgsl", "slang": also the ending of files; NULL for any other value. */
 HNBRDF_EXPERIMENTAL const char *hnbrdf_shading_language_name(hnbrdf_shading_language language);
 /* The way back: 1 and *language, or 0 for any other name, and then it is untouched. */
 HNBRDF_EXPERIMENTAL int hnbrdf_shading_language_from_name(const char *name,

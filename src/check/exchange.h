@@ -45,7 +45,5 @@ hnbrdf_result check_exchange_scene(const hnbrdf_model *model, const check_exchan
 /* "scene.glsl", "scene_exact.glsl", ... */
 void check_exchange_name(const check_exchange *exchange, const char *name, check_build build,
                          char to[64]);
-/* The name of a language is also the ending of its files. */
-const char *check_language_name(hnbrdf_shading_language language);
 
 #endif

@@ -49,8 +49,6 @@ static hnbrdf_result read_text(reader *r, const char *name, size_t most, char **
 
 /* ---- case.json ------------------------------------------------------------------------------- */
 
-static const char *const LANGUAGES[] = {"glsl"};
-
 /* The number of a word, as `name` gives the words; -1 for none of them. */
 static int word_of(hnbrdf_json_text text, const char *(*name)(int value))
 {
@@ -62,8 +60,7 @@ static int word_of(hnbrdf_json_text text, const char *(*name)(int value))
 
 static const char *language_word(int value)
 {
-    return value >= 0 && value < (int)(sizeof LANGUAGES / sizeof LANGUAGES[0]) ? LANGUAGES[value]
-                                                                               : NULL;
+    return hnbrdf_shading_language_name((hnbrdf_shading_language)value);
 }
 
 static const char *weights_word(int value)

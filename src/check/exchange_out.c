@@ -7,6 +7,7 @@
 #include "base/write.h"
 #include "check/parity.h"
 #include "check/probe.h"
+#include "glsl/export_language.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -17,16 +18,11 @@ extern const char hnbrdf_parity_glsl[], hnbrdf_probe_glsl[];
 
 /* ---- Names and texts ------------------------------------------------------------------------- */
 
-const char *check_language_name(hnbrdf_shading_language language)
-{
-    return language == HNBRDF_LANGUAGE_GLSL ? "glsl" : NULL;
-}
-
 void check_exchange_name(const check_exchange *exchange, const char *name, check_build build,
                          char to[64])
 {
     snprintf(to, 64, "%s%s.%s", name, build == CHECK_BUILD_EXACT ? "_exact" : "",
-             check_language_name(exchange->options.language));
+             hnbrdf_shading_language_name(exchange->options.language));
 }
 
 hnbrdf_result check_exchange_path(const char *folder, const char *name,
@@ -53,8 +49,7 @@ hnbrdf_result check_exchange_scene(const hnbrdf_model *model, const check_exchan
     options.materials = exchange->check.materials;
     options.material_count = exchange->check.material_count;
     options.standalone = 1;
-    if (build == CHECK_BUILD_EXACT)
-        hnbrdf_text_buffer_print(&buffer, "#define HNBRDF_EXACT 1\n");
+    options.exact = build == CHECK_BUILD_EXACT;
     hnbrdf_result result =
         hnbrdf_export_shader(model, &options, hnbrdf_text_buffer_append, &buffer, error);
     if (result) {
@@ -64,13 +59,28 @@ hnbrdf_result check_exchange_scene(const hnbrdf_model *model, const check_exchan
     return take(&buffer, text, error);
 }
 
-static hnbrdf_result parity_text(char **text, hnbrdf_error *error)
+/* shaders/parity.glsl and shaders/probe.glsl in the language of the scene. */
+static hnbrdf_result parity_text(const hnbrdf_model *model, const check_exchange *exchange,
+                                 check_build build, char **text, hnbrdf_error *error)
 {
-    hnbrdf_text_buffer buffer = {0};
-    hnbrdf_text_buffer_append(&buffer, hnbrdf_parity_glsl, strlen(hnbrdf_parity_glsl));
-    hnbrdf_text_buffer_append(&buffer, "\n", 1);
-    hnbrdf_text_buffer_append(&buffer, hnbrdf_probe_glsl, strlen(hnbrdf_probe_glsl));
-    return take(&buffer, text, error);
+    hnbrdf_text_buffer glsl = {0}, buffer = {0};
+    char *body = NULL;
+    hnbrdf_glsl_options options = exchange->options;
+    options.materials = exchange->check.materials;
+    options.material_count = exchange->check.material_count;
+    options.exact = build == CHECK_BUILD_EXACT;
+    hnbrdf_text_buffer_append(&glsl, hnbrdf_parity_glsl, strlen(hnbrdf_parity_glsl));
+    hnbrdf_text_buffer_append(&glsl, "\n", 1);
+    hnbrdf_text_buffer_append(&glsl, hnbrdf_probe_glsl, strlen(hnbrdf_probe_glsl));
+    hnbrdf_result result = take(&glsl, &body, error);
+    if (!result)
+        result = hnbrdf_export_behind(model, &options, "parity.glsl", body,
+                                      hnbrdf_text_buffer_append, &buffer, error);
+    free(body);
+    if (!result)
+        return take(&buffer, text, error);
+    free(buffer.bytes);
+    return result;
 }
 
 /* ---- Files ----------------------------------------------------------------------------------- */
@@ -93,7 +103,7 @@ static hnbrdf_result write_texts(const hnbrdf_model *model, const check_exchange
         char *scene = NULL, *parity = NULL;
         result = check_exchange_scene(model, exchange, build, &scene, error);
         if (!result)
-            result = parity_text(&parity, error);
+            result = parity_text(model, exchange, build, &parity, error);
         if (!result)
             result = write_text(exchange, "scene", build, scene, error);
         if (!result)
@@ -196,7 +206,8 @@ static void put_case(const hnbrdf_model *model, const check_exchange *exchange, 
     size_t weights = options->weights == HNBRDF_GLSL_UNIFORM ? hnbrdf_weights_size(model) : 0;
     fprintf(file,
             "{\"format\": \"hnbrdf-parity/1\",\n \"language\": \"%s\", \"extension\": \"%s\",\n",
-            check_language_name(options->language), check_language_name(options->language));
+            hnbrdf_shading_language_name(options->language),
+            hnbrdf_shading_language_name(options->language));
     fprintf(file,
             " \"weights\": \"%s\", \"precision\": \"%s\", \"fixed\": %d, \"editable\": %d,\n"
             " \"weights_bytes\": %zu,\n",

@@ -39,9 +39,9 @@ static const cli_command command = {
     "that change m.kd, m.eta or m.alpha themselves, which moves the analytic part alone "
     "otherwise.\n"
     "\n"
-    "--language hlsl writes HLSL for Shader Model 5.0 (FXC) and newer, made from the same GLSL: "
-    "the same names,\n"
-    "order and comments. What is not --standalone needs the text of --library --language hlsl "
+    "--language hlsl (Shader Model 5.0, FXC, and newer) and wgsl are made from the same GLSL: the "
+    "same names,\n"
+    "order and comments. What is not --standalone needs the text of --library in that language "
     "before it.\n"
     "--exact: exp and log of exact operations, and `precise` where the language has it.\n"
     "\n"
@@ -312,7 +312,7 @@ int cmd_export(int argc, char **argv)
          "kd, eta, alpha that the shader changes carry the network's part along"},
         {"standalone", 0, CLI_FLAG, &set.standalone, 0, 0, NULL,
          "put the text of hybrid_brdf.glsl first"},
-        {"language", 'l', CLI_WORD, &set.language, 0, 0, "glsl|hlsl",
+        {"language", 'l', CLI_WORD, &set.language, 0, 0, "glsl|hlsl|msl|wgsl|slang",
          "what to write (default glsl)"},
         {"exact", 0, CLI_FLAG, &set.exact, 0, 0, NULL,
          "the bits of C, on devices that round + - * / sqrt correctly"},

@@ -13,7 +13,7 @@
 static const cli_command command = {
     "verify",
     "MODEL [--materials A,B] [--weights STYLE] [--precision P] [--fixed|--editable]\n"
-    "              [--api A] [--device N|all] [--pairs N] [--hand-out DIR]\n"
+    "              [--api A] [--device N|all] [--pairs N] [--hand-out DIR [--language L]]\n"
     "       hnbrdf verify MODEL --hand-in DIR",
     "Proves on every device that the exported shader gives what the C library gives. Compared are\n"
     "the encoding, the network alone, the analytic part, the whole BRDF, and what is sampled with "
@@ -36,9 +36,10 @@ static const cli_command command = {
     "\n"
     "--hand-out is for engines, browsers and other languages: it writes into DIR, which is made, "
     "the scene\n"
-    "and parity.glsl (scene_exact, parity_exact: the exact build), inputs.f32 (rows of 16 floats), "
-    "probe.f32\n"
-    "(rows of 4), weights.bin with --weights uniform, and case.json, which counts all that. A "
+    "and parity.glsl, or .hlsl and so on (scene_exact, parity_exact: the exact build), inputs.f32 "
+    "(rows of 16\n"
+    "floats), probe.f32 (rows of 4), weights.bin with --weights uniform, and case.json, which "
+    "counts all that. A "
     "program that\n"
     "includes the two texts writes back outputs.f32: for each row of inputs (a, b, c, d) the eight "
     "vec4 of\n"
@@ -57,6 +58,7 @@ static const cli_command command = {
     "hnbrdf verify model.safetensors --weights uniform --precision half\n"
     "hnbrdf verify model.safetensors --api gl --pairs 1024\n"
     "hnbrdf verify model.safetensors --pairs 1024 --hand-out case\n"
+    "hnbrdf verify model.safetensors --pairs 1024 --language wgsl --hand-out case-wgsl\n"
     "hnbrdf verify model.safetensors --hand-in case\n"
     "hnbrdf verify --list",
 };
@@ -66,7 +68,7 @@ typedef struct settings {
     long pairs, seed;
     int api, device_number; /* -1: not given; all */
     int validate, list, without_timing, fixed, editable;
-    cli_word weights, precision;
+    cli_word weights, precision, language;
 } settings;
 
 static void on_progress(void *user, double share)
@@ -81,7 +83,8 @@ static check_exchange exchange_of(const settings *set, const int *materials, int
                             .options = {.weights = (hnbrdf_glsl_weights)set->weights.value,
                                         .precision = (hnbrdf_glsl_precision)set->precision.value,
                                         .fixed = set->fixed,
-                                        .editable = set->editable},
+                                        .editable = set->editable,
+                                        .language = (hnbrdf_shading_language)set->language.value},
                             .check = {.precision = (hnbrdf_glsl_precision)set->precision.value,
                                       .materials = materials,
                                       .material_count = count,
@@ -136,7 +139,7 @@ static int hand_out(const hnbrdf_model *model, const settings *set)
         result = cli_code(check_hand_out(model, &exchange, &error), &error);
     if (result == CLI_OK)
         printf("%s: scene and parity in %s, %zu rows of inputs\n", set->hand_out,
-               check_language_name(exchange.options.language),
+               hnbrdf_shading_language_name(exchange.options.language),
                exchange.check.pairs * (size_t)count);
     free(materials);
     return result;
@@ -155,7 +158,7 @@ static int hand_in(const hnbrdf_model *model, const settings *set, const char *p
         return cli_fail("%s", error.text);
     verified_device device = {.index = -1,
                               .name = found.device,
-                              .api = check_language_name(found.exchange.options.language),
+                              .api = hnbrdf_shading_language_name(found.exchange.options.language),
                               .kind = "handed in",
                               .driver = set->hand_in,
                               .report = found.report};
@@ -241,7 +244,8 @@ int cmd_verify(int argc, char **argv)
                     .pairs = 16384,
                     .seed = 1,
                     .weights = {HNBRDF_GLSL_CONSTANTS, cli_weights_word},
-                    .precision = {HNBRDF_GLSL_FLOAT, cli_precision_word}};
+                    .precision = {HNBRDF_GLSL_FLOAT, cli_precision_word},
+                    .language = {HNBRDF_LANGUAGE_GLSL, cli_language_word}};
     const cli_option options[] = {
         {"materials", 'm', CLI_TEXT, &set.materials, 0, 0, "A,B",
          "names of the materials (default: all)"},
@@ -260,6 +264,8 @@ int cmd_verify(int argc, char **argv)
          "direction pairs a material (default 16384)"},
         {"seed", 0, CLI_INT, &set.seed, 0, 9007199254740992.0, "N",
          "of the random pairs (default 1)"},
+        {"language", 'l', CLI_WORD, &set.language, 0, 0, "glsl|hlsl|msl|wgsl|slang",
+         "with --hand-out: of the texts (default glsl)"},
         {"hand-out", 0, CLI_WRITE_FOLDER, &set.hand_out, 0, 0, "DIR",
          "write there what another program is to run"},
         {"hand-in", 0, CLI_READ, &set.hand_in, 0, 0, "DIR", "judge what that program wrote there"},
@@ -284,6 +290,8 @@ int cmd_verify(int argc, char **argv)
                          count);
     if (set.hand_out && set.hand_in)
         return cli_usage(&command, "--hand-out and --hand-in: one after the other");
+    if (set.language.value != HNBRDF_LANGUAGE_GLSL && !set.hand_out)
+        return cli_usage(&command, "--language without --hand-out: devices are tried in glsl");
     if (set.hand_out && (set.csv || set.json))
         return cli_usage(&command, "--hand-out has no results yet: found --csv or --json");
     if (set.list)

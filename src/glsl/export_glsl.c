@@ -255,3 +255,23 @@ hnbrdf_result hnbrdf_export_shader(const hnbrdf_model *model, const hnbrdf_glsl_
     hnbrdf_release(&memory, s.names);
     return result;
 }
+
+hnbrdf_result hnbrdf_export_behind(const hnbrdf_model *model, const hnbrdf_glsl_options *options,
+                                   const char *name, const char *glsl, hnbrdf_write_fn write,
+                                   void *user, hnbrdf_error *error)
+{
+    if (options->language == HNBRDF_LANGUAGE_GLSL)
+        return write(user, glsl, strlen(glsl))
+                   ? hnbrdf_fail(error, HNBRDF_ERROR_IO, "export: writing %s failed", name)
+                   : HNBRDF_OK;
+    hnbrdf_grown scene = {.memory = &model->allocator};
+    hnbrdf_glsl_options before = *options;
+    before.language = HNBRDF_LANGUAGE_GLSL;
+    before.standalone = 1;
+    before.exact = 0; /* the translation defines it */
+    hnbrdf_result result = hnbrdf_export_shader(model, &before, hnbrdf_grow, &scene, error);
+    if (!result)
+        result = hnbrdf_write_behind(&scene, name, glsl, options, write, user, error);
+    hnbrdf_release(&model->allocator, scene.text);
+    return result;
+}

@@ -33,21 +33,29 @@ int hnbrdf_grow(void *grown, const void *data, size_t size)
 /* ---- Languages ------------------------------------------------------------------------------- */
 
 /* What stands on top of the shared part: how to use it in this language. */
-#define HEADING(file, language, word, name)                                                        \
+#define HEADING(file, language, word, declaration)                                                 \
     "// " file ": the parts a hybrid neural-microfacet BRDF is made of (De Oliveira et al., EGSR " \
     "2026), in\n// " language ". Written by hnbrdf " HNBRDF_VERSION_STRING                         \
     " from hybrid_brdf.glsl; export again rather than edit.\n"                                     \
-    "// Include it first, then what `hnbrdf export --language " word "` wrote for a scene:\n//\n"  \
-    "//     hnbrdf_material m = hnbrdf_scene_material(HNBRDF_MATERIAL_" name ");\n"
+    "// It comes first, then what `hnbrdf export --language " word "` wrote for a scene:\n//\n"    \
+    "//     " declaration " = hnbrdf_scene_material(HNBRDF_MATERIAL_NAME);\n"
 
 #define MEANING                                                                               \
     "//\n// The same functions as in the C library, named alike and in the same order of "    \
     "operations. Frame and\n// units as there: n = +z, wi towards the light, wo towards the " \
     "viewer, f in 1/sr without the cosine.\n"
 
-static const char HLSL[] = HEADING(
-    "hybrid_brdf.hlsl", "HLSL of Shader Model 5.0 and newer", "hlsl",
-    "NAME") "//     float3 radiance = hnbrdf_eval(m, wi, wo) * light * max(wi.z, 0.0);\n" MEANING;
+#define RADIANCE(type) \
+    "//     " type " radiance = hnbrdf_eval(m, wi, wo) * light * max(wi.z, 0.0);\n"
+
+static const char HLSL[] = HEADING("hybrid_brdf.hlsl", "HLSL of Shader Model 5.0 and newer", "hlsl",
+                                   "hnbrdf_material m") RADIANCE("float3") MEANING;
+static const char MSL[] = HEADING("hybrid_brdf.msl", "the Metal Shading Language", "msl",
+                                  "hnbrdf_material m") RADIANCE("float3") MEANING;
+static const char WGSL[] =
+    HEADING("hybrid_brdf.wgsl", "WGSL", "wgsl", "let m") RADIANCE("let") MEANING;
+static const char SLANG[] =
+    HEADING("hybrid_brdf.slang", "Slang", "slang", "hnbrdf_material m") RADIANCE("float3") MEANING;
 
 typedef struct language {
     const hnbrdf_dialect *dialect;
@@ -59,6 +67,12 @@ static language language_of(hnbrdf_shading_language which)
     switch (which) {
     case HNBRDF_LANGUAGE_HLSL:
         return (language){&hnbrdf_hlsl, HLSL};
+    case HNBRDF_LANGUAGE_MSL:
+        return (language){&hnbrdf_msl, MSL};
+    case HNBRDF_LANGUAGE_SLANG:
+        return (language){&hnbrdf_slang, SLANG};
+    case HNBRDF_LANGUAGE_WGSL:
+        return (language){&hnbrdf_wgsl, WGSL};
     default:
         return (language){0};
     }
@@ -79,4 +93,15 @@ hnbrdf_result hnbrdf_write_language(const hnbrdf_grown *text, int with_library,
                                       .heading = to.heading}};
     return hnbrdf_translate(with_library ? sources + 1 : sources, with_library ? 1 : 2, to.dialect,
                             options->exact != 0, text->memory, write, user, error);
+}
+
+hnbrdf_result hnbrdf_write_behind(const hnbrdf_grown *scene, const char *name, const char *glsl,
+                                  const hnbrdf_glsl_options *options, hnbrdf_write_fn write,
+                                  void *user, hnbrdf_error *error)
+{
+    const hnbrdf_source sources[] = {
+        {.name = "the scene", .text = scene->text, .size = scene->size},
+        {.name = name, .text = glsl, .size = strlen(glsl), .print = 1}};
+    return hnbrdf_translate(sources, 2, language_of(options->language).dialect, options->exact != 0,
+                            scene->memory, write, user, error);
 }

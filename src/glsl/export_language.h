@@ -21,4 +21,15 @@ hnbrdf_result hnbrdf_write_language(const hnbrdf_grown *text, int with_library,
                                     const hnbrdf_glsl_options *options, hnbrdf_write_fn write,
                                     void *user, hnbrdf_error *error);
 
+/* Writes `glsl` in the language of the options; it comes behind this scene. */
+hnbrdf_result hnbrdf_write_behind(const hnbrdf_grown *scene, const char *name, const char *glsl,
+                                  const hnbrdf_glsl_options *options, hnbrdf_write_fn write,
+                                  void *user, hnbrdf_error *error);
+
+/* For checks: writes `glsl`, a text that comes behind the standalone scene of these options, in
+ * their language; in GLSL as it is. name is for messages. */
+hnbrdf_result hnbrdf_export_behind(const hnbrdf_model *model, const hnbrdf_glsl_options *options,
+                                   const char *name, const char *glsl, hnbrdf_write_fn write,
+                                   void *user, hnbrdf_error *error);
+
 #endif

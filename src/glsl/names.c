@@ -13,8 +13,9 @@ static const char *const precision_names[] = {
     [HNBRDF_GLSL_HALF] = "half",
 };
 static const char *const language_names[] = {
-    [HNBRDF_LANGUAGE_GLSL] = "glsl",
-    [HNBRDF_LANGUAGE_HLSL] = "hlsl",
+    [HNBRDF_LANGUAGE_GLSL] = "glsl",   [HNBRDF_LANGUAGE_HLSL] = "hlsl",
+    [HNBRDF_LANGUAGE_MSL] = "msl",     [HNBRDF_LANGUAGE_WGSL] = "wgsl",
+    [HNBRDF_LANGUAGE_SLANG] = "slang",
 };
 
 enum {

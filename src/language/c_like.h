@@ -15,13 +15,4 @@ void hnbrdf_c_head(hnbrdf_print *p, const hnbrdf_node *function, const char *out
 /* The body on lines of its own. */
 void hnbrdf_c_body(hnbrdf_print *p, const hnbrdf_node *function);
 
-/* For HLSL and Slang. */
-int hnbrdf_hlsl_item(hnbrdf_print *p, const hnbrdf_node *node);
-int hnbrdf_hlsl_statement(hnbrdf_print *p, const hnbrdf_node *node);
-int hnbrdf_hlsl_expression(hnbrdf_print *p, const hnbrdf_node *node);
-void hnbrdf_hlsl_function(hnbrdf_print *p, const hnbrdf_node *node);
-void hnbrdf_hlsl_structure(hnbrdf_print *p, const hnbrdf_node *node);
-void hnbrdf_hlsl_block(hnbrdf_print *p, const hnbrdf_node *node);
-const char *hnbrdf_hlsl_builtin(const struct hnbrdf_builtin *builtin);
-
 #endif

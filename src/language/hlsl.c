@@ -1,4 +1,4 @@
-/* hlsl.c: HLSL of Shader Model 5.0 (FXC) and 6 (DXC), and what Slang takes from it. */
+/* hlsl.c: HLSL of Shader Model 5.0 (FXC) and 6 (DXC), and Slang, which takes nearly all of it. */
 #include "language/c_like.h"
 
 #include "language/type.h"
@@ -29,7 +29,7 @@ static const char *const reserved[] = {
 
 /* ---- Expressions ----------------------------------------------------------------------------- */
 
-const char *hnbrdf_hlsl_builtin(const hnbrdf_builtin *builtin)
+static const char *hlsl_builtin(const hnbrdf_builtin *builtin)
 {
     return builtin->hlsl;
 }
@@ -55,12 +55,12 @@ static int write_construct(hnbrdf_print *p, const hnbrdf_node *node)
     return 1;
 }
 
-int hnbrdf_hlsl_expression(hnbrdf_print *p, const hnbrdf_node *node)
+static int hlsl_expression(hnbrdf_print *p, const hnbrdf_node *node)
 {
     return node->kind == HNBRDF_NODE_CONSTRUCT && write_construct(p, node);
 }
 
-int hnbrdf_hlsl_statement(hnbrdf_print *p, const hnbrdf_node *node)
+static int hlsl_statement(hnbrdf_print *p, const hnbrdf_node *node)
 {
     if (node->kind == HNBRDF_NODE_FOR && (node->loop || node->unroll))
         hnbrdf_write(p, node->loop ? "[loop] " : "[unroll] ");
@@ -69,7 +69,7 @@ int hnbrdf_hlsl_statement(hnbrdf_print *p, const hnbrdf_node *node)
 
 /* ---- Items ----------------------------------------------------------------------------------- */
 
-int hnbrdf_hlsl_item(hnbrdf_print *p, const hnbrdf_node *node)
+static int hlsl_item(hnbrdf_print *p, const hnbrdf_node *node)
 {
     return hnbrdf_c_item(p, node, "static const ");
 }
@@ -114,13 +114,13 @@ static void write_initialiser(hnbrdf_print *p, const hnbrdf_node *node)
     hnbrdf_write(p, "}");
 }
 
-void hnbrdf_hlsl_structure(hnbrdf_print *p, const hnbrdf_node *node)
+static void hlsl_structure(hnbrdf_print *p, const hnbrdf_node *node)
 {
     hnbrdf_c_struct(p, node);
     write_initialiser(p, node);
 }
 
-void hnbrdf_hlsl_function(hnbrdf_print *p, const hnbrdf_node *node)
+static void hlsl_function(hnbrdf_print *p, const hnbrdf_node *node)
 {
     hnbrdf_c_head(p, node, "out ", "inout ", " ");
     hnbrdf_write(p, ")");
@@ -140,7 +140,7 @@ static void write_register(hnbrdf_print *p, hnbrdf_span block)
     hnbrdf_write(p, "_REGISTER");
 }
 
-void hnbrdf_hlsl_block(hnbrdf_print *p, const hnbrdf_node *node)
+static void hlsl_block(hnbrdf_print *p, const hnbrdf_node *node)
 {
     const hnbrdf_node *array = node->last;
     hnbrdf_write(p, "#ifndef ");
@@ -188,6 +188,16 @@ static const char half[] =
     "#endif\n"
     "#endif\n";
 
+/* Slang has half without ado. */
+static const char *const slang_types[][5] = {
+    [HNBRDF_VOID] = {NULL, "void"},
+    [HNBRDF_BOOL] = {NULL, "bool", "bool2", "bool3", "bool4"},
+    [HNBRDF_INT] = {NULL, "int", "int2", "int3", "int4"},
+    [HNBRDF_UINT] = {NULL, "uint", "uint2", "uint3", "uint4"},
+    [HNBRDF_FLOAT] = {NULL, "float", "float2", "float3", "float4"},
+    [HNBRDF_FLOAT16] = {NULL, "half", "half2", "half3", "half4"},
+};
+
 const hnbrdf_dialect hnbrdf_hlsl = {.name = "hlsl",
                                     .capital = "HLSL",
                                     .types = types,
@@ -195,11 +205,27 @@ const hnbrdf_dialect hnbrdf_hlsl = {.name = "hlsl",
                                     .reserved = reserved,
                                     .preprocessor = 1,
                                     .loops_leak = 1,
+                                    .precise = 1,
                                     .half = half,
-                                    .item = hnbrdf_hlsl_item,
-                                    .statement = hnbrdf_hlsl_statement,
-                                    .expression = hnbrdf_hlsl_expression,
-                                    .function = hnbrdf_hlsl_function,
-                                    .structure = hnbrdf_hlsl_structure,
-                                    .block = hnbrdf_hlsl_block,
-                                    .builtin = hnbrdf_hlsl_builtin};
+                                    .item = hlsl_item,
+                                    .statement = hlsl_statement,
+                                    .expression = hlsl_expression,
+                                    .function = hlsl_function,
+                                    .structure = hlsl_structure,
+                                    .block = hlsl_block,
+                                    .builtin = hlsl_builtin};
+
+const hnbrdf_dialect hnbrdf_slang = {.name = "slang",
+                                     .capital = "SLANG",
+                                     .types = slang_types,
+                                     .suffix = "f",
+                                     .reserved = reserved,
+                                     .preprocessor = 1,
+                                     .precise = 1,
+                                     .item = hlsl_item,
+                                     .statement = hlsl_statement,
+                                     .expression = hlsl_expression,
+                                     .function = hlsl_function,
+                                     .structure = hlsl_structure,
+                                     .block = hlsl_block,
+                                     .builtin = hlsl_builtin};

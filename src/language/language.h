@@ -4,7 +4,8 @@
  * What is translated is the GLSL of shaders/hybrid_brdf.glsl and of the exporter: functions without
  * recursion, structs, constants, one uniform block, loops; no matrices, no textures, no
  * initialiser lists. Everything else is refused with its line. Directives are resolved as a Vulkan
- * compiler of GLSL 450 would; macros that stand for numbers, comments and line breaks stay. */
+ * compiler of GLSL 450 would (330 where the language has no `precise`); macros that stand for
+ * numbers, comments and line breaks stay. */
 #ifndef HNBRDF_LANGUAGE_LANGUAGE_H
 #define HNBRDF_LANGUAGE_LANGUAGE_H
 
@@ -23,7 +24,7 @@ typedef struct hnbrdf_source {
     const char *heading; /* if set: printed in place of the comment on top of its guard */
 } hnbrdf_source;
 
-extern const hnbrdf_dialect hnbrdf_hlsl;
+extern const hnbrdf_dialect hnbrdf_hlsl, hnbrdf_msl, hnbrdf_wgsl, hnbrdf_slang;
 
 /* "hlsl": also the ending of its files. */
 const char *hnbrdf_dialect_name(const hnbrdf_dialect *dialect);

@@ -4,6 +4,7 @@
 #include "language/preprocess.h"
 
 #include "base/memory.h"
+#include "language/print.h"
 
 #include <string.h>
 
@@ -250,17 +251,15 @@ static void read_text(hnbrdf_preprocessor *p, const hnbrdf_source *source, int n
     hnbrdf_add_token(p->t, &p->t->tokens, &end);
 }
 
-/* What a Vulkan compiler of GLSL 450 defines. */
+/* What a Vulkan compiler of GLSL defines. */
 static void define_language(hnbrdf_preprocessor *p)
 {
-    static const char *const defined[] = {"VULKAN 100", "__VERSION__ 450",
-                                          "GL_EXT_control_flow_attributes 1",
-                                          "GL_EXT_shader_explicit_arithmetic_types_float16 1"};
-    for (size_t k = 0; k <= sizeof defined / sizeof defined[0]; k++) {
-        const char *text = k > 0         ? defined[k - 1]
-                           : p->t->exact ? "HNBRDF_EXACT 1"
-                                         : "HNBRDF_EXACT 0";
-        hnbrdf_lexer line = {.at = text, .end = text + strlen(text)};
+    const char *const defined[] = {p->t->exact ? "HNBRDF_EXACT 1" : "HNBRDF_EXACT 0",
+                                   p->t->dialect->precise ? "__VERSION__ 450" : "__VERSION__ 330",
+                                   "VULKAN 100", "GL_EXT_control_flow_attributes 1",
+                                   "GL_EXT_shader_explicit_arithmetic_types_float16 1"};
+    for (size_t k = 0; k < sizeof defined / sizeof defined[0]; k++) {
+        hnbrdf_lexer line = {.at = defined[k], .end = defined[k] + strlen(defined[k])};
         const hnbrdf_token name = hnbrdf_lex(&line);
         hnbrdf_define(p, &line, &name);
         hnbrdf_macro *macro = hnbrdf_find_macro(p, name.text);

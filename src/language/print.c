@@ -256,6 +256,8 @@ static void print_item(hnbrdf_print *p, const hnbrdf_node *node)
 void hnbrdf_print_text(hnbrdf_print *p, const hnbrdf_node *text)
 {
     p->text = text;
+    if (text->half && p->source->heading && p->dialect->half_begin)
+        hnbrdf_write_lines(p, p->dialect->half_begin);
     print_items(p, text->first);
     end_line(p);
 }

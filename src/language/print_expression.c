@@ -121,6 +121,27 @@ static void write_choice(hnbrdf_print *p, const hnbrdf_node *node)
     hnbrdf_write_expression(p, node->last);
 }
 
+/* Of several arguments each must have the type of the components in some languages. */
+static void write_construct(hnbrdf_print *p, const hnbrdf_node *node)
+{
+    const int several = !node->type.structure && node->first && node->first->next;
+    hnbrdf_write_type(p, node->type);
+    hnbrdf_write(p, "(");
+    for (const hnbrdf_node *a = node->first; a; a = a->next) {
+        const hnbrdf_type type = {.scalar = node->type.scalar, .width = a->type.width};
+        const int converted = several && a->type.scalar != type.scalar;
+        if (a != node->first)
+            hnbrdf_write(p, a->own_line ? "," : ", ");
+        hnbrdf_write_break(p, a->own_line, "");
+        if (converted)
+            hnbrdf_write_type(p, type);
+        hnbrdf_write(p, converted ? "(" : "");
+        hnbrdf_write_expression(p, a);
+        hnbrdf_write(p, converted ? ")" : "");
+    }
+    hnbrdf_write(p, ")");
+}
+
 static void write_part(hnbrdf_print *p, const hnbrdf_node *node)
 {
     hnbrdf_write_expression(p, node->first);
@@ -178,8 +199,7 @@ void hnbrdf_write_expression(hnbrdf_print *p, const hnbrdf_node *node)
         write_builtin(p, node);
         return;
     case HNBRDF_NODE_CONSTRUCT:
-        hnbrdf_write_type(p, node->type);
-        write_call(p, "", node->token.text, node);
+        write_construct(p, node);
         return;
     default:
         hnbrdf_refuse(p->t, &node->token, "'%.*s' is not translated",
