@@ -3,6 +3,10 @@ add_test(NAME test_headers COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/test_headers.s
   ${PROJECT_SOURCE_DIR})
 set_tests_properties(test_headers PROPERTIES SKIP_RETURN_CODE 77)
 
+add_test(NAME test_doxygen COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/test_doxygen.sh
+  ${PROJECT_SOURCE_DIR})
+set_tests_properties(test_doxygen PROPERTIES SKIP_RETURN_CODE 77)
+
 add_test(NAME test_shipped_model COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/test_shipped_model.sh
   ${PROJECT_SOURCE_DIR}/examples/models/rgl_32x2.safetensors)
 

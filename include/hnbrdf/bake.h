@@ -42,7 +42,7 @@ typedef enum hnbrdf_bake_analytic {
 
 /* A network that may be tried; hidden 0 is GGX alone. */
 typedef struct hnbrdf_bake_size {
-    int hidden, layers, latent;
+    int hidden, layers, latent; /* H and N in HxN, and l */
     /* as hnbrdf_model_multiplications() and hnbrdf_model_weight_count() have it */
     size_t multiplications, weights;
     double ns; /* an evaluation by hnbrdf_eval_batch(), one material, one thread of this machine */
@@ -51,9 +51,9 @@ typedef struct hnbrdf_bake_size {
 /* A model that was made: GGX alone, or by a short or a full fit. Errors are SMAPE. */
 typedef struct hnbrdf_bake_row {
     hnbrdf_bake_size size;
-    int full; /* 1: trained to the full length, the best of several seeds; 1 for GGX too */
-    long steps;
-    uint64_t seed;
+    int full;        /* 1: trained to the full length, the best of several seeds; 1 for GGX too */
+    long steps;      /* of the fit */
+    uint64_t seed;   /* that gave this model */
     double seconds;  /* of the fit */
     double smape;    /* mean over the materials */
     double worst;    /* the highest of them */
@@ -83,13 +83,13 @@ typedef enum hnbrdf_bake_end {
 typedef struct hnbrdf_bake_report {
     hnbrdf_bake_wish wish;
     hnbrdf_bake_judge judge;
-    hnbrdf_sampler sampler; /* of the pairs that all errors are measured on */
-    size_t pairs;           /* a material; short fits at most 20000 */
-    uint64_t seed;
-    double max_error, max_ns;
-    size_t max_multiplications;
-    int from_data; /* 1: learned from and judged by measurements; 0: by the model */
-    int kept;      /* 1: the analytic part is the model's; 0: it was fitted */
+    hnbrdf_sampler sampler;     /* of the pairs that all errors are measured on */
+    size_t pairs;               /* a material; short fits at most 20000 */
+    uint64_t seed;              /* the first one */
+    double max_error, max_ns;   /* what was asked for, as in hnbrdf_bake_options */
+    size_t max_multiplications; /* likewise */
+    int from_data;              /* 1: learned from and judged by measurements; 0: by the model */
+    int kept;                   /* 1: the analytic part is the model's; 0: it was fitted */
     int material_count;
     const char **names;              /* [material_count] */
     hnbrdf_bake_size model;          /* what the given model costs */
@@ -105,6 +105,7 @@ typedef struct hnbrdf_bake_report {
     double half_smape;
 } hnbrdf_bake_report;
 
+/* What it is at. */
 typedef enum hnbrdf_bake_stage {
     HNBRDF_BAKE_TIMING = 0, /* how long candidates of every size take */
     HNBRDF_BAKE_GGX,        /* data are drawn and the analytic part is fitted */
@@ -119,7 +120,7 @@ typedef struct hnbrdf_bake_progress {
     double loss; /* of a fit that is running; NaN while there is none */
     const hnbrdf_bake_size *first, *last; /* of the networks that are being fitted; or NULL */
     const hnbrdf_bake_report *report;     /* so far; its last row is new if new_row is 1 */
-    int new_row;
+    int new_row;                          /* 1: the last row of the report is new */
 } hnbrdf_bake_progress;
 
 /* Return non-zero to stop: fits end after their step. Called by one thread at a time, not always
@@ -145,7 +146,7 @@ typedef struct hnbrdf_bake_options {
     /* l. 0: one less than there are materials, at most 8; HNBRDF_BAKE_ERROR tries half of that
      * too. latent_none 1: no latent code, enough for one material. */
     int latent;
-    int latent_none;
+    int latent_none; /* 1: l = 0 */
     /* A name as hnbrdf_encoding_name() has it; NULL: chosen by the data, as hnbrdf_fit() does. */
     const char *encoding;
     hnbrdf_sampler sampler; /* of the pairs that errors are measured on */

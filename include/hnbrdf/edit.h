@@ -85,7 +85,7 @@ HNBRDF_EXPERIMENTAL hnbrdf_result hnbrdf_material_set(hnbrdf_material *material,
  * ends, with the straight way between neighbours. So it is continuous, and every material on it is
  * legal. Its materials count as edited (hnbrdf_material_is_edited()): kd, eta, alpha and fitted
  * are near those of the straight mixture, but free. */
-#define HNBRDF_MIX_KNOTS 33
+#define HNBRDF_MIX_KNOTS 33 /* materials of a path */
 
 /* Finds a path from a to b, two legal materials, which need not belong to the model. Always the
  * same bits for the same ends; a tenth of a second for a network of 32x2, so keep it while somebody

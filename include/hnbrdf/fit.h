@@ -33,6 +33,7 @@
 extern "C" {
 #endif
 
+/* How kd, eta and alpha are found. */
 typedef enum hnbrdf_fit_analytic {
     HNBRDF_FIT_FAITHFUL = 0, /* GGX first, then frozen: kd, eta, alpha stay those of the GGX fit */
     HNBRDF_FIT_JOINT         /* GGX first, then trained together with the network */
@@ -61,7 +62,7 @@ typedef struct hnbrdf_fit_progress {
     double loss;         /* running mean of the training loss; NaN while there is none */
     double pairs_per_s;  /* direction pairs trained on per second in this stage */
     double seconds_left; /* estimate for this stage; NaN while there is none */
-    long step;
+    long step;           /* of the network, from 0 on */
 } hnbrdf_fit_progress;
 
 /* Return non-zero to stop: training ends after the step and the model so far is returned. Before
@@ -136,8 +137,8 @@ typedef struct hnbrdf_fit_options {
      * 0.5 */
     float uniform_share;
     int uniform_none; /* 1: all pairs by grid */
-    uint64_t seed;
-    int threads; /* 0: all cores */
+    uint64_t seed;    /* of everything random */
+    int threads;      /* 0: all cores */
     hnbrdf_fit_progress_fn progress;
     void *progress_user;
     /* Keep this model's network: only kd, eta, alpha and the latent codes of the new materials are
@@ -150,7 +151,7 @@ typedef struct hnbrdf_fit_options {
      * model that an uninterrupted fit of the same steps gives. The caller removes the file when
      * it is done with it. */
     const char *checkpoint;
-    int resume;
+    int resume; /* 1: go on from `checkpoint` */
     /* Fit with other processes; NULL: alone. data[m] may be NULL where another rank has it: its
      * pairs, GGX fit and lobes are made there (where several have it, by one of them). `search` and
      * `drawn` are complete on all ranks; `checkpoint` is read and written by rank 0, and good for
@@ -173,6 +174,7 @@ typedef struct hnbrdf_fit_times {
     double waiting;
 } hnbrdf_fit_times;
 
+/* How a fit went. */
 typedef struct hnbrdf_fit_report {
     double final_loss;  /* running mean of the training loss; best_loss where an earlier state was
                            returned */
@@ -184,7 +186,7 @@ typedef struct hnbrdf_fit_report {
     double flops; /* floating-point operations of its passes in this call: the products alone, two a
                      multiply-add, none for padding */
     hnbrdf_fit_times times;
-    int threads;
+    int threads;              /* that it ran on */
     const char *instructions; /* of the kernels: "plain", "avx2" or "avx512" */
     /* Of a network: how the training went, see "Divergence" above. Losses are means over a sample
      * of the training pairs, SMAPE unless HNBRDF_FIT_LOG is minimised. */

@@ -40,11 +40,13 @@
 
 #include <stddef.h>
 
+/* The version of these headers. */
 #define HNBRDF_VERSION_MAJOR 0
 #define HNBRDF_VERSION_MINOR 2
 #define HNBRDF_VERSION_PATCH 0
 #define HNBRDF_VERSION_STRING "0.2.0"
 
+/* Marks what the shared library exports. Define HNBRDF_STATIC to link the static one. */
 #if defined(HNBRDF_STATIC)
 #define HNBRDF_API
 #elif defined(_WIN32)
@@ -71,28 +73,29 @@ HNBRDF_API const char *hnbrdf_version(void);
 
 /* ---- Limits ---------------------------------------------------------------------------------- */
 
-#define HNBRDF_MAX_HIDDEN 64 /* units H of a hidden layer in an HxN network */
-#define HNBRDF_MAX_LAYERS 4  /* hidden layers N */
-#define HNBRDF_MAX_LATENT 16 /* floats of a latent code, l */
-#define HNBRDF_MAX_NAME 127  /* bytes of a material's name */
-#define HNBRDF_MAX_MATERIALS 65536
+#define HNBRDF_MAX_HIDDEN 64       /* units H of a hidden layer in an HxN network */
+#define HNBRDF_MAX_LAYERS 4        /* hidden layers N */
+#define HNBRDF_MAX_LATENT 16       /* floats of a latent code, l */
+#define HNBRDF_MAX_NAME 127        /* bytes of a material's name */
+#define HNBRDF_MAX_MATERIALS 65536 /* of a model */
 
 /* The smallest roughness. Below it the GGX peak 1/(pi alpha^2) passes 3e7 and the half vector of
  * two float directions, known to about 1e-7 rad, no longer resolves the lobe. */
 #define HNBRDF_MIN_ALPHA 1e-4f
-#define HNBRDF_MAX_ALPHA 1.0f
-#define HNBRDF_MAX_ETA 1e3f
+#define HNBRDF_MAX_ALPHA 1.0f /* the largest roughness */
+#define HNBRDF_MAX_ETA 1e3f   /* the largest index of refraction */
 
 /* The exponent s c + m is clamped to [-HNBRDF_MAX_EXPONENT, HNBRDF_MAX_EXPONENT] before exp(). */
 #define HNBRDF_MAX_EXPONENT 80.0f
 /* Every value returned is clamped to [0, HNBRDF_MAX_VALUE]; a NaN becomes 0. */
 #define HNBRDF_MAX_VALUE 3.0e38f
 
-/* ---- Results ---------------------------------------------------------------------------------
- * Evaluate, sample and pdf cannot fail. Everything else returns one of these, 0 for success, and
+/* ---- Results --------------------------------------------------------------------------------- */
+
+/* Evaluate, sample and pdf cannot fail. Everything else returns one of these, 0 for success, and
  * leaves its out-parameters untouched on failure. */
 typedef enum hnbrdf_result {
-    HNBRDF_OK = 0,
+    HNBRDF_OK = 0,            /* done */
     HNBRDF_ERROR_ARGUMENT,    /* a parameter is out of its documented range */
     HNBRDF_ERROR_IO,          /* a file cannot be opened, read or written */
     HNBRDF_ERROR_FORMAT,      /* the bytes are not what the format asks for */
@@ -109,18 +112,21 @@ HNBRDF_API const char *hnbrdf_strerror(hnbrdf_result result);
  * expected, NUL-terminated, control characters made '?'. Filled on failure only. Pass NULL
  * wherever an hnbrdf_error is taken to go without. */
 typedef struct hnbrdf_error {
-    char text[384];
+    char text[384]; /* the line, without an end of line */
 } hnbrdf_error;
 
 /* Where a reader tells what it converted, clamped or left aside of an input that it takes all the
  * same: `note` is called once for each kind, with one line for a person like that of an
  * hnbrdf_error, which is gone after the call. All zeros: nobody is told. */
 typedef struct hnbrdf_notes {
-    void (*note)(void *user, const char *line);
+    void (*note)(void *user, const char *line); /* told a line */
     void *user;
 } hnbrdf_notes;
 
 /* ---- Materials ------------------------------------------------------------------------------- */
+
+#define HNBRDF_LOBES 2      /* GGX lobes of a material, for sampling */
+#define HNBRDF_LOBE_KNOTS 4 /* views at which the share of a lobe is given */
 
 /* Where hnbrdf_sample() looks for light besides the cosine lobe: two GGX lobes about the mirror
  * direction, of roughness clamp(|scale| alpha) (|scale| itself in a neural model, whose alpha
@@ -129,8 +135,6 @@ typedef struct hnbrdf_notes {
  * left of 1 is cosine. The value f does not depend on them. Made by hnbrdf_lobes_fit(); an edit
  * of alpha carries them along. All zeros, as hnbrdf_material_init() has them: one lobe of
  * roughness alpha, whose share is guessed from kd and eta (none in a neural model). 40 bytes. */
-#define HNBRDF_LOBES 2
-#define HNBRDF_LOBE_KNOTS 4
 typedef struct hnbrdf_lobes {
     /* > 0: visible normals (bounded, Eto and Tokuyoshi 2023); < 0: all normals, as the paper
      * draws them; 0: no such lobe. |scale| in [1e-4, 1e4] */
@@ -186,6 +190,7 @@ HNBRDF_API void hnbrdf_material_mix(const hnbrdf_material *a, const hnbrdf_mater
 
 /* ---- Models ---------------------------------------------------------------------------------- */
 
+/* What f is made of. */
 typedef enum hnbrdf_kind {
     /* f = max(0, exp(s c + m) + sigmoid(g) f_a - b), 6 network outputs c, g */
     HNBRDF_KIND_HYBRID = 0,
@@ -256,8 +261,8 @@ typedef struct hnbrdf_model_desc {
      * encoded directions in order, then the latent code), else hidden; out = hidden, for the last
      * one 6 (hybrid: c then g) or 3 (neural). biases[k] is [out]. All finite. */
     const float *weights[HNBRDF_MAX_LAYERS + 1];
-    const float *biases[HNBRDF_MAX_LAYERS + 1];
-    int material_count;               /* >= 1 */
+    const float *biases[HNBRDF_MAX_LAYERS + 1]; /* see weights */
+    int material_count;                         /* >= 1 */
     const hnbrdf_material *materials; /* [material_count], each passes hnbrdf_material_check() */
     /* [material_count], UTF-8, unique, 1 to HNBRDF_MAX_NAME bytes, no control characters */
     const char *const *names;
@@ -268,8 +273,8 @@ typedef struct hnbrdf_model_desc {
 
 /* Memory for a model. Both functions or neither; zero means malloc and free. */
 typedef struct hnbrdf_allocator {
-    void *(*allocate)(void *user, size_t size);
-    void (*release)(void *user, void *pointer);
+    void *(*allocate)(void *user, size_t size); /* as malloc(): NULL where there is none */
+    void (*release)(void *user, void *pointer); /* as free(); NULL is allowed */
     void *user;
 } hnbrdf_allocator;
 
@@ -403,6 +408,7 @@ HNBRDF_API void hnbrdf_eval_analytic_batch(const hnbrdf_model *model,
  * 2018; spherical caps of Dupuy and Benyoub 2023, bounded after Eto and Tokuyoshi 2023).
  * hnbrdf_sample() and hnbrdf_pdf() share one density function and agree to the last bit. */
 
+/* A direction drawn by hnbrdf_sample(). */
 typedef struct hnbrdf_sample_result {
     float wi[3];     /* unit direction towards the light, wi.z > 0; (0, 0, 1) when pdf is 0 */
     float pdf;       /* 1/sr; 0 means: no direction, weight is 0 */
@@ -441,8 +447,8 @@ HNBRDF_EXPERIMENTAL void hnbrdf_lobes_paper(hnbrdf_lobes *lobes);
 
 /* Of an edited material: what it was fitted with, as hnbrdf_prepared has what it is. */
 typedef struct hnbrdf_prepared_edit {
-    float warp[2]; /* fitted alpha over alpha */
-    float alpha[2], area, diffuse[4], e[4];
+    float warp[2];                          /* fitted alpha over alpha */
+    float alpha[2], area, diffuse[4], e[4]; /* as in hnbrdf_prepared */
     float carried[4], added[4]; /* of kd / pi: what carries the correction along, and the rest */
 } hnbrdf_prepared_edit;
 
@@ -450,22 +456,24 @@ typedef struct hnbrdf_prepared_edit {
  * stays valid as long as the model. The fields are the library's business and may change. */
 typedef struct hnbrdf_prepared {
     const hnbrdf_model *model;
-    float cosine, sine; /* of the rotation */
-    float alpha[2];
-    float area; /* pi alpha_x alpha_y */
-    float lobe_alpha[HNBRDF_LOBES][2];
-    float lobe_area[HNBRDF_LOBES];
-    hnbrdf_lobes lobes;             /* never unfitted here */
-    float diffuse[4];               /* kd / pi; [3] repeats [2] */
-    float e[4];                     /* eta^2 - 1; [3] repeats [2] */
-    float first[HNBRDF_MAX_HIDDEN]; /* bias of the first layer with the latent code folded in */
-    int edited;                     /* 1: `edit` is set, and wanted */
+    float cosine, sine;                /* of the rotation */
+    float alpha[2];                    /* of f_a */
+    float area;                        /* pi alpha_x alpha_y */
+    float lobe_alpha[HNBRDF_LOBES][2]; /* of the lobes for sampling */
+    float lobe_area[HNBRDF_LOBES];     /* pi times their product */
+    hnbrdf_lobes lobes;                /* never unfitted here */
+    float diffuse[4];                  /* kd / pi; [3] repeats [2] */
+    float e[4];                        /* eta^2 - 1; [3] repeats [2] */
+    float first[HNBRDF_MAX_HIDDEN];    /* bias of the first layer with the latent code folded in */
+    int edited;                        /* 1: `edit` is set, and wanted */
     hnbrdf_prepared_edit edit;
 } hnbrdf_prepared;
 
+/* Works out what depends on the material alone; material need not belong to the model. */
 HNBRDF_API void hnbrdf_prepare(const hnbrdf_model *model, const hnbrdf_material *material,
                                hnbrdf_prepared *prepared);
 
+/* The namesakes of hnbrdf_eval(), hnbrdf_sample() and hnbrdf_pdf(). */
 HNBRDF_API void hnbrdf_prepared_eval(const hnbrdf_prepared *prepared, const float wi[3],
                                      const float wo[3], float f[3]);
 HNBRDF_API void hnbrdf_prepared_sample(const hnbrdf_prepared *prepared, const float wo[3],
@@ -526,6 +534,7 @@ HNBRDF_API void hnbrdf_pdf_many(const hnbrdf_model *model, const hnbrdf_material
  * 1e-6 relative; half floats below 2^-14 are within 2^-25. The curves of RGBA8 are those that
  * cost the fitted model in examples/models least. Linear filtering of either gives a legal
  * material, near hnbrdf_material_mix(). */
+/* How channels are stored. */
 typedef enum hnbrdf_texel_format {
     HNBRDF_TEXEL_RGBA16F = 0, /* 8 bytes a texel, IEEE half floats of the machine's byte order */
     HNBRDF_TEXEL_RGBA8        /* 4 bytes a texel */
@@ -534,6 +543,7 @@ typedef enum hnbrdf_texel_format {
 /* Of one material: 3 + 3 + 2 + 2 + 8 + HNBRDF_MAX_LATENT channels. */
 #define HNBRDF_MAX_TEXELS 9
 
+/* Which fields of a material are stored, and how. */
 typedef struct hnbrdf_packing {
     hnbrdf_texel_format format;
     int analytic;    /* 1: kd, eta and alpha are stored; 0 for a neural model */

@@ -23,6 +23,7 @@
 extern "C" {
 #endif
 
+/* Where the values come from. */
 typedef enum hnbrdf_measured_format {
     HNBRDF_MEASURED_BUILTIN = 0,
     HNBRDF_MEASURED_MERL,
@@ -39,6 +40,7 @@ HNBRDF_API const char *hnbrdf_measured_format_name(hnbrdf_measured_format format
 /* One measured material. Immutable after opening, may be shared between threads. */
 typedef struct hnbrdf_measured hnbrdf_measured;
 
+/* Which bins of a MERL file give a value. */
 typedef enum hnbrdf_merl_lookup {
     HNBRDF_MERL_NEAREST = 0, /* the bin that holds the directions, as the database's own code */
     HNBRDF_MERL_TRILINEAR    /* between 8 bins; those without a measurement are left out */
@@ -133,6 +135,7 @@ typedef struct hnbrdf_measured_option {
     int makes_negative; /* 1: it allows negative values, which models and fits do not know */
 } hnbrdf_measured_option;
 
+/* A format as tools see it. */
 typedef struct hnbrdf_measured_format_info {
     hnbrdf_measured_format format;
     const char *name;  /* as hnbrdf_measured_format_name() */
@@ -186,6 +189,7 @@ HNBRDF_API hnbrdf_result hnbrdf_measured_create_custom(const hnbrdf_measured_cus
 /* Free; NULL is allowed. */
 HNBRDF_API void hnbrdf_measured_close(hnbrdf_measured *measured);
 
+/* The name of the material, and the format; both as long as the material lives. */
 HNBRDF_API const char *hnbrdf_measured_name(const hnbrdf_measured *measured);
 HNBRDF_API hnbrdf_measured_format hnbrdf_measured_format_of(const hnbrdf_measured *measured);
 /* 1 if turning wi and wo together about n never changes the value. Of an RGL file: whether its
@@ -220,6 +224,7 @@ HNBRDF_API int hnbrdf_measured_eval_spectrum(const hnbrdf_measured *measured, co
 
 /* ---- Where to look: the three samplers every error figure must name -------------------------- */
 
+/* How pairs of directions are drawn. */
 typedef enum hnbrdf_sampler {
     HNBRDF_SAMPLER_UNIFORM = 0, /* wi and wo uniform in solid angle over the hemisphere */
     HNBRDF_SAMPLER_COSINE,      /* wi and wo cosine-distributed */
@@ -232,7 +237,7 @@ HNBRDF_API const char *hnbrdf_sampler_name(hnbrdf_sampler sampler);
 
 /* PCG32 (O'Neill 2014); any state is valid, the lowest bit of the stream counts as set. */
 typedef struct hnbrdf_rng {
-    uint64_t state, stream;
+    uint64_t state, stream; /* set by hnbrdf_rng_seed() */
 } hnbrdf_rng;
 
 /* Different (seed, sequence) pairs give independent streams; the top bit of sequence is not used.

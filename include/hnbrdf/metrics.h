@@ -11,6 +11,7 @@
 extern "C" {
 #endif
 
+/* How far a model is from a measurement. */
 typedef struct hnbrdf_comparison {
     double smape;          /* of hnbrdf_eval() */
     double smape_analytic; /* of hnbrdf_eval_analytic() */
@@ -30,6 +31,7 @@ HNBRDF_API hnbrdf_result hnbrdf_compare(const hnbrdf_model *model, const hnbrdf_
  * 0. */
 HNBRDF_API double hnbrdf_smape(double f, double reference);
 
+/* How far an image is from its reference. */
 typedef struct hnbrdf_image_error {
     /* psnr in dB with peak = the largest reference value; infinite if equal */
     double mae, mse, psnr;
@@ -68,7 +70,7 @@ typedef struct hnbrdf_physics {
      * incidence, 0 to 88 degrees (8 azimuths if anisotropic), good to 0.5 %. */
     double albedo;
     double albedo_theta; /* of wo there, radians */
-    int albedo_channel;
+    int albedo_channel;  /* 0, 1 or 2 */
     /* |f(wi, wo) - f(wo, wi)| over the mean of both: over 4096 pairs uniform in solid angle,
      * averaged (a SMAPE of f against itself swapped), and the worst. 0 where the encoding is
      * reciprocal. */
@@ -77,6 +79,7 @@ typedef struct hnbrdf_physics {
     int valid;    /* 1: no value seen was negative or not finite */
 } hnbrdf_physics;
 
+/* Looks at one material. */
 HNBRDF_API void hnbrdf_physics_of(const hnbrdf_model *model, const hnbrdf_material *material,
                                   hnbrdf_physics *physics);
 

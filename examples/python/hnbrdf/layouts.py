@@ -67,7 +67,7 @@ _fit_options = _structure(
     ("batch", _I), ("pool", _I), ("learning_rate", _F), ("loss", _I), ("schedule", _I),
     ("uniform_share", _F), ("uniform_none", _I), ("seed", c.c_uint64), ("threads", _I),
     ("progress", _fit_fn), ("progress_user", _P), ("freeze", _P), ("checkpoint", _S),
-    ("resume", _I))
+    ("resume", _I), ("ranks", _P))
 _fit_times = _structure("hnbrdf_fit_times", *((name, _D) for name in (
     "drawing", "ggx", "encoding", "network", "update", "waiting")))
 _fit_report = _structure(
