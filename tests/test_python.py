@@ -199,6 +199,8 @@ class Models(unittest.TestCase):
         text = self.model.export_shader([NAME], standalone=True)
         self.assertIn("HNBRDF_MATERIAL_VCH_SILK_BLUE", text)
         self.assertNotIn("PAPER_WHITE", text)
+        self.assertIn("float3", self.model.export_shader([NAME], "hlsl", prefix="silk"))
+        self.assertRaises(ValueError, self.model.export_shader, language="cobol")
         self.assertIn("hnbrdf_weights_block", self.model.export_shader(weights="uniform"))
 
     def test_notes(self):

@@ -51,7 +51,8 @@ _change = _structure("hnbrdf_material_change", ("kind", _I), ("name", _S), ("mat
 _glsl_options = _structure(
     "hnbrdf_glsl_options", ("materials", _P), ("material_count", _I), ("standalone", _I),
     ("packing", _P), ("weights", _I), ("precision", _I), ("only", _I), ("fixed", _I),
-    ("energy", _P), ("editable", _I), ("language", _I))
+    ("energy", _P), ("editable", _I), ("language", _I), ("exact", _I), ("library", _I),
+    ("prefix", _S), ("without_comments", _I))
 _measured_options = _structure(
     "hnbrdf_measured_options", ("max_bytes", _Z), ("merl_lookup", _I), ("merl_node", _I),
     ("merl_identify", _I), ("rgl_signed", _I), ("rgl_spectra", _I), ("utia_mode", _I),
@@ -69,7 +70,7 @@ _fit_options = _structure(
     ("progress", _fit_fn), ("progress_user", _P), ("freeze", _P), ("checkpoint", _S),
     ("resume", _I), ("ranks", _P))
 _fit_times = _structure("hnbrdf_fit_times", *((name, _D) for name in (
-    "drawing", "ggx", "encoding", "network", "update", "waiting")))
+    "drawing", "ggx", "encoding", "network", "update", "exchange", "waiting")))
 _fit_report = _structure(
     "hnbrdf_fit_report", ("final_loss", _D), ("seconds", _D), ("pairs_per_s", _D),
     ("steps", c.c_long), ("stopped", _I), ("pairs", _D), ("flops", _D), ("times", _fit_times),
@@ -89,7 +90,6 @@ ENUMS = {
     "weights": ("HNBRDF_GLSL_", "CONSTANTS COLUMNS UNIFORM"),
     "precision": ("HNBRDF_GLSL_", "FLOAT HALF"),
     "only": ("HNBRDF_GLSL_", "EVERYTHING EVAL EVAL_SAMPLE"),
-    "language": ("HNBRDF_LANGUAGE_", "GLSL"),
     "merl_lookup": ("HNBRDF_MERL_", "NEAREST TRILINEAR"),
     "merl_node": ("HNBRDF_MERL_", "CENTRE EDGE"),
     "utia_mode": ("HNBRDF_UTIA_", "DJB RAW SRGB"),

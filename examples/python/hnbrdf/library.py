@@ -30,6 +30,7 @@ FUNCTIONS: dict[str, dict[str, tuple]] = {
         "pdf_many": (None, _P, _P, _P, _Z, _P, _Z, _P, _Z, _P, _Z),
         "model_with_materials": (_I, _P, _P, _I, _P, _P, _P), "material_set": (_I, _P, _S, _P),
         "mix_path_fit": (_I, _P, _P, _P, _P, _P), "mix_path_at": (None, _P, _F, _P),
+        "shading_language_from_name": (_I, _S, _P),
         "export_shader": (_I, _P, _P, _write_fn, _P, _P)},
     "hnbrdf_measured": {
         "measured_open": (_I, _S, _P, _P, _P),

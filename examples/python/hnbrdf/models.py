@@ -279,18 +279,25 @@ class Model:
         """What save() writes."""
         return written(part("hnbrdf").model_write, self)
 
-    def export_shader(self, materials: Optional[Sequence[str]] = None, standalone: bool = False,
+    def export_shader(self, materials: Optional[Sequence[str]] = None, language: str = "glsl", *,
                       weights: str = "constants", precision: str = "float",
-                      only: str = "everything", fixed: bool = False, editable: bool = False,
-                      language: str = "glsl") -> str:
-        """A shader include with the network and these materials (None: all): `hnbrdf export
-        --help` says what the options do."""
+                      only: str = "everything", prefix: Optional[str] = None, **flags: bool) -> str:
+        """A shader include with the network and these materials (None: all), hnbrdf_export_shader().
+        flags are standalone, fixed, editable, exact, without_comments, and library: the part that
+        all models share. `hnbrdf export --help` says what each does."""
+        allowed = {"standalone", "fixed", "editable", "exact", "without_comments", "library"}
+        if set(flags) - allowed:
+            raise TypeError(f"no option {', '.join(sorted(set(flags) - allowed))}, expected one of "
+                            f"{', '.join(sorted(allowed))}")
+        number = c.c_int()
+        if not part("hnbrdf").shading_language_from_name(language.encode(), c.byref(number)):
+            raise ValueError(f"language {language!r}: the library does not write it")
         indices = None if materials is None else np.array(
             [self._at(name) for name in materials], np.int32)
         options = _glsl_options(
             materials=None if indices is None else indices.ctypes.data,
-            material_count=0 if indices is None else len(indices), standalone=standalone,
+            material_count=0 if indices is None else len(indices),
             weights=value_of("weights", weights), precision=value_of("precision", precision),
-            only=value_of("only", only), fixed=fixed, editable=editable,
-            language=value_of("language", language))
+            only=value_of("only", only), language=number.value,
+            prefix=None if prefix is None else prefix.encode(), **flags)
         return written(part("hnbrdf").export_shader, self, c.byref(options)).decode()
