@@ -29,7 +29,7 @@ class Samples(NamedTuple):
 class Description:
     """What a model holds, hnbrdf_model_desc. weights[k] is [out, in] and biases[k] [out] of layer
     k; in is 6 + latent for the first, the encoded directions before the latent code. materials is
-    an array [M] of material_dtype. From Model.describe() arrays are read-only views of the model."""
+    an array [M] of material_dtype. From Model.describe() arrays are read-only views."""
     kind: str
     encoding: str = "directions"
     weights: Sequence[ArrayLike] = ()
@@ -282,8 +282,7 @@ class Model:
     def export_shader(self, materials: Optional[Sequence[str]] = None, language: str = "glsl", *,
                       weights: str = "constants", precision: str = "float",
                       only: str = "everything", prefix: Optional[str] = None, **flags: bool) -> str:
-        """A shader include with the network and these materials (None: all), hnbrdf_export_shader().
-        flags are standalone, fixed, editable, exact, without_comments, and library: the part that
+        """A shader include with the network and these materials (None: all). flags are standalone, fixed, editable, exact, without_comments, and library: the part that
         all models share. `hnbrdf export --help` says what each does."""
         allowed = {"standalone", "fixed", "editable", "exact", "without_comments", "library"}
         if set(flags) - allowed:
