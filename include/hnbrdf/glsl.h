@@ -166,7 +166,9 @@ HNBRDF_EXPERIMENTAL size_t hnbrdf_weights_size(const hnbrdf_model *model);
  *                     first layer: the latent code, then the encoded directions; of the others
  *                     the units of the layer before, filled with zeros to a multiple of four.
  * The shader's block is hnbrdf_weights_block; in Vulkan at set HNBRDF_WEIGHTS_SET, binding
- * HNBRDF_WEIGHTS_BINDING, both 0 unless defined before the include. Of the options, which may be
+ * HNBRDF_WEIGHTS_BINDING, both 0 unless defined before the include; in HLSL and Slang at
+ * HNBRDF_WEIGHTS_REGISTER, b0 unless defined; in WGSL these are constants of the text; in MSL it
+ * is a parameter. Of the options, which may be
  * NULL, only the precision matters: it must be that of the shader. HNBRDF_ERROR_ARGUMENT for a
  * ggx model. */
 HNBRDF_EXPERIMENTAL hnbrdf_result hnbrdf_export_weights(const hnbrdf_model *model,

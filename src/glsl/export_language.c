@@ -90,7 +90,7 @@ hnbrdf_result hnbrdf_write_language(const hnbrdf_grown *text, int with_library,
                                       .text = text->text,
                                       .size = text->size,
                                       .print = 1,
-                                      .heading = to.heading}};
+                                      .heading = with_library ? to.heading : NULL}};
     return hnbrdf_translate(with_library ? sources + 1 : sources, with_library ? 1 : 2, to.dialect,
                             options->exact != 0, text->memory, write, user, error);
 }

@@ -127,27 +127,14 @@ static void hlsl_function(hnbrdf_print *p, const hnbrdf_node *node)
     hnbrdf_c_body(p, node);
 }
 
-/* HNBRDF_WEIGHTS_REGISTER for a block hnbrdf_weights_block. */
-static void write_register(hnbrdf_print *p, hnbrdf_span block)
-{
-    static const char ending[] = "_block";
-    const size_t size = block.size - (hnbrdf_span_ends(block, ending) ? sizeof ending - 1 : 0);
-    for (size_t k = 0; k < size; k++) {
-        char c = block.at[k];
-        c = c >= 'a' && c <= 'z' ? (char)(c - 'a' + 'A') : c;
-        hnbrdf_write_span(p, (hnbrdf_span){&c, 1});
-    }
-    hnbrdf_write(p, "_REGISTER");
-}
-
 static void hlsl_block(hnbrdf_print *p, const hnbrdf_node *node)
 {
     const hnbrdf_node *array = node->last;
     hnbrdf_write(p, "#ifndef ");
-    write_register(p, node->token.text);
+    hnbrdf_write_setting(p, node->token.text, "_REGISTER");
     hnbrdf_new_line(p, 0);
     hnbrdf_write(p, "#define ");
-    write_register(p, node->token.text);
+    hnbrdf_write_setting(p, node->token.text, "_REGISTER");
     hnbrdf_write(p, " b0");
     hnbrdf_new_line(p, 0);
     hnbrdf_write(p, "#endif");
@@ -155,7 +142,7 @@ static void hlsl_block(hnbrdf_print *p, const hnbrdf_node *node)
     hnbrdf_write(p, "cbuffer ");
     hnbrdf_write_name(p, node->token.text);
     hnbrdf_write(p, " : register(");
-    write_register(p, node->token.text);
+    hnbrdf_write_setting(p, node->token.text, "_REGISTER");
     hnbrdf_write(p, ")");
     hnbrdf_new_line(p, 0);
     hnbrdf_write(p, "{");
@@ -215,13 +202,17 @@ const hnbrdf_dialect hnbrdf_hlsl = {.name = "hlsl",
                                     .block = hlsl_block,
                                     .builtin = hlsl_builtin};
 
+/* It takes `precise`, but 2025.15 makes nothing of it. */
+static const char slang_exact[] =
+    "\n// Exact where operations are neither fused nor reordered: compile with -fp-mode precise.\n";
+
 const hnbrdf_dialect hnbrdf_slang = {.name = "slang",
                                      .capital = "SLANG",
                                      .types = slang_types,
                                      .suffix = "f",
                                      .reserved = reserved,
                                      .preprocessor = 1,
-                                     .precise = 1,
+                                     .exact = slang_exact,
                                      .item = hlsl_item,
                                      .statement = hlsl_statement,
                                      .expression = hlsl_expression,

@@ -98,6 +98,18 @@ void hnbrdf_write_guard(hnbrdf_print *p, hnbrdf_span name)
     hnbrdf_write(p, p->dialect->capital);
 }
 
+void hnbrdf_write_setting(hnbrdf_print *p, hnbrdf_span block, const char *ending)
+{
+    static const char last[] = "_block";
+    const size_t size = block.size - (hnbrdf_span_ends(block, last) ? sizeof last - 1 : 0);
+    for (size_t k = 0; k < size; k++) {
+        char c = block.at[k];
+        c = c >= 'a' && c <= 'z' ? (char)(c - 'a' + 'A') : c;
+        hnbrdf_write_span(p, (hnbrdf_span){&c, 1});
+    }
+    hnbrdf_write(p, ending);
+}
+
 void hnbrdf_write_comment(hnbrdf_print *p, const hnbrdf_node *node)
 {
     if (node->own_line) {

@@ -63,6 +63,8 @@ void hnbrdf_write_variable(hnbrdf_print *p, const hnbrdf_node *variable);
 void hnbrdf_write_type(hnbrdf_print *p, hnbrdf_type type);
 void hnbrdf_write_comment(hnbrdf_print *p, const hnbrdf_node *node);
 void hnbrdf_write_guard(hnbrdf_print *p, hnbrdf_span name); /* HNBRDF_HYBRID_BRDF_HLSL */
+/* HNBRDF_WEIGHTS_REGISTER for a block hnbrdf_weights_block. */
+void hnbrdf_write_setting(hnbrdf_print *p, hnbrdf_span block, const char *ending);
 /* Members of a struct, comments in a column. */
 void hnbrdf_write_members(hnbrdf_print *p, const hnbrdf_node *structure,
                           void (*member)(hnbrdf_print *p, const hnbrdf_node *declaration));

@@ -54,7 +54,7 @@ static void write_declaration(hnbrdf_print *p, const hnbrdf_node *node)
     const hnbrdf_node *first = node->first;
     if (first->constant)
         hnbrdf_write(p, "const ");
-    if (first->precise && node->type.scalar != HNBRDF_FLOAT16) /* which FXC refuses */
+    if (first->precise && p->dialect->precise && node->type.scalar != HNBRDF_FLOAT16) /* FXC */
         hnbrdf_write(p, "precise ");
     hnbrdf_write_type(p, node->type);
     for (const hnbrdf_node *variable = first; variable; variable = variable->next) {

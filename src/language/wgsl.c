@@ -9,7 +9,7 @@ static const char *const types[][5] = {
     [HNBRDF_INT] = {NULL, "i32", "vec2i", "vec3i", "vec4i"},
     [HNBRDF_UINT] = {NULL, "u32", "vec2u", "vec3u", "vec4u"},
     [HNBRDF_FLOAT] = {NULL, "f32", "vec2f", "vec3f", "vec4f"},
-    [HNBRDF_FLOAT16] = {NULL, "HNBRDF_HALF", "HNBRDF_HALF2", "HNBRDF_HALF3", "HNBRDF_HALF4"},
+    [HNBRDF_FLOAT16] = {NULL, "f16", "vec2h", "vec3h", "vec4h"},
 };
 
 /* Keywords, reserved words, and functions of WGSL alone, that are names in GLSL. */
@@ -143,38 +143,40 @@ static void wgsl_function(hnbrdf_print *p, const hnbrdf_node *node)
     hnbrdf_write_body(p, node->last);
 }
 
-/* The number of set or binding. */
+/* const HNBRDF_WEIGHTS_BINDING: i32 = 0; on a line of its own, for whoever needs another one. */
 static void write_place(hnbrdf_print *p, const hnbrdf_node *block, const char *glsl,
-                        const char *wgsl)
+                        const char *ending)
 {
-    hnbrdf_write(p, wgsl);
-    for (const hnbrdf_node *place = block->first; place; place = place->next)
-        if (place->kind == HNBRDF_NODE_INDEX && hnbrdf_span_is(place->token.text, glsl)) {
-            hnbrdf_write_expression(p, place->first);
-            hnbrdf_write(p, ") ");
-            return;
-        }
-    hnbrdf_write(p, "0) ");
+    const hnbrdf_node *place = block->first;
+    while (place && (place->kind != HNBRDF_NODE_INDEX || !hnbrdf_span_is(place->token.text, glsl)))
+        place = place->next;
+    hnbrdf_write(p, "const ");
+    hnbrdf_write_setting(p, block->token.text, ending);
+    hnbrdf_write(p, ": i32 = ");
+    if (place)
+        hnbrdf_write_expression(p, place->first);
+    else
+        hnbrdf_write(p, "0");
+    hnbrdf_write(p, ";");
+    hnbrdf_new_line(p, 0);
 }
 
 static void wgsl_block(hnbrdf_print *p, const hnbrdf_node *node)
 {
-    write_place(p, node, "set", "@group(");
-    write_place(p, node, "binding", "@binding(");
-    hnbrdf_write(p, "var<uniform> ");
+    write_place(p, node, "set", "_SET");
+    write_place(p, node, "binding", "_BINDING");
+    hnbrdf_write(p, "@group(");
+    hnbrdf_write_setting(p, node->token.text, "_SET");
+    hnbrdf_write(p, ") @binding(");
+    hnbrdf_write_setting(p, node->token.text, "_BINDING");
+    hnbrdf_write(p, ") var<uniform> ");
     hnbrdf_write_name(p, node->last->token.text);
     hnbrdf_write(p, ": ");
     hnbrdf_wgsl_type(p, node->last->type);
     hnbrdf_write(p, ";");
 }
 
-static const char half[] =
-    "// Half precision: the module must begin with `enable f16;`. Or write f32 for f16 in these "
-    "lines.\n"
-    "alias HNBRDF_HALF = f16;\n"
-    "alias HNBRDF_HALF2 = vec2<f16>;\n"
-    "alias HNBRDF_HALF3 = vec3<f16>;\n"
-    "alias HNBRDF_HALF4 = vec4<f16>;\n";
+static const char half[] = "// The module must begin with `enable f16;`.\n";
 
 const hnbrdf_dialect hnbrdf_wgsl = {.name = "wgsl",
                                     .capital = "WGSL",
