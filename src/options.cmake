@@ -69,6 +69,16 @@ endif()
 hnbrdf_option(HNBRDF_BUILD_CLI "the hnbrdf command"
   PROJECT_IS_TOP_LEVEL UNIX HNBRDF_BUILD_FIT STB_INCLUDE_DIR)
 
+# Fits by several processes, in the command alone. Another project gets it only on request.
+if(PROJECT_IS_TOP_LEVEL OR HNBRDF_WITH_MPI)
+  find_package(MPI 3 QUIET COMPONENTS C)
+endif()
+hnbrdf_option(HNBRDF_WITH_MPI "mpirun hnbrdf fit: the command links MPI"
+  PROJECT_IS_TOP_LEVEL HNBRDF_BUILD_CLI MPI_C_FOUND)
+if(HNBRDF_WITH_MPI AND NOT MPI_C_FOUND)
+  message(FATAL_ERROR "HNBRDF_WITH_MPI=ON needs MPI of version 3 (package libopenmpi-dev)")
+endif()
+
 # BUILD_TESTING=OFF, the switch that projects share, is obeyed whatever HNBRDF_BUILD_TESTS says.
 if(PROJECT_IS_TOP_LEVEL OR HNBRDF_BUILD_TESTS)
   find_path(CMOCKA_INCLUDE_DIR cmocka.h)

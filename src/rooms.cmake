@@ -91,5 +91,5 @@ hnbrdf_room(cli
   cmd_fit.c cmd_gallery.c cmd_import.c cmd_info.c cmd_lobes.c cmd_mix.c cmd_render.c
   cmd_report.c cmd_report_editing.c cmd_report_images.c cmd_report_sampling.c cmd_scene.c
   cmd_sheet.c cmd_stability.c cmd_verify.c files.c main.c message.c option.c output.c
-  picture.c progress.c reading.c report_options.c sources.c standard.c verify_devices.c watch.c
-  words.c)
+  picture.c progress.c ranks.c ranks_mpi.c ranks_none.c reading.c report_options.c sources.c
+  standard.c verify_devices.c watch.c words.c)

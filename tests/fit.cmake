@@ -12,6 +12,12 @@ if(NOT HNBRDF_SANITIZE)
     $<TARGET_FILE:hnbrdf_cli>)
   set_tests_properties(test_fit_cli PROPERTIES SKIP_RETURN_CODE 77)
 endif()
+# Processes under mpirun. The sanitizers see what MPI leaves behind.
+if(NOT HNBRDF_SANITIZE)
+  add_test(NAME test_fit_mpi COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/test_fit_mpi.sh
+    $<TARGET_FILE:hnbrdf_cli> $<BOOL:${HNBRDF_WITH_MPI}>)
+  set_tests_properties(test_fit_mpi PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 120)
+endif()
 add_test(NAME test_fit_hostile_cli
   COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/test_fit_hostile_cli.sh $<TARGET_FILE:hnbrdf_cli>)
 

@@ -21,6 +21,8 @@ tests)
     command -v npm > /dev/null || optional="$optional npm"
     # The Python module and the pages: 12 MB to download.
     optional="$optional python3-numpy doxygen mandoc"
+    # Fits by several processes; any other MPI serves as well.
+    command -v mpirun > /dev/null || optional="$optional libopenmpi-dev openmpi-bin"
     # libFuzzer and the sanitizers of clang; the package carries the version of the clang that is installed or
     # will be. Without it clang fuzzes nothing.
     clang=$(clang -dumpversion 2> /dev/null || apt-cache depends clang 2> /dev/null | sed -n 's/.*Depends: clang-//p')

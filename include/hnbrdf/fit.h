@@ -182,7 +182,8 @@ typedef struct hnbrdf_fit_report {
     double pairs_per_s; /* network stage */
     long steps;         /* network steps done, those before a resume included */
     int stopped;        /* 1: the progress callback asked to stop */
-    double pairs;       /* direction pairs that the network was trained on in this call */
+    double pairs; /* direction pairs that the network was trained on in this call, by all ranks */
+    int ranks;    /* processes of the fit */
     double flops; /* floating-point operations of its passes in this call: the products alone, two a
                      multiply-add, none for padding */
     hnbrdf_fit_times times;

@@ -4,13 +4,14 @@
 #include "bench/peak.h"
 
 #include <math.h>
+#include <string.h>
 
 typedef struct part {
     const char *name, *title;
     double seconds;
 } part;
 
-enum { PARTS = 6 };
+enum { PARTS = 7 };
 
 static void list_parts(const hnbrdf_fit_times *t, part parts[PARTS])
 {
@@ -20,6 +21,7 @@ static void list_parts(const hnbrdf_fit_times *t, part parts[PARTS])
         {"encoding", "encoding", t->encoding},
         {"network", "forward and backward", t->network},
         {"update", "gradient sum, Adam", t->update},
+        {"exchange", "talking to other processes", t->exchange},
         {"waiting", "waiting or other programs", t->waiting},
     };
     for (int k = 0; k < PARTS; k++)
@@ -30,11 +32,18 @@ bench_speed bench_speed_of(const hnbrdf_fit_report *report)
 {
     bench_speed speed = {.report = report};
     if (report->flops > 0.0 && report->times.network > 0.0) {
-        speed.kernel_flops = report->flops / report->times.network * report->threads;
+        speed.kernel_flops =
+            report->flops / report->ranks / report->times.network * report->threads;
         speed.peak = bench_fma_peak(report->threads);
         speed.muladd = bench_muladd_peak(report->threads);
     }
     return speed;
+}
+
+/* Of one process there are no others. */
+static int is_told(const hnbrdf_fit_report *r, const part *p)
+{
+    return r->ranks > 1 || strcmp(p->name, "exchange") != 0;
 }
 
 static double share(double some, double whole)
@@ -49,11 +58,13 @@ void bench_speed_print(const bench_speed *speed, FILE *file)
     double all = r->threads * r->seconds;
     list_parts(&r->times, parts);
     if (r->pairs > 0.0) {
-        fprintf(
-            file,
-            "speed: %.2f M pairs/s everything included, %.2f in the network stage, %d thread%s\n",
-            share(r->pairs, r->seconds) * 1e-6, r->pairs_per_s * 1e-6, r->threads,
-            r->threads == 1 ? "" : "s");
+        fprintf(file,
+                "speed: %.2f M pairs/s everything included, %.2f in the network stage, %d thread%s",
+                share(r->pairs, r->seconds) * 1e-6, r->pairs_per_s * 1e-6, r->threads,
+                r->threads == 1 ? "" : "s");
+        if (r->ranks > 1)
+            fprintf(file, " in each of %d processes; of the first one:", r->ranks);
+        fputc('\n', file);
         fprintf(
             file,
             "network kernels (%s): %.1f GFLOP/s, %.0f %% of the FMA peak of %.0f (%s), %.0f %% of "
@@ -64,8 +75,9 @@ void bench_speed_print(const bench_speed *speed, FILE *file)
     }
     fprintf(file, "time:");
     for (int k = 0; k < PARTS; k++)
-        fprintf(file, "%s %.0f %% %s", k ? "," : "", 100.0 * share(parts[k].seconds, all),
-                parts[k].title);
+        if (is_told(r, &parts[k]))
+            fprintf(file, "%s %.0f %% %s", k ? "," : "", 100.0 * share(parts[k].seconds, all),
+                    parts[k].title);
     fprintf(file, "\n");
 }
 
@@ -101,6 +113,7 @@ void bench_speed_write_json(const bench_speed *speed, FILE *file)
             r->seconds, r->threads, r->instructions, r->pairs, share(r->pairs, r->seconds),
             r->pairs_per_s, speed->kernel_flops, speed->peak, speed->muladd);
     for (int k = 0; k < PARTS; k++)
-        fprintf(file, "%s\"%s\": %.6f", k ? ", " : "", parts[k].name, parts[k].seconds);
+        if (is_told(r, &parts[k]))
+            fprintf(file, "%s\"%s\": %.6f", k ? ", " : "", parts[k].name, parts[k].seconds);
     fputs("}}\n", file);
 }

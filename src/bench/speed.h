@@ -8,7 +8,7 @@
 
 typedef struct bench_speed {
     const hnbrdf_fit_report *report;
-    /* FLOP/s of the network's passes while they ran, on all threads together */
+    /* FLOP/s of the network's passes while they ran, on all threads of this process together */
     double kernel_flops;
     /* FLOP/s that this machine can reach: fused, and multiplied and added apart */
     double peak, muladd;

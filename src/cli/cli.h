@@ -83,6 +83,8 @@ int cli_fail(const char *format, ...) __attribute__((format(printf, 1, 2)));
 void cli_warn(const char *format, ...) __attribute__((format(printf, 1, 2)));
 /* Warns of what a reader tells: the function of an hnbrdf_notes. */
 void cli_note(void *user, const char *line);
+/* The line printed last by one of these; "" before. */
+const char *cli_last_message(void);
 #define CLI_NOTES      \
     {                  \
         cli_note, NULL \
@@ -128,6 +130,9 @@ typedef struct cli_data {
 
 /* Opens all; two materials of one name are an error. Returns 0, or CLI_FAILURE after a message. */
 int cli_open_data(char *const *arguments, int count, cli_data *data);
+/* The same of several processes: each opens its share, items of the others are NULL. An error of
+ * one is one of all. */
+int cli_open_data_of_ranks(char *const *arguments, int count, cli_data *data);
 void cli_close_data(cli_data *data);
 
 /* A SOURCE is a model file or one measured material (file or "builtin:NAME"): exactly one is set.

@@ -2,6 +2,7 @@
 #include "base/interrupt.h"
 #include "bench/speed.h"
 #include "cli/cli.h"
+#include "cli/ranks.h"
 #include "cli/words.h"
 #include "hnbrdf/fit.h"
 #include "report/fit_log.h"
@@ -23,7 +24,13 @@ static const cli_command command = {
     "fit\n"
     "after the step, saves the model so far, and leaves OUTPUT.checkpoint, from which --resume "
     "goes "
-    "on.",
+    "on.\n"
+    "`mpirun -n N hnbrdf fit ...` shares the work among N processes, on as many machines: each "
+    "reads "
+    "and\n"
+    "holds every Nth material, and the model has the bits that one process gives. The first "
+    "process\n"
+    "writes; a checkpoint is good for any number of them. Give --threads, or each takes all cores.",
     "  hnbrdf fit builtin -o builtin.safetensors\n"
     "  hnbrdf fit rgl/ --net 32x2 --latent 4 --seconds 120 -o rgl.safetensors\n"
     "  hnbrdf fit rgl/ --kind ggx -o ggx.safetensors\n"
@@ -100,12 +107,12 @@ static void summarise(const job *j, const hnbrdf_model *model, const hnbrdf_fit_
 }
 
 /* What is odd about the data: a person should know before trusting the model. */
-static void tell_about_data(const job *j)
+static void tell_about_data(const job *j, const hnbrdf_model *model)
 {
     FILE *words = cli_words();
     for (int m = 0; m < j->data.count; m++) {
         const hnbrdf_fit_drawn *d = &j->fit.drawn[m];
-        const char *name = hnbrdf_measured_name(j->data.items[m]);
+        const char *name = hnbrdf_model_material_name(model, m); /* the data's come first */
         if (d->valid < FEW_VALID)
             fprintf(
                 words,
@@ -175,11 +182,13 @@ static int write_speed(const job *j, const hnbrdf_fit_report *report)
 /* Fit and save. The checkpoint stays only after an interruption. */
 static int run(job *j)
 {
+    const int first = cli_rank() == 0;
     display d = {.stage = NULL};
     hnbrdf_model *model = NULL;
     hnbrdf_fit_report report;
     hnbrdf_error error;
-    int code = cli_code(fit_log_open(j->log, j->fit.resume, &d.curve, &d.log, &error), &error);
+    int code = cli_code(
+        fit_log_open(first ? j->log : NULL, j->fit.resume, &d.curve, &d.log, &error), &error);
     if (code)
         return code;
     j->fit.progress = show;
@@ -190,7 +199,7 @@ static int run(job *j)
     hnbrdf_catch_interrupts(0);
     if (d.stage)
         cli_progress_end(&d.line);
-    if (!result)
+    if (!result && first)
         result = hnbrdf_model_save(model, j->output, &error);
     if (result == HNBRDF_ERROR_CANCELLED) {
         code = cli_fail("interrupted before the network's first step; %s is as it was", j->output);
@@ -198,15 +207,15 @@ static int run(job *j)
         code = cli_fail("%s", error.text);
     } else {
         summarise(j, model, &report);
-        tell_about_data(j);
+        tell_about_data(j, model);
         tell_about_training(&report);
-        if (!report.stopped)
+        if (!report.stopped && first)
             remove(j->fit.checkpoint);
-        code = write_speed(j, &report);
+        code = first ? write_speed(j, &report) : CLI_OK;
     }
     if (cli_code(fit_log_close(&d.log, !result, &error), &error))
         code = CLI_FAILURE;
-    if (!code && j->plot)
+    if (!code && j->plot && first)
         code = cli_code(loss_curve_plot(&d.curve, "training loss, running mean", j->plot, &error),
                         &error);
     loss_curve_free(&d.curve);
@@ -228,7 +237,9 @@ static int open_and_run(job *j, const char *freeze, char *const *data, int count
     if (freeze && !(code = cli_open_source(freeze, &source)) && !source.model)
         code = cli_fail("%s: a measured file, expected a model to freeze", freeze);
     j->fit.freeze = source.model;
-    if (!code && !(code = cli_open_data(data, count, &j->data))) {
+    j->fit.ranks = cli_ranks();
+    code = cli_ranks_agree(code);
+    if (!code && !(code = cli_open_data_of_ranks(data, count, &j->data))) {
         j->fit.drawn = calloc((size_t)j->data.count, sizeof *j->fit.drawn);
         code = j->fit.drawn ? run(j) : cli_fail("out of memory");
         free(j->fit.drawn);

@@ -1,5 +1,6 @@
 /* main.c: the `hnbrdf` command: finds the subcommand and answers for what no subcommand owns. */
 #include "cli/cli.h"
+#include "cli/ranks.h"
 
 #include "base/guess.h"
 
@@ -75,6 +76,16 @@ static int show_help(int argc, char **argv)
     return found->run(2, arguments);
 }
 
+/* Whether several processes share the work of a command. */
+static int runs_on_ranks(const char *name)
+{
+    static const char *const shared[] = {"fit"};
+    for (size_t k = 0; k < sizeof shared / sizeof shared[0]; k++)
+        if (strcmp(name, shared[k]) == 0)
+            return 1;
+    return 0;
+}
+
 static int run(int argc, char **argv)
 {
     if (argc < 2) {
@@ -92,11 +103,18 @@ static int run(int argc, char **argv)
         return CLI_OK;
     }
     const subcommand *found = find_subcommand(argv[1]);
-    return found ? found->run(argc - 1, argv + 1) : CLI_USAGE;
+    if (!found)
+        return CLI_USAGE;
+    if (cli_ranks() && !runs_on_ranks(found->name))
+        return cli_fail("%s is done by one process, but was started in %d; those that share their "
+                        "work are fit, bake and report accuracy",
+                        found->name, cli_rank_count());
+    return found->run(argc - 1, argv + 1);
 }
 
 int main(int argc, char **argv)
 {
     cli_standard_begin();
-    return cli_standard_end(run(argc, argv));
+    const int code = cli_ranks_begin();
+    return cli_ranks_end(cli_standard_end(code ? code : run(argc, argv)));
 }

@@ -4,14 +4,23 @@
 #include "base/error.h"
 
 #include <stdarg.h>
+#include <string.h>
 
 enum { MESSAGE_SIZE = 1024 };
 
+static char last[MESSAGE_SIZE];
+
+const char *cli_last_message(void)
+{
+    return last;
+}
+
 static void print_line(const char *before, const char *format, va_list arguments)
 {
-    char text[MESSAGE_SIZE];
+    char text[MESSAGE_SIZE] = "";
     vsnprintf(text, sizeof text, format, arguments);
     hnbrdf_one_line(text);
+    memcpy(last, text, sizeof last);
     fprintf(stderr, "hnbrdf%s: %s\n", before, text);
 }
 

@@ -1,5 +1,6 @@
 /* sources.c: what DATA and SOURCE arguments name: built-in materials, measured files, models. */
 #include "cli/cli.h"
+#include "cli/ranks.h"
 #include "cli/words.h"
 
 #include "base/guess.h"
@@ -158,6 +159,7 @@ typedef struct data_builder {
     cli_data data;
     char **origins;
     int capacity;
+    int rank, ranks; /* this rank opens each ranks-th of them; ranks 0: it opens all */
 } data_builder;
 
 static int reserve(data_builder *builder)
@@ -184,7 +186,8 @@ static int add_material(data_builder *builder, hnbrdf_measured *measured, const 
     const char *name = hnbrdf_measured_name(measured);
     int result = reserve(builder);
     for (int k = 0; result == CLI_OK && k < builder->data.count; k++)
-        if (strcmp(hnbrdf_measured_name(builder->data.items[k]), name) == 0)
+        if (builder->data.items[k] &&
+            strcmp(hnbrdf_measured_name(builder->data.items[k]), name) == 0)
             result = cli_fail("two materials have the name %s: %s and %s", name,
                               builder->origins[k], origin);
     char *copy = result == CLI_OK ? strdup(origin) : NULL;
@@ -199,9 +202,26 @@ static int add_material(data_builder *builder, hnbrdf_measured *measured, const 
     return CLI_OK;
 }
 
+/* Is the next one another rank's to open? */
+static int is_elsewhere(const data_builder *builder)
+{
+    return builder->ranks > 1 && builder->data.count % builder->ranks != builder->rank;
+}
+
+static int leave_out(data_builder *builder)
+{
+    if (reserve(builder) != CLI_OK)
+        return CLI_FAILURE;
+    builder->origins[builder->data.count] = NULL;
+    builder->data.items[builder->data.count++] = NULL;
+    return CLI_OK;
+}
+
 static int add_file(data_builder *builder, const char *path)
 {
     hnbrdf_measured *measured = NULL;
+    if (is_elsewhere(builder))
+        return leave_out(builder);
     if (cli_looks_like_model(path)) {
         char files[256];
         cli_measured_files(files, sizeof files, ", ");
@@ -216,6 +236,8 @@ static int add_builtin(data_builder *builder, int index)
 {
     char origin[HNBRDF_MAX_NAME + 16];
     hnbrdf_measured *measured = NULL;
+    if (index >= 0 && is_elsewhere(builder))
+        return leave_out(builder);
     if (open_builtin(index, &measured) != CLI_OK)
         return CLI_FAILURE;
     snprintf(origin, sizeof origin, "builtin:%s", hnbrdf_measured_builtin_name(index));
@@ -295,9 +317,8 @@ static int add_argument(data_builder *builder, const char *argument)
     return CLI_OK;
 }
 
-int cli_open_data(char *const *arguments, int count, cli_data *data)
+static int open_data(data_builder builder, char *const *arguments, int count, cli_data *data)
 {
-    data_builder builder = {0};
     int result = count > 0 ? CLI_OK : cli_fail("no data: name files, directories or builtin");
     for (int k = 0; k < count && result == CLI_OK; k++)
         result = add_argument(&builder, arguments[k]);
@@ -309,6 +330,20 @@ int cli_open_data(char *const *arguments, int count, cli_data *data)
     else
         cli_close_data(&builder.data);
     return result;
+}
+
+int cli_open_data(char *const *arguments, int count, cli_data *data)
+{
+    return open_data((data_builder){0}, arguments, count, data);
+}
+
+int cli_open_data_of_ranks(char *const *arguments, int count, cli_data *data)
+{
+    const data_builder builder = {.rank = cli_rank(), .ranks = cli_rank_count()};
+    const int own = open_data(builder, arguments, count, data), code = cli_ranks_agree(own);
+    if (code && !own)
+        cli_close_data(data);
+    return code;
 }
 
 void cli_close_data(cli_data *data)

@@ -304,6 +304,7 @@ static void time_all(const trainer *t, double seconds, hnbrdf_fit_report *report
     report->seconds = seconds;
     report->instructions = t->kernel ? t->kernel->name : NULL;
     report->threads = hnbrdf_threads_count(t->workers);
+    report->ranks = t->ranks.size;
     times->exchange = t->exchange;
     times->waiting =
         fmax(0.0, report->threads * seconds - times->drawing - times->ggx - times->encoding -
