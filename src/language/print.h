@@ -28,11 +28,11 @@ struct hnbrdf_dialect {
     const char *const *reserved;
     int preprocessor;       /* 1: #define and #ifndef */
     int loops_leak;         /* 1: variables of loops are known behind them too (FXC) */
+    int precise;            /* 1: there is `precise`; else the text is that of GLSL 330 */
     const char *prelude;    /* behind the guard of a text; NULL: nothing */
     const char *exact;      /* the same in exact builds */
     const char *half;       /* what a text with half precision needs, behind its check */
     const char *half_begin; /* and before everything else; NULL: nothing */
-    int precise;            /* 1: there is `precise`; else the text is that of GLSL 330 */
     /* Each returns 0 where the common form will do. */
     int (*item)(hnbrdf_print *p, const hnbrdf_node *node);
     int (*statement)(hnbrdf_print *p, const hnbrdf_node *node);

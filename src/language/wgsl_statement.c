@@ -73,7 +73,8 @@ static void write_variable_declaration(hnbrdf_print *p, const hnbrdf_node *varia
     hnbrdf_write(p, ";");
     if (choice) {
         hnbrdf_new_line(p, 0);
-        write_if_choice(p, &(chosen){.variable = variable}, choice);
+        const chosen to = {variable, NULL};
+        write_if_choice(p, &to, choice);
     }
 }
 
@@ -207,8 +208,9 @@ static int write_expression_statement(hnbrdf_print *p, const hnbrdf_node *node)
         expression->kind == HNBRDF_NODE_ASSIGN && expression->token.text.size == 1
             ? costly_choice(expression->last)
             : NULL;
+    const chosen to = {NULL, expression->first};
     if (choice)
-        write_if_choice(p, &(chosen){.target = expression->first}, choice);
+        write_if_choice(p, &to, choice);
     else if (expression->kind == HNBRDF_NODE_CALL && expression->type.scalar != HNBRDF_VOID)
         hnbrdf_refuse(p->t, &expression->token, "a value that is not used");
     return choice != NULL;
@@ -217,6 +219,7 @@ static int write_expression_statement(hnbrdf_print *p, const hnbrdf_node *node)
 int hnbrdf_wgsl_statement(hnbrdf_print *p, const hnbrdf_node *node)
 {
     const hnbrdf_node *choice;
+    const chosen result = {NULL, NULL};
     switch (node->kind) {
     case HNBRDF_NODE_DECLARATION:
     case HNBRDF_NODE_RETURN:
@@ -228,7 +231,7 @@ int hnbrdf_wgsl_statement(hnbrdf_print *p, const hnbrdf_node *node)
         if (node->kind == HNBRDF_NODE_DECLARATION)
             write_declaration(p, node);
         else if (choice)
-            write_if_choice(p, &(chosen){0}, choice);
+            write_if_choice(p, &result, choice);
         return node->kind == HNBRDF_NODE_DECLARATION || choice;
     case HNBRDF_NODE_IF:
         write_if(p, node);
