@@ -1,6 +1,6 @@
 # Our GLSL as other shading languages.
 hnbrdf_test(test_language test_language.c)
-foreach(language hlsl msl)
+foreach(language hlsl msl wgsl)
   add_test(NAME test_language_${language} COMMAND sh
     ${CMAKE_CURRENT_SOURCE_DIR}/test_language.sh $<TARGET_FILE:hnbrdf_glsl_scenes> ${language})
   set_tests_properties(test_language_${language} PROPERTIES SKIP_RETURN_CODE 77)

@@ -34,4 +34,24 @@ status 2 "$hnbrdf" export "$model" --texels "$work/t.bin" -o "$work/z.glsl"
 status 2 "$hnbrdf" export "$model" --fixed --pack half -o "$work/z.glsl"
 status 1 "$hnbrdf" export "$model" --pack half --texels "$work/no/such/place" -o "$work/z.glsl"
 [ -e "$work/z.glsl" ] && fail "a failed export leaves a file"
+
+# --language, --library and --exact: the shared part alone, without a model; a scene asks for it.
+for language in hlsl msl wgsl slang; do
+    status 0 "$hnbrdf" export --library --language $language -o "$work/l.$language"
+    head -1 "$work/l.$language" | grep -q "^// hybrid_brdf\.$language: " || fail "heading of the shared part, $language"
+    status 0 "$hnbrdf" export "$model" -l $language -o "$work/s.$language"
+    grep -q '(columns, float)' "$work/out" || fail "columns are the default in $language"
+    grep -q 'hnbrdf_hard_gelu(' "$work/s.$language" && grep -q 'hnbrdf_hard_gelu(float x)' "$work/s.$language" && fail "$language: the shared part in a scene"
+    [ $language = wgsl ] || grep -q "^#error.* hybrid_brdf\.$language" "$work/s.$language" || fail "$language: no check of the shared part"
+    status 0 "$hnbrdf" export --library --exact -l $language -o "$work/e.$language"
+    grep -q 'hnbrdf_log(tan_2)' "$work/e.$language" || fail "$language: exact"
+    grep -q ' log(min(tan_2, ' "$work/l.$language" || fail "$language: not exact"
+done
+status 0 "$hnbrdf" export --library -o "$work/l.glsl"
+status 0 "$hnbrdf" export "$model" --standalone --exact -o "$work/e.glsl"
+grep -q '^#define HNBRDF_EXACT 1$' "$work/e.glsl" || fail "exact GLSL"
+status 2 "$hnbrdf" export "$model" --exact -o "$work/z.glsl"
+status 2 "$hnbrdf" export "$model" --library -o "$work/z.glsl"
+status 2 "$hnbrdf" export "$model" --language cg -o "$work/z.glsl"
+[ -e "$work/z.glsl" ] && fail "a refused export leaves a file"
 echo ok

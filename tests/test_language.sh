@@ -1,7 +1,7 @@
 #!/bin/sh
 # test_language.sh SCENES LANGUAGE: what is exported in LANGUAGE compiles: every scene standalone, and each third of them
 # also exact or as a text beside the shared part. SCENES writes the scenes (glsl_scenes.c). With glslang: hlsl.
-# With a C++ compiler, which is not Apple's: msl.
+# With a C++ compiler, which is not Apple's: msl. wgsl: its names alone; test_web_* has its compilers.
 set -eu
 scenes=$1 language=$2
 need() { command -v "$1" > /dev/null || { echo "skipped: no $1"; exit 77; }; }
@@ -58,6 +58,17 @@ msl() { # FILE...: a function of these texts, as C++ beside msl/metal_stdlib
         echo '}'
     } >> "$work/main.cc"
     run "$compiler" -std=c++14 -fsyntax-only -Wall -Wno-unknown-pragmas -I"$here/msl" "$work/main.cc"
+}
+
+wgsl() { # FILE...: what is called is there once, whatever was exported together; nothing of GLSL is left
+    for file; do cat "$work/$file"; done | sed 's,//.*,,' > "$work/main.wgsl"
+    grep -oE '^(fn|struct|const) [A-Za-z_0-9]+' "$work/main.wgsl" | sed 's/^[a-z]* //' | sort > "$work/defined"
+    [ -z "$(uniq -d "$work/defined")" ] || { echo "failed: twice in $*:" $(uniq -d "$work/defined"); exit 1; }
+    grep -oE '(hnbrdf|HNBRDF)_[A-Za-z_0-9]+' "$work/main.wgsl" | sort -u > "$work/used"
+    grep -oE '^@group.*var<uniform> [A-Za-z_0-9]+' "$work/main.wgsl" | sed 's/.* //' | sort -u - "$work/defined" > "$work/known"
+    missing=$(comm -23 "$work/used" "$work/known")
+    [ -z "$missing" ] || { echo "failed: not there in $*:" $missing; exit 1; }
+    ! grep -nE '\?|#|precise|\<(in|out|inout|float|int|vec[234])\>' "$work/main.wgsl" || { echo "failed: GLSL in $*"; exit 1; }
 }
 
 here=$(cd "$(dirname "$0")" && pwd) compiler=''
