@@ -182,6 +182,12 @@ float hnbrdf_dot3(vec3 w)
     return value_out;
 }
 
+float hnbrdf_dot3(vec3 a, vec3 b)
+{
+    HNBRDF_PRECISE float value_out = (a.x * b.x + a.y * b.y) + a.z * b.z;
+    return value_out;
+}
+
 // What the analytic part and the encodings share of one pair, in the tangent frame of the material.
 struct hnbrdf_pair {
     vec3 wi, wo;
@@ -760,6 +766,69 @@ vec3 hnbrdf_draw(vec2 alpha, hnbrdf_lobes ggx_lobes, vec3 wo, vec2 u_rand)
         wi_drawn = hnbrdf_draw_cosine(vec2(hnbrdf_azimuth(u_0, share_both, share_rest), u_1));
     }
     return wi_drawn;
+}
+
+// ---- World space ---------------------------------------------------------------------------------------
+
+// The frame of a surface, right-handed, of unit vectors at right angles: x along the tangent, z along the normal.
+struct hnbrdf_world_frame {
+    vec3 x_axis, y_axis, z_axis;
+};
+
+vec3 hnbrdf_cross(vec3 a, vec3 b)
+{
+    HNBRDF_PRECISE vec3 value_out = vec3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
+    return value_out;
+}
+
+// w of length 1, or instead_of where it has no direction: 0, not finite. Scaled first, so that no square overflows or
+// vanishes.
+vec3 hnbrdf_unit(vec3 w, vec3 instead_of)
+{
+    float r = max(max(abs(w.x), abs(w.y)), abs(w.z));
+    HNBRDF_PRECISE vec3 w_scaled = w / r;
+    float length_2 = hnbrdf_dot3(w_scaled);
+    HNBRDF_PRECISE vec3 value_out = w_scaled / sqrt(length_2);
+    return length_2 > 0.5 ? value_out : instead_of; // at least 1, but for roundings
+}
+
+// From a normal and a tangent as they come from a mesh, interpolated or not: of any length, at any angle. A tangent
+// without a direction, or along the normal, is replaced by some other one.
+hnbrdf_world_frame hnbrdf_world_frame_make(vec3 n_world, vec3 t_world)
+{
+    hnbrdf_world_frame frame_out;
+    frame_out.z_axis = hnbrdf_unit(n_world, vec3(0.0, 0.0, 1.0));
+    vec3 t_other = abs(frame_out.z_axis.x) < 0.5 ? vec3(1.0, 0.0, 0.0) : vec3(0.0, 1.0, 0.0);
+    vec3 y_wanted = hnbrdf_cross(frame_out.z_axis, hnbrdf_unit(t_world, t_other));
+    if (!(hnbrdf_dot3(y_wanted) > 1e-6)) // within 1e-3 of the normal
+        y_wanted = hnbrdf_cross(frame_out.z_axis, t_other);
+    y_wanted = hnbrdf_unit(y_wanted, vec3(0.0, 1.0, 0.0));
+    frame_out.x_axis = hnbrdf_unit(hnbrdf_cross(y_wanted, frame_out.z_axis), t_other);
+    frame_out.y_axis = hnbrdf_cross(frame_out.z_axis, frame_out.x_axis); // at a right angle to the last digit
+    return frame_out;
+}
+
+// A direction of the world in the frame of the surface, as hnbrdf_eval() wants it.
+vec3 hnbrdf_to_frame(hnbrdf_world_frame frame_in, vec3 w)
+{
+    return vec3(hnbrdf_dot3(w, frame_in.x_axis), hnbrdf_dot3(w, frame_in.y_axis), hnbrdf_dot3(w, frame_in.z_axis));
+}
+
+vec3 hnbrdf_to_frame(vec3 n_world, vec3 t_world, vec3 w)
+{
+    return hnbrdf_to_frame(hnbrdf_world_frame_make(n_world, t_world), w);
+}
+
+// And back.
+vec3 hnbrdf_from_frame(hnbrdf_world_frame frame_in, vec3 w)
+{
+    HNBRDF_PRECISE vec3 value_out = (w.x * frame_in.x_axis + w.y * frame_in.y_axis) + w.z * frame_in.z_axis;
+    return value_out;
+}
+
+vec3 hnbrdf_from_frame(vec3 n_world, vec3 t_world, vec3 w)
+{
+    return hnbrdf_from_frame(hnbrdf_world_frame_make(n_world, t_world), w);
 }
 
 #endif

@@ -7,7 +7,7 @@ endfunction()
 
 if(HNBRDF_WITH_VULKAN)
   foreach(name test_gpu_verify test_gpu_half test_glsl_unpack test_glsl_sample test_glsl_strip
-      test_glsl_sampling_density test_gpu_sphere)
+      test_glsl_world test_glsl_sampling_density test_gpu_sphere)
     hnbrdf_second_driver_test(${name} $<TARGET_FILE:hnbrdf_${name}>)
   endforeach()
   hnbrdf_second_driver_test(test_gpu_cli sh ${CMAKE_CURRENT_SOURCE_DIR}/test_gpu_cli.sh

@@ -24,7 +24,8 @@ typedef enum hnbrdf_glsl_weights {
     /* literals, every unit an expression of its own: one shader a network; compilers take the
      * longer the larger it is, 64x3 many seconds */
     HNBRDF_GLSL_CONSTANTS = 0,
-    /* the same literals, four units at a time as vec4 columns: as fast, less SPIR-V */
+    /* the same literals, four units at a time as vec4 columns: less SPIR-V, as fast on llvmpipe,
+     * twice as long on SwiftShader */
     HNBRDF_GLSL_COLUMNS,
     /* a uniform buffer read in loops: compiles soon whatever the size, ten times slower to run on
      * a CPU driver; one shader for every network of the same kind, encoding, hidden, layers and
@@ -136,7 +137,9 @@ typedef struct hnbrdf_glsl_options {
  *   vec3 hnbrdf_eval(hnbrdf_material m, vec3 wi, vec3 wo)
  *   hnbrdf_sample_result hnbrdf_sample(hnbrdf_material m, vec3 wo, vec2 u)
  *   float hnbrdf_pdf(hnbrdf_material m, vec3 wi, vec3 wo)
- * whose values are those of their namesakes in C. Its first lines state what it holds. options
+ * whose values are those of their namesakes in C, and hnbrdf_eval_world, hnbrdf_sample_world and
+ * hnbrdf_pdf_world, which take the normal and the tangent behind m and all directions in the
+ * coordinates of these. Its first lines state what it holds. options
  * may be NULL.
  *
  * HNBRDF_MATERIAL_NAME is the index of a material: its name in capitals, with one '_' for what is

@@ -207,6 +207,42 @@ static void put_sample(hnbrdf_printer *out)
         "    s.weight = hnbrdf_finish(weight);\n    return s;\n}\n");
 }
 
+/* ---- World space ----------------------------------------------------------------------------- */
+
+static const char EVAL_WORLD[] =
+    "\n// The same with directions of the world, of length 1, and the normal and tangent there, of "
+    "any length and\n"
+    "// angle. Where the normal is bent (normal maps, interpolation) so that wo is behind it, f is "
+    "0: black seams.\n"
+    "// Turn it towards the viewer then, of unit vectors: n += wo * max(0.0, 0.01 - dot(n, wo)).\n"
+    "vec3 hnbrdf_eval_world(hnbrdf_material material_in, vec3 n_world, vec3 t_world, vec3 wi, vec3 "
+    "wo)\n{\n"
+    "    hnbrdf_world_frame frame_in = hnbrdf_world_frame_make(n_world, t_world);\n"
+    "    return hnbrdf_eval(material_in, hnbrdf_to_frame(frame_in, wi), "
+    "hnbrdf_to_frame(frame_in, wo));\n}\n";
+
+static const char SAMPLE_WORLD[] =
+    "\nfloat hnbrdf_pdf_world(hnbrdf_material material_in, vec3 n_world, vec3 t_world, vec3 wi, "
+    "vec3 wo)\n{\n"
+    "    hnbrdf_world_frame frame_in = hnbrdf_world_frame_make(n_world, t_world);\n"
+    "    return hnbrdf_pdf(material_in, hnbrdf_to_frame(frame_in, wi), hnbrdf_to_frame(frame_in, "
+    "wo));\n}\n"
+    "\nhnbrdf_sample_result hnbrdf_sample_world(hnbrdf_material material_in, vec3 n_world, vec3 "
+    "t_world, vec3 wo,\n"
+    "                                         vec2 u_rand)\n{\n"
+    "    hnbrdf_world_frame frame_in = hnbrdf_world_frame_make(n_world, t_world);\n"
+    "    hnbrdf_sample_result s = hnbrdf_sample(material_in, hnbrdf_to_frame(frame_in, wo), "
+    "u_rand);\n"
+    "    s.wi = hnbrdf_from_frame(frame_in, s.wi);\n"
+    "    return s;\n}\n";
+
+static void put_world(hnbrdf_printer *out, const hnbrdf_scene *s)
+{
+    hnbrdf_put_bytes(out, EVAL_WORLD, sizeof EVAL_WORLD - 1);
+    if (hnbrdf_scene_has_sampling(s))
+        hnbrdf_put_bytes(out, SAMPLE_WORLD, sizeof SAMPLE_WORLD - 1);
+}
+
 /* ---- All of it ------------------------------------------------------------------------------- */
 
 static void put_named(hnbrdf_printer *out, const hnbrdf_scene *s)
@@ -234,6 +270,7 @@ void hnbrdf_put_evaluate(hnbrdf_printer *out, const hnbrdf_scene *s)
         put_sample_direction(out, s);
         put_sample(out);
     }
+    put_world(out, s);
     if (s->fixed)
         put_named(out, s);
 }

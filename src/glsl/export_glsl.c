@@ -55,6 +55,7 @@ static void put_contents(hnbrdf_printer *out, const hnbrdf_scene *s)
                                {"hnbrdf_sample", hnbrdf_scene_has_sampling(s)},
                                {"hnbrdf_sample_direction", hnbrdf_scene_has_sampling(s)},
                                {"hnbrdf_pdf", hnbrdf_scene_has_sampling(s)},
+                               {"the same with _world", 1},
                                {"hnbrdf_material_unpack", s->packing != NULL}};
     const listed left_out[] = {{"anisotropy", analytic && !s->anisotropic},
                                {"rotation", !s->rotated},
@@ -62,7 +63,7 @@ static void put_contents(hnbrdf_printer *out, const hnbrdf_scene *s)
                                {"latent code (in the first bias)", s->folded},
                                {"the analytic part alone", analytic && !everything},
                                {"sampling", !hnbrdf_scene_has_sampling(s)}};
-    put_list(out, "//   contains   ", contents, 7);
+    put_list(out, "//   contains   ", contents, 8);
     put_list(out, "//   left out   ", left_out, 6);
 }
 
