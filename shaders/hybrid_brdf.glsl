@@ -631,6 +631,13 @@ hnbrdf_lobes hnbrdf_lobes_guess(vec3 kd, vec3 eta)
     return hnbrdf_lobes(vec2(1.0, 0.0), vec4(lobe_share), vec4(0.0));
 }
 
+// Shares in [0, share_most].
+vec4 hnbrdf_clamp_shares(vec4 share_in, vec4 share_most)
+{
+    return vec4(hnbrdf_clamp(share_in.x, 0.0, share_most.x), hnbrdf_clamp(share_in.y, 0.0, share_most.y),
+                hnbrdf_clamp(share_in.z, 0.0, share_most.z), hnbrdf_clamp(share_in.w, 0.0, share_most.w));
+}
+
 vec2 hnbrdf_lobe_alpha(float lobe_scale, vec2 alpha)
 {
     HNBRDF_PRECISE vec2 a = abs(lobe_scale) * alpha;

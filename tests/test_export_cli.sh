@@ -13,7 +13,7 @@ status() { expected=$1; shift; got=0; "$@" >"$work/out" 2>"$work/err" || got=$?
 
 # --only and --fixed: the text states what it holds, and holds no more.
 status 0 "$hnbrdf" export "$model" --only eval --fixed --standalone -o "$work/x.glsl"
-grep -q '^//   contains   hnbrdf_eval, hnbrdf_eval_NAME$' "$work/x.glsl" || fail "contains"
+grep -q '^//   contains   hnbrdf_eval, hnbrdf_eval_NAME, the same with _world$' "$work/x.glsl" || fail "contains"
 grep -q '^//   left out   materials that change' "$work/x.glsl" || fail "left out"
 grep -q 'hnbrdf_sample' "$work/x.glsl" && fail "sampling is there"
 grep -q 'vec3 hnbrdf_eval_GOLD_PAINT(vec3 wi, vec3 wo)' "$work/x.glsl" || fail "no function of one material"
@@ -30,6 +30,32 @@ mean() { sed -n 's/.*mean \([0-9.]*\), worst.*/\1/p' "$work/out"; }
 status 0 "$hnbrdf" export "$shipped" --pack byte --texels "$work/byte.bin" -o "$work/p.glsl"
 [ "$(wc -c <"$work/byte.bin")" = $((12 * 3 * 4)) ] || fail "byte texels"
 [ "$(mean | awk '{ print ($1 > 0 && $1 < 0.02) }')" = 1 ] || fail "byte: SMAPE $(mean), expected under 0.02"
+grep -q '^fields: kd, eta, alpha, 4 latent$' "$work/out" || fail "fields of the packing"
+status 0 "$hnbrdf" export "$model" --pack half --texels "$work/rows.bin" -o "$work/p.glsl"
+grep -q '^fields: kd, eta, alpha, a second alpha (gold-paint has it), rotation (gold-paint has it), 6 latent$' "$work/out" ||
+    fail "who asks for a field"
+
+# The same layout whatever the materials are; planes hold what rows hold.
+for materials in vch_silk_blue vch_silk_blue,chm_mint; do
+    status 0 "$hnbrdf" export "$shipped" -m $materials --pack byte --texel-fields all --texels "$work/all.bin" -o "$work/p.glsl"
+    grep -q '^#define HNBRDF_TEXELS 6$' "$work/p.glsl" || fail "texels of all fields"
+done
+[ "$(wc -c <"$work/all.bin")" = $((2 * 6 * 4)) ] || fail "bytes of all fields"
+status 0 "$hnbrdf" export "$shipped" -m vch_silk_blue,chm_mint --pack byte --texel-fields all --texel-layout planes \
+    --texels "$work/planes.bin" -o "$work/p.glsl"
+bytes() { od -An -v -tx4 -w4 "$1"; }
+bytes "$work/all.bin" | awk '{ row[NR - 1] = $1 } END { for (t = 0; t < 6; t++) for (k = 0; k < 2; k++) print row[6 * k + t] }' >"$work/a"
+bytes "$work/planes.bin" | awk '{ print $1 }' | cmp -s - "$work/a" || fail "planes are not the rows turned"
+status 2 "$hnbrdf" export "$shipped" --texel-fields all -o "$work/z.glsl"
+status 2 "$hnbrdf" export "$shipped" --pack half --texel-layout planes -o "$work/z.glsl"
+
+# What one has to know who runs the text.
+status 0 "$hnbrdf" export "$shipped" --weights uniform --prefix silk -o "$work/u.glsl"
+grep -q 'uniform block silk_weights_block, [0-9]* bytes: --weights-out FILE writes them' "$work/out" || fail "weights to be loaded"
+status 0 "$hnbrdf" export "$shipped" --weights uniform --weights-out "$work/w.bin" -o "$work/u.glsl"
+! grep -q 'weights-out' "$work/out" || fail "weights that are written"
+status 0 "$hnbrdf" export "$shipped" --precision half -o "$work/h.glsl"
+grep -q 'ten times as long' "$work/out" || fail "half precision on a CPU driver"
 status 2 "$hnbrdf" export "$model" --texels "$work/t.bin" -o "$work/z.glsl"
 status 2 "$hnbrdf" export "$model" --fixed --pack half -o "$work/z.glsl"
 status 1 "$hnbrdf" export "$model" --pack half --texels "$work/no/such/place" -o "$work/z.glsl"

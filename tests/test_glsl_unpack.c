@@ -4,6 +4,7 @@
 #include "gpu_support.h"
 
 #include "core/half.h"
+#include "core/prepared.h"
 #include "hnbrdf/measured.h"
 
 #include <math.h>
@@ -11,8 +12,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Per material: kd, eta, alpha, rotation as (cos, sin), latent code; then f of one pair. */
-enum { MATERIALS = 512, FIELDS = 3 + 3 + 2 + 2 + HNBRDF_MAX_LATENT, RESULTS = FIELDS + 3 };
+/* Per material: kd, eta, alpha, rotation as (cos, sin), latent code; then f of one pair; lobes. */
+enum { MATERIALS = 512, FIELDS = 3 + 3 + 2 + 2 + HNBRDF_MAX_LATENT, RESULTS = FIELDS + 3 + 10 };
 
 /* Texels as a texture's sampler returns them: its channels as floats. UNORM bytes are b / 255. */
 static const char BODY[] =
@@ -32,6 +33,9 @@ static const char BODY[] =
     "    results[at + 9] = ROTATION.y;\n"
     "    LATENT\n"
     "    store3(at + 26, hnbrdf_eval(m, vec3(0.6, 0.0, 0.8), vec3(-0.48, 0.36, 0.8)));\n"
+    "    for (int i = 0; i < 2; i++)\n        results[at + 29 + i] = m.lobe_scale[i];\n"
+    "    for (int i = 0; i < 4; i++) {\n        results[at + 31 + i] = m.lobe_share_0[i];\n"
+    "        results[at + 35 + i] = m.lobe_share_1[i];\n    }\n"
     "}\n";
 
 static const scene_shape PLAIN = {
@@ -86,6 +90,7 @@ static void expect(const hnbrdf_packing *packing, const hnbrdf_model *model, con
                    float *e)
 {
     hnbrdf_material m;
+    hnbrdf_lobes lobes;
     const float wi[3] = {0.6f, 0.0f, 0.8f}, wo[3] = {-0.48f, 0.36f, 0.8f};
     hnbrdf_material_unpack_channels(packing, channels, &m);
     memset(e, 0, RESULTS * sizeof *e);
@@ -96,6 +101,9 @@ static void expect(const hnbrdf_packing *packing, const hnbrdf_model *model, con
     e[9] = (float)sin((double)m.rotation);
     memcpy(e + 10, m.latent, (size_t)packing->latent * sizeof(float));
     hnbrdf_eval(model, &m, wi, wo, e + 26);
+    hnbrdf_lobes_used(!packing->analytic, &m, &lobes);
+    memcpy(e + 29, lobes.scale, sizeof lobes.scale);
+    memcpy(e + 31, lobes.share, sizeof lobes.share);
 }
 
 /* An angle between -pi and pi is known to half an ulp of pi, 1.2e-7; cosine and sine in the
@@ -109,15 +117,19 @@ static void compare(const hnbrdf_packing *packing, const float *device, const fl
         assert_true(fabs((double)device[i] - (double)c[i]) <=
                     (packing->rotated ? ROTATION_BOUND : 0.0));
     gpu_run_assert_same("latent", device + 10, c + 10, (size_t)packing->latent);
+    gpu_run_assert_same("lobes", device + 29, c + 29, 10);
     if (!packing->rotated)
         gpu_run_assert_same("f", device + 26, c + 26, 3);
 }
 
-static void unpacks_as_in_c(const scene_shape *shape, hnbrdf_texel_format format)
+/* all: fields that these materials do not need too. */
+static void unpacks_as_in_c(const scene_shape *shape, hnbrdf_texel_format format, int all)
 {
     hnbrdf_model *model = scene_model(shape);
     hnbrdf_packing packing;
     assert_int_equal(hnbrdf_packing_init(model, NULL, 0, format, &packing, NULL), HNBRDF_OK);
+    if (all)
+        packing.anisotropic = packing.rotated = packing.edited = packing.lobes = 1;
     size_t width = 4 * (size_t)hnbrdf_packing_texels(&packing);
     float *channels = calloc(MATERIALS * width, sizeof *channels);
     float *results = calloc(MATERIALS * RESULTS, sizeof *results), expected[RESULTS];
@@ -145,19 +157,21 @@ static void half_floats_unpack_as_in_c(void **state)
     (void)state;
     scene_shape edited = PLAIN;
     edited.edited = 1;
-    unpacks_as_in_c(&PLAIN, HNBRDF_TEXEL_RGBA16F);
-    unpacks_as_in_c(&RICH, HNBRDF_TEXEL_RGBA16F);
-    unpacks_as_in_c(&edited, HNBRDF_TEXEL_RGBA16F);
+    unpacks_as_in_c(&PLAIN, HNBRDF_TEXEL_RGBA16F, 0);
+    unpacks_as_in_c(&PLAIN, HNBRDF_TEXEL_RGBA16F, 1);
+    unpacks_as_in_c(&RICH, HNBRDF_TEXEL_RGBA16F, 0);
+    unpacks_as_in_c(&edited, HNBRDF_TEXEL_RGBA16F, 0);
 }
 
 static void bytes_unpack_as_in_c(void **state)
 {
     (void)state;
-    unpacks_as_in_c(&PLAIN, HNBRDF_TEXEL_RGBA8);
+    unpacks_as_in_c(&PLAIN, HNBRDF_TEXEL_RGBA8, 0);
+    unpacks_as_in_c(&PLAIN, HNBRDF_TEXEL_RGBA8, 1);
     scene_shape edited = PLAIN;
     edited.edited = edited.anisotropic = 1;
-    unpacks_as_in_c(&RICH, HNBRDF_TEXEL_RGBA8);
-    unpacks_as_in_c(&edited, HNBRDF_TEXEL_RGBA8);
+    unpacks_as_in_c(&RICH, HNBRDF_TEXEL_RGBA8, 0);
+    unpacks_as_in_c(&edited, HNBRDF_TEXEL_RGBA8, 0);
 }
 
 int main(void)

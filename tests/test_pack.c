@@ -5,6 +5,7 @@
 #include "core_support.h"
 
 #include "core/half.h"
+#include "core/prepared.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -26,6 +27,7 @@ static hnbrdf_packing full_packing(hnbrdf_texel_format format)
                               .anisotropic = 1,
                               .rotated = 1,
                               .edited = 1,
+                              .lobes = 1,
                               .latent = HNBRDF_MAX_LATENT,
                               .kd = {0.0f, 1.0f},
                               .eta = {1.0f, HNBRDF_MAX_ETA},
@@ -47,6 +49,8 @@ static hnbrdf_material any_material(rng *r)
     material.rotation = rng_range(r, -3.1f, 3.1f);
     for (int i = 0; i < HNBRDF_MAX_LATENT; i++)
         material.latent[i] = rng_range(r, -3.0f, 5.0f);
+    if (rng_u32(r) % 4)
+        random_lobes(r, &material.lobes);
     if (rng_u32(r) % 4) {
         material = edited_from(r, material);
         for (int c = 0; c < 3; c++)
@@ -163,6 +167,44 @@ static void bytes_keep_every_field_within_what_the_header_states(void **state)
             assert_near("latent", m.latent[i], b.latent[i],
                         fabs((double)m.latent[i] - (double)b.latent[i]), 8.0 / 510.0 + FLOAT_ERROR);
     }
+}
+
+/* v = s/(1 + |s|) within 2^-12 or 1/254, shares within 2^-12 or 1/510: the clamp of their sum moves
+ * the second no farther than the first was off. What has no lobes comes back with those that are
+ * sampled. */
+static void lobes_come_back_within_what_the_header_states(void **state)
+{
+    (void)state;
+    rng r = rng_make(6);
+    for (int k = 0; k < 2 * TRIALS; k++) {
+        const int half = k % 2;
+        hnbrdf_packing packing = full_packing(half ? HNBRDF_TEXEL_RGBA16F : HNBRDF_TEXEL_RGBA8);
+        hnbrdf_material m = any_material(&r), b = round_trip(&packing, &m);
+        hnbrdf_lobes used;
+        hnbrdf_lobes_used(0, &m, &used);
+        for (int l = 0; l < HNBRDF_LOBES; l++) {
+            const double s = (double)used.scale[l], t = (double)b.lobes.scale[l];
+            const double v = s / (1.0 + fabs(s)), w = t / (1.0 + fabs(t));
+            assert_near("scale", used.scale[l], b.lobes.scale[l], fabs(v - w),
+                        (half ? 0x1p-12 : 1.0 / 254.0) + FLOAT_ERROR);
+            for (int j = 0; j < HNBRDF_LOBE_KNOTS; j++)
+                assert_near("share", used.share[l][j], b.lobes.share[l][j],
+                            fabs((double)used.share[l][j] - (double)b.lobes.share[l][j]),
+                            (half ? 0x1p-12 : 1.0 / 510.0) + FLOAT_ERROR);
+        }
+    }
+}
+
+static void a_narrow_lobe_of_bytes_is_still_there(void **state)
+{
+    (void)state;
+    hnbrdf_packing packing = full_packing(HNBRDF_TEXEL_RGBA8);
+    hnbrdf_material m;
+    hnbrdf_material_init(&m);
+    m.lobes = (hnbrdf_lobes){{-1e-4f, 1e-4f}, {{0.5f, 0.5f, 0.5f, 0.5f}, {0.25f}}};
+    const hnbrdf_material b = round_trip(&packing, &m);
+    assert_true(b.lobes.scale[0] < 0.0f && b.lobes.scale[1] > 0.0f);
+    assert_true(fabsf(b.lobes.share[1][0] - 0.25f) < 1.0f / 500.0f);
 }
 
 /* ---- Edges ----------------------------------------------------------------------------------- */
@@ -283,26 +325,28 @@ static void filtered_texels_lie_between(void **state)
 
 /* ---- Layout ---------------------------------------------------------------------------------- */
 
-static int texels_of(int analytic, int anisotropic, int rotated, int edited, int latent)
+static int texels_of(int analytic, int anisotropic, int rotated, int edited, int latent, int lobes)
 {
     const hnbrdf_packing packing = {.analytic = analytic,
                                     .anisotropic = anisotropic,
                                     .rotated = rotated,
                                     .edited = edited,
-                                    .latent = latent};
+                                    .latent = latent,
+                                    .lobes = lobes};
     return hnbrdf_packing_texels(&packing);
 }
 
 static void a_material_takes_no_more_texels_than_its_channels(void **state)
 {
     (void)state;
-    assert_int_equal(texels_of(1, 0, 0, 0, 0), 2);  /* GGX: 7 channels */
-    assert_int_equal(texels_of(1, 0, 0, 0, 4), 3);  /* 11 */
-    assert_int_equal(texels_of(1, 1, 0, 0, 4), 3);  /* 12 */
-    assert_int_equal(texels_of(1, 1, 1, 0, 4), 4);  /* 14 */
-    assert_int_equal(texels_of(1, 0, 0, 1, 4), 5);  /* 18 */
-    assert_int_equal(texels_of(0, 0, 0, 0, 12), 3); /* neural */
-    assert_int_equal(texels_of(1, 1, 1, 1, 16), HNBRDF_MAX_TEXELS);
+    assert_int_equal(texels_of(1, 0, 0, 0, 0, 0), 2);  /* GGX: 7 channels */
+    assert_int_equal(texels_of(1, 0, 0, 0, 4, 0), 3);  /* 11 */
+    assert_int_equal(texels_of(1, 1, 0, 0, 4, 0), 3);  /* 12 */
+    assert_int_equal(texels_of(1, 1, 1, 0, 4, 0), 4);  /* 14 */
+    assert_int_equal(texels_of(1, 1, 1, 0, 4, 1), 6);  /* 24 */
+    assert_int_equal(texels_of(1, 0, 0, 1, 4, 0), 5);  /* 18 */
+    assert_int_equal(texels_of(0, 0, 0, 0, 12, 0), 3); /* neural */
+    assert_int_equal(texels_of(1, 1, 1, 1, 16, 1), HNBRDF_MAX_TEXELS);
 }
 
 static void channels_lie_where_the_header_says(void **state)
@@ -321,14 +365,13 @@ static void channels_lie_where_the_header_says(void **state)
     m.fitted = as_fitted(m).fitted;
     m.fitted.kd[0] = 0.75f;
     m.fitted.alpha[1] = 0.125f;
+    m.lobes = (hnbrdf_lobes){{1.0f, -3.0f}, {{0.5f}, {0.0f, 0.0f, 0.0f, 0.25f}}};
     hnbrdf_material_pack(&packing, &m, texels);
-    const int places[] = {0, 2, 3, 6, 7, 8, 9, 10, 12, 13, 16, 17, 18, 33};
-    const float expected[] = {0.125f, 0.375f, 0.5f, 0.25f, 0.5f,   1.0f, 0.0f,
-                              0.75f,  0.375f, 0.5f, 0.25f, 0.125f, 1.0f, 16.0f};
-    for (int k = 0; k < 14; k++)
+    const int places[] = {0, 2, 3, 6, 7, 8, 9, 10, 12, 13, 16, 17, 18, 33, 34, 35, 36, 37, 43};
+    const float expected[] = {0.125f, 0.375f, 0.5f, 0.25f, 0.5f, 1.0f,   0.0f, 0.75f, 0.375f, 0.5f,
+                              0.25f,  0.125f, 1.0f, 16.0f, 0.5f, -0.75f, 0.5f, 0.0f,  0.25f};
+    for (int k = 0; k < 19; k++)
         assert_true(hnbrdf_float_of_half(texels[places[k]]) == expected[k]);
-    assert_int_equal(texels[34], 0);
-    assert_int_equal(texels[35], 0);
 }
 
 static void a_packing_of_a_model_holds_its_materials(void **state)
@@ -367,7 +410,7 @@ static void impossible_packings_are_refused(void **state)
     bad[2].eta[0] = 2.0f, bad[2].eta[1] = 1.5f;
     bad[3].latent_range[7][1] = NAN;
     bad[4].latent = HNBRDF_MAX_LATENT + 1;
-    bad[5].analytic = bad[5].rotated = bad[5].latent = 0;
+    bad[5].analytic = bad[5].rotated = bad[5].latent = bad[5].lobes = 0;
     for (int k = 0; k < 6; k++) {
         hnbrdf_error error = {""};
         assert_int_equal(hnbrdf_packing_check(&bad[k], &error), HNBRDF_ERROR_ARGUMENT);
@@ -412,6 +455,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(half_floats_keep_every_field_within_what_the_header_states),
         cmocka_unit_test(bytes_keep_every_field_within_what_the_header_states),
+        cmocka_unit_test(lobes_come_back_within_what_the_header_states),
+        cmocka_unit_test(a_narrow_lobe_of_bytes_is_still_there),
         cmocka_unit_test(ends_of_the_ranges_come_back_as_they_are),
         cmocka_unit_test(extreme_indices_keep_their_reflectance),
         cmocka_unit_test(what_is_out_of_range_is_clamped),

@@ -185,20 +185,21 @@ static void every_range_is_held_to_its_last_float(void **state)
     assert_int_equal(hnbrdf_packing_check(&p, NULL), HNBRDF_ERROR_ARGUMENT);
 }
 
-/* 1 to 7 texels: as many as the channels fill. */
+/* 1 to 9 texels: as many as the channels fill. */
 static void texels_hold_the_channels_and_no_more(void **state)
 {
     (void)state;
     assert_int_equal(hnbrdf_texel_bytes(HNBRDF_TEXEL_RGBA16F), 8);
     assert_int_equal(hnbrdf_texel_bytes(HNBRDF_TEXEL_RGBA8), 4);
-    for (int bits = 0; bits < 8; bits++)
+    for (int bits = 0; bits < 16; bits++)
         for (int latent = 0; latent <= HNBRDF_MAX_LATENT; latent++) {
             const hnbrdf_packing p = {.analytic = bits & 1,
                                       .anisotropic = (bits & 1) && (bits & 2),
-                                      .rotated = bits >> 2,
+                                      .rotated = bits >> 2 & 1,
+                                      .lobes = bits >> 3,
                                       .latent = latent};
-            int channels =
-                (bits & 1 ? 3 + 3 + (bits & 2 ? 2 : 1) : 0) + (bits & 4 ? 2 : 0) + latent;
+            int channels = (bits & 1 ? 3 + 3 + (bits & 2 ? 2 : 1) : 0) + (bits & 4 ? 2 : 0) +
+                           latent + (bits & 8 ? 10 : 0);
             hnbrdf_texel_layout layout;
             hnbrdf_texel_layout_make(&p, &layout);
             assert_int_equal(layout.channels, channels);

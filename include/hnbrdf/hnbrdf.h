@@ -517,8 +517,9 @@ HNBRDF_API void hnbrdf_pdf_many(const hnbrdf_model *model, const hnbrdf_material
  *
  * Channels follow each other through the texels without gaps: kd (3), eta (3), alpha (1, or 2 if
  * anisotropic), rotation (2, if rotated), fitted kd, eta and alpha (if edited: as before), latent
- * (l). An isotropic material with l = 4 takes 11 channels: 3 texels. Numbers outside of a field's
- * range are clamped to it.
+ * (l), lobes (10, if stored: both scales, then the four shares of each). An isotropic material with
+ * l = 4 takes 11 channels: 3 texels; everything there is takes it to 8. Numbers outside of a
+ * field's range are clamped to it.
  *
  *               RGBA16F                             RGBA8 (UNORM, linear, never sRGB)
  *   stored      the number itself                   its place in the range of the field
@@ -528,20 +529,22 @@ HNBRDF_API void hnbrdf_pdf_many(const hnbrdf_model *model, const hnbrdf_material
  *   alpha       alpha, relative 2^-11               ln(alpha), within w/510
  *   rotation    (cos, sin), 3.5e-4 rad              (cos, sin), 5.6e-3 rad
  *   latent      the number, relative 2^-11          the number, within w/510
+ *   lobes       v = s/(1 + |s|), within 2^-12       v, within 1/254
+ *     shares    the share, within 2^-12             the share, within 1/510
  *
  * w is the width of the range along the curve, r^2 the reflectance at normal incidence. r is kept
- * in [1e-4, 0.998]: eta from 1.0002 to 999. Beside what is stated stands the rounding of float,
- * 1e-6 relative; half floats below 2^-14 are within 2^-25. The curves of RGBA8 are those that
- * cost the fitted model in examples/models least. Linear filtering of either gives a legal
- * material, near hnbrdf_material_mix(). */
+ * in [1e-4, 0.998]: eta from 1.0002 to 999. Scales s of lobes reach 499 and 126. Beside what is
+ * stated stands the rounding of float, 1e-6 relative; half floats below 2^-14 are within 2^-25. The
+ * curves of RGBA8 are those that cost the fitted model in examples/models least. Linear filtering
+ * of either gives a legal material, near hnbrdf_material_mix(). */
 /* How channels are stored. */
 typedef enum hnbrdf_texel_format {
     HNBRDF_TEXEL_RGBA16F = 0, /* 8 bytes a texel, IEEE half floats of the machine's byte order */
     HNBRDF_TEXEL_RGBA8        /* 4 bytes a texel */
 } hnbrdf_texel_format;
 
-/* Of one material: 3 + 3 + 2 + 2 + 8 + HNBRDF_MAX_LATENT channels. */
-#define HNBRDF_MAX_TEXELS 9
+/* Of one material: 3 + 3 + 2 + 2 + 8 + HNBRDF_MAX_LATENT + 10 channels. */
+#define HNBRDF_MAX_TEXELS 11
 
 /* Which fields of a material are stored, and how. */
 typedef struct hnbrdf_packing {
@@ -553,10 +556,12 @@ typedef struct hnbrdf_packing {
     int latent;      /* l numbers of the latent code */
     /* Smallest and largest of each field, equal where all are. RGBA16F needs and looks at none. */
     float kd[2], eta[2], alpha[2], latent_range[HNBRDF_MAX_LATENT][2];
+    int lobes; /* 1: what is sampled is stored, guessed lobes too; 0: what comes back has none */
 } hnbrdf_packing;
 
-/* What these materials of the model need (NULL: all): fields, and ranges that just hold them.
- * Widen the ranges for materials that are yet to be drawn. */
+/* What these materials of the model need (NULL: all): fields, and ranges that just hold them; no
+ * lobes. Widen the ranges for materials that are yet to be drawn, and set anisotropic, rotated,
+ * edited and lobes for a layout that does not depend on the materials. */
 HNBRDF_API hnbrdf_result hnbrdf_packing_init(const hnbrdf_model *model, const int *materials,
                                              int material_count, hnbrdf_texel_format format,
                                              hnbrdf_packing *packing, hnbrdf_error *error);

@@ -66,9 +66,15 @@ static const cli_command command = {
     "  hnbrdf_material hnbrdf_material_unpack(vec4 t0, vec4 t1, ...)      HNBRDF_TEXELS texels\n"
     "for what textures return: RGBA16F (half) or RGBA8 (byte). The ranges of RGBA8 are those of "
     "the\n"
-    "exported materials. What the packing costs in SMAPE is printed. --texels writes the packed "
-    "materials,\n"
-    "a row of texels each, without a header, numbers in the byte order of the machine.",
+    "exported materials. What is stored depends on the materials, one that is anisotropic adds to "
+    "the texels of\n"
+    "all; --texel-fields all stores two alphas, rotation, lobes and with --editable what it was "
+    "fitted with, whatever\n"
+    "they are. Fields and the cost in SMAPE are printed. --texels writes the packed materials "
+    "without a header,\n"
+    "numbers in the byte order of the machine: a row of texels each, or with --texel-layout planes "
+    "one texel of each\n"
+    "a row, as many rows as texels.",
     "hnbrdf export model.safetensors -o scene.glsl\n"
     "hnbrdf export model.safetensors --materials gold-two-lobe,moon-dust --standalone -o "
     "scene.glsl\n"
@@ -222,6 +228,7 @@ typedef struct settings {
     int pack;                    /* hnbrdf_texel_format, -1 for none */
     int editable;
     int conserve;
+    int all_fields, planes; /* -1 or 0: as needed, rows; 1: all, planes */
     cli_word language;
     int exact, library;
     const char *prefix;
@@ -261,6 +268,17 @@ static float *conserving_factors(const hnbrdf_model *model, const int *materials
     return factors;
 }
 
+/* The same layout whatever the materials are. */
+static void take_all_fields(hnbrdf_packing *packing, const hnbrdf_model *model, const settings *set)
+{
+    hnbrdf_model_desc desc;
+    hnbrdf_model_describe(model, &desc);
+    packing->anisotropic = packing->analytic;
+    packing->rotated = 1;
+    packing->edited |= desc.kind == HNBRDF_KIND_HYBRID && set->editable;
+    packing->lobes = set->only != HNBRDF_GLSL_EVAL - 1;
+}
+
 static int export_materials(const hnbrdf_model *model, const settings *set, const int *materials,
                             int count, const float *energy)
 {
@@ -270,6 +288,9 @@ static int export_materials(const hnbrdf_model *model, const settings *set, cons
         hnbrdf_packing_init(model, materials, count, (hnbrdf_texel_format)set->pack,
                             &texels.packing, &error))
         return cli_fail("%s", error.text);
+    texels.planes = set->planes == 1;
+    if (set->all_fields == 1)
+        take_all_fields(&texels.packing, model, set);
     const hnbrdf_glsl_options options = {.materials = materials,
                                          .material_count = count,
                                          .standalone = set->standalone,
@@ -297,6 +318,8 @@ int cmd_export(int argc, char **argv)
 {
     settings set = {.only = -1,
                     .pack = -1,
+                    .all_fields = -1,
+                    .planes = -1,
                     .language = {HNBRDF_LANGUAGE_GLSL, cli_language_word},
                     .weights = {-1, cli_weights_word},
                     .precision = {HNBRDF_GLSL_FLOAT, cli_precision_word}};
@@ -331,6 +354,10 @@ int cmd_export(int argc, char **argv)
          "scale materials whose albedo (hnbrdf info) is above 1"},
         {"pack", 0, CLI_CHOICE, &set.pack, 0, 0, "half|byte",
          "with a function that unpacks texels"},
+        {"texel-fields", 0, CLI_CHOICE, &set.all_fields, 0, 0, "needed|all",
+         "with --pack: what these materials need (default), or the same whatever they are"},
+        {"texel-layout", 0, CLI_CHOICE, &set.planes, 0, 0, "rows|planes",
+         "with --texels: material after material (default), or texel after texel"},
         {"texels", 0, CLI_WRITE_BYTES, &set.texels, 0, 0, "FILE",
          "with --pack: where to write the materials as texels"},
         {"output", 'o', CLI_WRITE_TEXT, &set.path, 0, 0, "FILE",
@@ -364,6 +391,10 @@ int cmd_export(int argc, char **argv)
         return cli_usage(&command, "--fixed and --pack: materials from textures are not fixed");
     if (set.texels && set.pack < 0)
         return cli_usage(&command, "--texels without --pack half or --pack byte");
+    if (set.all_fields >= 0 && set.pack < 0)
+        return cli_usage(&command, "--texel-fields without --pack half or --pack byte");
+    if (set.planes >= 0 && !set.texels)
+        return cli_usage(&command, "--texel-layout without --texels");
     hnbrdf_model *model = NULL;
     result = cli_open_model(argv[1], &model);
     if (result != CLI_OK)

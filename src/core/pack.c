@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "core/half.h"
+#include "core/prepared.h"
 
 #include <math.h>
 #include <string.h>
@@ -13,6 +14,10 @@
 #define MAX_R 0.998f
 
 enum { ROTATION_UNIT = 127, ROTATION_ZERO = 128 }; /* of a byte: 0 and 1 are met exactly */
+
+/* Scales of lobes are s = v / (1 - |v|), at most 499 of half floats and 126 of bytes. */
+#define MAX_HALF_V 0.998f
+#define MAX_BYTE_V 126.0f
 
 /* ---- Ranges ---------------------------------------------------------------------------------- */
 
@@ -202,14 +207,25 @@ void hnbrdf_texel_layout_make(const hnbrdf_packing *packing, hnbrdf_texel_layout
         layout->latent[i] =
             make_field(packing, &next, 1, HNBRDF_CURVE_LINEAR, packing->latent_range[i][0],
                        packing->latent_range[i][1], -HNBRDF_MAX_HALF, HNBRDF_MAX_HALF);
+    if (packing->lobes) {
+        const float most = bytes ? MAX_BYTE_V : MAX_HALF_V;
+        layout->lobe_unit = unit;
+        layout->lobe_scale =
+            make_field(packing, &next, 2, HNBRDF_CURVE_LINEAR, -(float)ROTATION_ZERO,
+                       255.0f - (float)ROTATION_ZERO, -most, most);
+        for (int k = 0; k < HNBRDF_LOBES; k++)
+            layout->lobe_share[k] = make_field(packing, &next, HNBRDF_LOBE_KNOTS,
+                                               HNBRDF_CURVE_LINEAR, 0.0f, 1.0f, 0.0f, 1.0f);
+    }
     layout->channels = next;
 }
 
 int hnbrdf_packing_texels(const hnbrdf_packing *packing)
 {
     int analytic = packing->analytic ? (packing->anisotropic ? 8 : 7) : 0;
+    int lobes = packing->lobes ? HNBRDF_LOBES * (1 + HNBRDF_LOBE_KNOTS) : 0;
     int channels =
-        analytic * (packing->edited ? 2 : 1) + (packing->rotated ? 2 : 0) + packing->latent;
+        analytic * (packing->edited ? 2 : 1) + (packing->rotated ? 2 : 0) + packing->latent + lobes;
     return (channels + 3) / 4;
 }
 
@@ -253,6 +269,25 @@ static void store_analytic(const hnbrdf_packing *packing, void *texels, stored_f
         store(packing, texels, fields.alpha->first + c, fields.alpha, alpha[c]);
 }
 
+/* A lobe that is there stays so: its v is no less than what a byte tells from 0. */
+static void store_lobes(const hnbrdf_packing *packing, void *texels,
+                        const hnbrdf_texel_layout *layout, const hnbrdf_material *material)
+{
+    const hnbrdf_field *field = &layout->lobe_scale;
+    hnbrdf_lobes lobes;
+    hnbrdf_lobes_used(!packing->analytic, material, &lobes);
+    for (int k = 0; k < field->count; k++) {
+        const float s = lobes.scale[k], size = fabsf(s);
+        float v = layout->lobe_unit * (size / (1.0f + size));
+        if (packing->format == HNBRDF_TEXEL_RGBA8 && size > 0.0f && v < 1.0f)
+            v = 1.0f;
+        store(packing, texels, field->first + k, field, copysignf(v, s));
+        for (int j = 0; j < HNBRDF_LOBE_KNOTS; j++)
+            store(packing, texels, layout->lobe_share[k].first + j, &layout->lobe_share[k],
+                  lobes.share[k][j]);
+    }
+}
+
 void hnbrdf_material_pack(const hnbrdf_packing *packing, const hnbrdf_material *material,
                           void *texels)
 {
@@ -276,6 +311,7 @@ void hnbrdf_material_pack(const hnbrdf_packing *packing, const hnbrdf_material *
     }
     for (int i = 0; i < packing->latent; i++)
         store(packing, texels, layout.latent[i].first, &layout.latent[i], material->latent[i]);
+    store_lobes(packing, texels, &layout, material);
 }
 
 /* ---- Unpacking ------------------------------------------------------------------------------- */
@@ -301,6 +337,22 @@ static void decode_analytic(const float *channels, stored_fields fields, float k
         alpha[1] = alpha[0];
 }
 
+/* Filtered too: no sum of shares above 1, and no scale that is not legal. */
+static void decode_lobes(const float *channels, const hnbrdf_texel_layout *layout,
+                         hnbrdf_lobes *lobes)
+{
+    for (int k = 0; k < layout->lobe_scale.count; k++) {
+        const float v = decode(&layout->lobe_scale, channels[layout->lobe_scale.first + k]);
+        const float s = v / (layout->lobe_unit - fabsf(v));
+        lobes->scale[k] = fabsf(s) < HNBRDF_PACKED_MIN_SCALE ? 0.0f : s;
+        for (int j = 0; j < HNBRDF_LOBE_KNOTS; j++)
+            lobes->share[k][j] =
+                decode(&layout->lobe_share[k], channels[layout->lobe_share[k].first + j]);
+    }
+    for (int j = 0; j < HNBRDF_LOBE_KNOTS; j++)
+        lobes->share[1][j] = hnbrdf_clamp(lobes->share[1][j], 0.0f, 1.0f - lobes->share[0][j]);
+}
+
 void hnbrdf_material_unpack_channels(const hnbrdf_packing *packing, const float *channels,
                                      hnbrdf_material *material)
 {
@@ -318,6 +370,7 @@ void hnbrdf_material_unpack_channels(const hnbrdf_packing *packing, const float 
     }
     for (int i = 0; i < packing->latent; i++)
         material->latent[i] = decode(&layout.latent[i], channels[layout.latent[i].first]);
+    decode_lobes(channels, &layout, &material->lobes);
 }
 
 void hnbrdf_material_unpack(const hnbrdf_packing *packing, const void *texels,

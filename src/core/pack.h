@@ -25,9 +25,15 @@ typedef struct hnbrdf_texel_layout {
     /* r is the amplitude (eta - 1)/(eta + 1); the rotation is a multiple of (cosine, sine). */
     hnbrdf_field kd, r, alpha, rotation, latent[HNBRDF_MAX_LATENT];
     hnbrdf_field fitted_kd, fitted_r, fitted_alpha;
+    /* v = s/(1 + |s|) of both scales s, times lobe_unit; then the shares of both lobes. */
+    hnbrdf_field lobe_scale, lobe_share[HNBRDF_LOBES];
+    float lobe_unit;
     float shortest2; /* a squared (cosine, sine) below this has no angle and stands for none */
     int channels;
 } hnbrdf_texel_layout;
+
+/* A scale smaller than this is none. */
+#define HNBRDF_PACKED_MIN_SCALE 1e-4f
 
 void hnbrdf_texel_layout_make(const hnbrdf_packing *packing, hnbrdf_texel_layout *layout);
 

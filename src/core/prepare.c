@@ -5,9 +5,9 @@
 #include "core/prepared.h"
 
 HNBRDF_DIVIDES_AS_IEEE
-float hnbrdf_specular_share(const hnbrdf_model *model, const hnbrdf_material *material)
+float hnbrdf_specular_share(int neural, const hnbrdf_material *material)
 {
-    if (model->desc.kind == HNBRDF_KIND_NEURAL)
+    if (neural)
         return 0.0f;
     float specular = 0.05f, diffuse = 0.0f;
     for (int c = 0; c < 3; c++) {
@@ -59,27 +59,33 @@ void hnbrdf_prepare_analytic(const hnbrdf_model *model, const hnbrdf_material *m
         prepared->edit = prepare_edit(material);
 }
 
+void hnbrdf_lobes_used(int neural, const hnbrdf_material *material, hnbrdf_lobes *lobes)
+{
+    *lobes = material->lobes;
+    if (lobes->scale[0] == 0.0f) {
+        float share = hnbrdf_specular_share(neural, material);
+        for (int j = 0; j < HNBRDF_LOBE_KNOTS; j++)
+            lobes->share[0][j] = share;
+        lobes->scale[0] = 1.0f;
+        lobes->scale[1] = 0.0f;
+    }
+    for (int k = 0; k < HNBRDF_LOBES; k++)
+        for (int j = 0; j < HNBRDF_LOBE_KNOTS && lobes->scale[k] == 0.0f; j++)
+            lobes->share[k][j] = 0.0f;
+}
+
 void hnbrdf_prepare_lobes(const hnbrdf_model *model, const hnbrdf_material *material,
                           hnbrdf_prepared *prepared)
 {
     int neural = model->desc.kind == HNBRDF_KIND_NEURAL;
-    prepared->lobes = material->lobes;
-    if (material->lobes.scale[0] == 0.0f) {
-        float share = hnbrdf_specular_share(model, material);
-        for (int j = 0; j < HNBRDF_LOBE_KNOTS; j++)
-            prepared->lobes.share[0][j] = share;
-        prepared->lobes.scale[0] = 1.0f;
-        prepared->lobes.scale[1] = 0.0f;
-    }
+    hnbrdf_lobes_used(neural, material, &prepared->lobes);
     for (int k = 0; k < HNBRDF_LOBES; k++) {
-        float *alpha = prepared->lobe_alpha[k], *share = prepared->lobes.share[k];
+        float *alpha = prepared->lobe_alpha[k];
         for (int a = 0; a < 2; a++)
             alpha[a] =
                 hnbrdf_clamp(fabsf(prepared->lobes.scale[k]) * (neural ? 1.0f : material->alpha[a]),
                              HNBRDF_MIN_ALPHA, HNBRDF_MAX_ALPHA);
         prepared->lobe_area[k] = hnbrdf_ggx_area(alpha[0], alpha[1]);
-        for (int j = 0; j < HNBRDF_LOBE_KNOTS && prepared->lobes.scale[k] == 0.0f; j++)
-            share[j] = 0.0f;
     }
 }
 

@@ -19,7 +19,11 @@ void hnbrdf_prepare_eval(const hnbrdf_model *model, const hnbrdf_material *mater
 /* Share of samples that go to the GGX lobe where no lobes were fitted: reflectance at normal
  * incidence, raised a little for what Fresnel adds towards grazing, against the diffuse albedo. 0
  * where there is no analytic part. */
-float hnbrdf_specular_share(const hnbrdf_model *model, const hnbrdf_material *material);
+float hnbrdf_specular_share(int neural, const hnbrdf_material *material);
+
+/* The lobes that are sampled: those of the material, or guessed ones where it has none; a lobe of
+ * scale 0 has no share. */
+void hnbrdf_lobes_used(int neural, const hnbrdf_material *material, hnbrdf_lobes *lobes);
 /* lobe_alpha, lobe_area and lobes: all that sampling adds. */
 void hnbrdf_prepare_lobes(const hnbrdf_model *model, const hnbrdf_material *material,
                           hnbrdf_prepared *prepared);

@@ -39,7 +39,7 @@ static void put_channels(hnbrdf_printer *out, int first, int count)
 /* Declares `name`, decoded up to its curve: a float or a vector of field->count. */
 static void put_decoded(hnbrdf_printer *out, const char *name, const hnbrdf_field *field)
 {
-    static const char *const types[] = {"", "float", "vec2", "vec3"};
+    static const char *const types[] = {"", "float", "vec2", "vec3", "vec4"};
     hnbrdf_put(out, "    HNBRDF_PRECISE %s %s = ", types[field->count], name);
     if (field->offset != 0.0f || field->scale != 1.0f) {
         hnbrdf_put_float(out, field->offset);
@@ -173,6 +173,52 @@ static void put_latent(hnbrdf_printer *out, const hnbrdf_packing *packing,
     }
 }
 
+/* lobes_out: those of a material that has none. */
+static void put_guess(hnbrdf_printer *out, const hnbrdf_packing *packing)
+{
+    hnbrdf_put(out, "    hnbrdf_lobes lobes_out = ");
+    hnbrdf_put(out, packing->analytic ? "hnbrdf_lobes_guess(material_out.kd, material_out.eta);\n"
+                                      : "hnbrdf_lobes(vec2(1.0, 0.0), vec4(0.0), vec4(0.0));\n");
+}
+
+/* The lobes that are stored, as far as they are legal. */
+static void put_stored_lobes(hnbrdf_printer *out, const hnbrdf_texel_layout *layout)
+{
+    const char *const share[] = {"share_0", "share_1"};
+    put_decoded(out, "scale_v", &layout->lobe_scale);
+    hnbrdf_put(out, "    scale_v = vec2(");
+    put_clamped(out, "scale_v.x", &layout->lobe_scale);
+    hnbrdf_put(out, ", ");
+    put_clamped(out, "scale_v.y", &layout->lobe_scale);
+    hnbrdf_put(out, ");\n    scale_v = scale_v / (");
+    hnbrdf_put_float(out, layout->lobe_unit);
+    hnbrdf_put(out, " - abs(scale_v));\n");
+    for (int k = 0; k < HNBRDF_LOBES; k++) {
+        put_decoded(out, share[k], &layout->lobe_share[k]);
+        hnbrdf_put(out, "    %s = hnbrdf_clamp_shares(%s, vec4(1.0));\n", share[k], share[k]);
+    }
+    hnbrdf_put(out, "    share_1 = hnbrdf_clamp_shares(share_1, 1.0 - share_0);\n"
+                    "    if (abs(scale_v.x) >= ");
+    hnbrdf_put_float(out, HNBRDF_PACKED_MIN_SCALE);
+    hnbrdf_put(out, ") {\n        bool has_second = abs(scale_v.y) >= ");
+    hnbrdf_put_float(out, HNBRDF_PACKED_MIN_SCALE);
+    hnbrdf_put(out,
+               ";\n        lobes_out.lobe_scale = vec2(scale_v.x, has_second ? scale_v.y : 0.0);\n"
+               "        lobes_out.share_0 = share_0;\n"
+               "        lobes_out.share_1 = has_second ? share_1 : vec4(0.0);\n    }\n");
+}
+
+static void put_lobes(hnbrdf_printer *out, const hnbrdf_packing *packing,
+                      const hnbrdf_texel_layout *layout)
+{
+    put_guess(out, packing);
+    if (packing->lobes)
+        put_stored_lobes(out, layout);
+    hnbrdf_put(out, "    material_out.lobe_scale = lobes_out.lobe_scale;\n"
+                    "    material_out.lobe_share_0 = lobes_out.share_0;\n"
+                    "    material_out.lobe_share_1 = lobes_out.share_1;\n");
+}
+
 void hnbrdf_put_unpack(hnbrdf_printer *out, const hnbrdf_scene *s)
 {
     const hnbrdf_packing *packing = s->packing;
@@ -181,7 +227,9 @@ void hnbrdf_put_unpack(hnbrdf_printer *out, const hnbrdf_scene *s)
     hnbrdf_texel_layout_make(packing, &layout);
     hnbrdf_put(out,
                "// A material from its %d texel%s of %s, as `hnbrdf export --texels` writes them, "
-               "filtered or not.\n",
+               "filtered or not.\n"
+               "// In GLSL ES sample them through highp sampler2D: mediump rounds more than they "
+               "do.\n",
                texels, texels == 1 ? "" : "s", format_name(packing));
     hnbrdf_put(out, "#define HNBRDF_TEXELS %d\nhnbrdf_material hnbrdf_material_unpack(", texels);
     for (int t = 0; t < texels; t++)
@@ -200,15 +248,6 @@ void hnbrdf_put_unpack(hnbrdf_printer *out, const hnbrdf_scene *s)
         hnbrdf_put(out, "    material_out.rotation = vec2(1.0, 0.0);\n");
     put_latent(out, packing, &layout);
     if (hnbrdf_scene_has_sampling(s))
-        hnbrdf_put(out,
-                   packing->analytic
-                       ? "    hnbrdf_lobes lobes_out = hnbrdf_lobes_guess(material_out.kd, "
-                         "material_out.eta);\n"
-                       : "    hnbrdf_lobes lobes_out = hnbrdf_lobes(vec2(1.0, 0.0), vec4(0.0), "
-                         "vec4(0.0));\n");
-    if (hnbrdf_scene_has_sampling(s))
-        hnbrdf_put(out, "    material_out.lobe_scale = lobes_out.lobe_scale;\n"
-                        "    material_out.lobe_share_0 = lobes_out.share_0;\n"
-                        "    material_out.lobe_share_1 = lobes_out.share_1;\n");
+        put_lobes(out, packing, &layout);
     hnbrdf_put(out, "    return material_out;\n}\n\n");
 }

@@ -20,10 +20,13 @@ hnbrdf_result texels_write(const report_texels *texels, const char *path, hnbrdf
     hnbrdf_result result = report_output_open(path, &output, error);
     if (result != HNBRDF_OK)
         return result;
-    for (int k = 0; k < texels->count; k++) {
-        hnbrdf_material_pack(&texels->packing, material_of(texels, k), row);
-        fwrite(row, 1, size, output.file); /* closing tells whether it failed */
-    }
+    const size_t bytes = hnbrdf_texel_bytes(texels->packing.format);
+    const size_t part = texels->planes ? bytes : size; /* of a material at a time */
+    for (size_t at = 0; at < size; at += part)
+        for (int k = 0; k < texels->count; k++) {
+            hnbrdf_material_pack(&texels->packing, material_of(texels, k), row);
+            fwrite(row + at, 1, part, output.file); /* closing tells whether it failed */
+        }
     return report_output_close(&output, error);
 }
 
@@ -48,6 +51,47 @@ static double cost_of(const report_texels *texels, int k)
     return sum / (3.0 * COST_PAIRS);
 }
 
+static int is_anisotropic(const hnbrdf_material *material)
+{
+    return material->alpha[0] != material->alpha[1];
+}
+
+static int is_rotated(const hnbrdf_material *material)
+{
+    return material->rotation != 0.0f;
+}
+
+/* "field (of which there is MATERIAL)", the first one that asks for it. */
+static void print_field(const report_texels *texels, int stored, const char *field,
+                        int (*asks)(const hnbrdf_material *material), FILE *file)
+{
+    if (!stored)
+        return;
+    for (int k = 0; k < texels->count; k++)
+        if (asks && asks(material_of(texels, k))) {
+            fprintf(file, ", %s (%s has it)", field,
+                    hnbrdf_model_material_name(texels->model, texels->materials[k]));
+            return;
+        }
+    fprintf(file, ", %s", field);
+}
+
+/* What is stored, as one material alone may add to the texels of all. */
+static void print_fields(const report_texels *texels, FILE *file)
+{
+    const hnbrdf_packing *packing = &texels->packing;
+    fprintf(file, "fields: %s", packing->analytic ? "kd, eta, alpha" : "no analytic part");
+    print_field(texels, packing->analytic && packing->anisotropic, "a second alpha", is_anisotropic,
+                file);
+    print_field(texels, packing->rotated, "rotation", is_rotated, file);
+    print_field(texels, packing->analytic && packing->edited, "what it was fitted with",
+                hnbrdf_material_is_edited, file);
+    if (packing->latent > 0)
+        fprintf(file, ", %d latent", packing->latent);
+    print_field(texels, packing->lobes, "lobes", NULL, file);
+    fprintf(file, "\n");
+}
+
 void texels_print_cost(const report_texels *texels, const report_watch *watch, FILE *file)
 {
     double sum = 0.0, worst = 0.0;
@@ -64,6 +108,7 @@ void texels_print_cost(const report_texels *texels, const report_watch *watch, F
     fprintf(file, "packed: %d texel%s a material, %s, %d bytes\n", count, count == 1 ? "" : "s",
             texels->packing.format == HNBRDF_TEXEL_RGBA16F ? "RGBA16F" : "RGBA8",
             count * (int)hnbrdf_texel_bytes(texels->packing.format));
+    print_fields(texels, file);
     fprintf(
         file,
         "SMAPE between packed and original: mean %.5f, worst %.5f (%s), grid, %d pairs, seed 1\n",

@@ -13,12 +13,15 @@ typedef struct report_texels {
     const int *materials;
     int count;
     hnbrdf_packing packing;
+    int planes; /* 0: all texels of a material, then the next one's; 1: the first texel of all
+                   materials, then the second of all, and so on */
 } report_texels;
 
-/* A row of texels a material, in the order of the materials. */
+/* In the order of the materials, without a header. */
 hnbrdf_result texels_write(const report_texels *texels, const char *path, hnbrdf_error *error);
 
-/* Lines: the format, and the SMAPE between packed and original materials, mean and worst. */
+/* Lines: the format, the fields and which material asks for them, and the SMAPE between packed and
+ * original materials, mean and worst. */
 void texels_print_cost(const report_texels *texels, const report_watch *watch, FILE *file);
 
 #endif

@@ -29,6 +29,7 @@ static hnbrdf_packing take_packing(source *s)
     packing.analytic = head[0] >> 1 & 1;
     packing.anisotropic = head[0] >> 2 & 1;
     packing.rotated = head[0] >> 3 & 1;
+    packing.lobes = head[0] >> 5 & 1;
     packing.latent = head[1] % (HNBRDF_MAX_LATENT + 2) - 1;
     if (head[0] & 16) { /* ranges as a fit has them; else any floats */
         packing.kd[1] = 1.0f;

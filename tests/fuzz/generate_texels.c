@@ -12,7 +12,7 @@ static void generate(fuzz_choices *c, fuzz_bytes *out)
 {
     const unsigned latent = fuzz_odd(c) ? FUZZ_PICK(c, unsigned, 0, 17) : 1 + fuzz_below(c, 16);
     const unsigned usual = fuzz_below(c, 2);
-    fuzz_put_le(out, fuzz_below(c, 16) | usual << 4, 1);
+    fuzz_put_le(out, fuzz_below(c, 16) | usual << 4 | fuzz_below(c, 2) << 5, 1);
     fuzz_put_le(out, latent, 1);
     if (!usual) {
         put_range(c, out, 0.0, 1.0);
