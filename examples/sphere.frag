@@ -16,22 +16,15 @@ const vec3 to_light = vec3(0.4364358, 0.5345225, 0.7237469);
 const vec3 light = vec3(3.0); // irradiance on a surface that faces the light, W/m^2
 const vec3 to_viewer = vec3(0.0, 0.0, 1.0);
 
-// v in the shading frame whose normal is n: tangent along the circles of latitude, z = n.
-vec3 to_shading_frame(vec3 v, vec3 n)
-{
-    vec3 tangent = normalize(vec3(n.z, 0.0, -n.x) + vec3(1e-6, 0.0, 0.0));
-    return vec3(dot(v, tangent), dot(v, cross(n, tangent)), dot(v, n));
-}
-
 void main()
 {
     float r2 = dot(uv, uv);
     if (r2 >= 1.0)
         discard;
     vec3 n = vec3(uv, sqrt(1.0 - r2));
-    vec3 wi = to_shading_frame(to_light, n);
-    vec3 wo = to_shading_frame(to_viewer, n);
+    vec3 tangent = vec3(n.z, 0.0, -n.x); // along the circles of latitude, of any length
     hnbrdf_material material = hnbrdf_scene_material(0);
-    vec3 radiance = hnbrdf_eval(material, wi, wo) * light * max(wi.z, 0.0); // f comes without the cosine
+    vec3 f = hnbrdf_eval_world(material, n, tangent, to_light, to_viewer);
+    vec3 radiance = f * light * max(dot(n, to_light), 0.0); // f comes without the cosine
     colour = vec4(pow(clamp(radiance, 0.0, 1.0), vec3(1.0 / 2.2)), 1.0);
 }
