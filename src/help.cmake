@@ -16,6 +16,6 @@ add_custom_command(OUTPUT ${HNBRDF_HELP_DIR}/completions/hnbrdf
   DEPENDS hnbrdf_cli src/help.sh src/help_manual.awk src/help_completion.awk
           src/help_completion.bash VERBATIM)
 add_custom_target(hnbrdf_help ALL DEPENDS ${HNBRDF_HELP_DIR}/completions/hnbrdf)
-install(DIRECTORY ${HNBRDF_HELP_DIR}/man1 DESTINATION ${CMAKE_INSTALL_MANDIR})
+install(DIRECTORY ${HNBRDF_HELP_DIR}/man1 DESTINATION ${CMAKE_INSTALL_MANDIR} COMPONENT tools)
 install(FILES ${HNBRDF_HELP_DIR}/completions/hnbrdf
-  DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT tools)

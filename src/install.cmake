@@ -13,30 +13,37 @@ set(_headers_hnbrdf_fit fit)
 set(_headers_hnbrdf_bake bake)
 foreach(part ${HNBRDF_PARTS})
   install(TARGETS ${part}_static ${part}_shared EXPORT hnbrdfTargets
-    ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
-    LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
-    RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+    ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development
+    LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT runtime
+    NAMELINK_COMPONENT development
+    RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT runtime)
   foreach(header ${_headers_${part}})
-    install(FILES include/hnbrdf/${header}.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/hnbrdf)
+    install(FILES include/hnbrdf/${header}.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/hnbrdf
+      COMPONENT development)
   endforeach()
 endforeach()
-install(FILES shaders/hybrid_brdf.glsl DESTINATION ${CMAKE_INSTALL_DATADIR}/hnbrdf)
-install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES shaders/hybrid_brdf.glsl DESTINATION ${CMAKE_INSTALL_DATADIR}/hnbrdf
+  COMPONENT development)
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT development)
 if(TARGET hnbrdf_cli)
-  install(TARGETS hnbrdf_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+  install(TARGETS hnbrdf_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT tools)
   include(src/help.cmake)
 endif()
 
 # find_package(hnbrdf)
-install(EXPORT hnbrdfTargets NAMESPACE hnbrdf:: DESTINATION ${_package_dir})
+install(EXPORT hnbrdfTargets NAMESPACE hnbrdf:: DESTINATION ${_package_dir}
+  COMPONENT development)
+set(HNBRDF_BIN_DIR ${CMAKE_INSTALL_BINDIR})
 set(HNBRDF_SHADER_DIR ${CMAKE_INSTALL_DATADIR}/hnbrdf)
 set(_generated ${CMAKE_CURRENT_BINARY_DIR}/generated)
 configure_package_config_file(src/hnbrdfConfig.cmake.in ${_generated}/hnbrdfConfig.cmake
-  INSTALL_DESTINATION ${_package_dir} PATH_VARS HNBRDF_SHADER_DIR)
+  INSTALL_DESTINATION ${_package_dir} PATH_VARS HNBRDF_SHADER_DIR HNBRDF_BIN_DIR)
 write_basic_package_version_file(${_generated}/hnbrdfConfigVersion.cmake
   COMPATIBILITY SameMinorVersion)
 install(FILES ${_generated}/hnbrdfConfig.cmake ${_generated}/hnbrdfConfigVersion.cmake
-  DESTINATION ${_package_dir})
+  DESTINATION ${_package_dir} COMPONENT development)
+install(FILES src/add_shader.cmake DESTINATION ${_package_dir} RENAME hnbrdfAddShader.cmake
+  COMPONENT development)
 
 # pkg-config: one file a part, which find the prefix from their own place where that is in the
 # prefix.
@@ -72,5 +79,6 @@ foreach(PC_NAME ${HNBRDF_PARTS})
   list(TRANSFORM PC_LIBS REPLACE "^([^-/].*)$" "-l\\1")
   string(REPLACE ";" " " PC_LIBS "${PC_LIBS}")
   configure_file(src/hnbrdf.pc.in ${_generated}/${PC_NAME}.pc @ONLY)
-  install(FILES ${_generated}/${PC_NAME}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+  install(FILES ${_generated}/${PC_NAME}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig
+    COMPONENT development)
 endforeach()

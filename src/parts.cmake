@@ -45,6 +45,13 @@ hnbrdf_objects(hnbrdf_base_objects HNBRDF_STATIC)
 add_library(hnbrdf_base STATIC EXCLUDE_FROM_ALL $<TARGET_OBJECTS:hnbrdf_base_objects>)
 set_target_properties(hnbrdf_base_objects PROPERTIES EXCLUDE_FROM_ALL ON)
 
+# Programs go on working with a later library of the same number: from 1.0 on with any of its major
+# version, before that of its minor one (tests/test_abi.sh).
+set(HNBRDF_SOVERSION ${PROJECT_VERSION_MAJOR})
+if(PROJECT_VERSION_MAJOR EQUAL 0)
+  set(HNBRDF_SOVERSION 0.${PROJECT_VERSION_MINOR})
+endif()
+
 set_property(GLOBAL PROPERTY HNBRDF_PARTS "")
 function(hnbrdf_part name)
   cmake_parse_arguments(PART "" "" "ROOMS;SOURCES;DEFINITIONS;NEEDS;LINKS" ${ARGN})
@@ -67,7 +74,7 @@ function(hnbrdf_part name)
     string(TOUPPER ${kind} upper)
     add_library(${name}_${kind} ${upper} $<TARGET_OBJECTS:${${kind}_objects}>)
     set_target_properties(${name}_${kind} PROPERTIES OUTPUT_NAME ${name}
-      VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}
+      VERSION ${PROJECT_VERSION} SOVERSION ${HNBRDF_SOVERSION}
       HNBRDF_NEEDS "${PART_NEEDS}" HNBRDF_LINKS "${PART_LINKS}")
     target_include_directories(${name}_${kind} INTERFACE
       $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include>

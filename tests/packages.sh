@@ -12,7 +12,8 @@ tests)
         spirv-cross"
     # Other machines, locales and languages; what needs them is skipped without.
     optional="locales qemu-user-static gcc-aarch64-linux-gnu libc6-dev-arm64-cross gcc-i686-linux-gnu
-        libc6-dev-i386-cross gcc-s390x-linux-gnu libc6-dev-s390x-cross gcc-mingw-w64-x86-64 ninja-build"
+        libc6-dev-i386-cross gcc-s390x-linux-gnu libc6-dev-s390x-cross gcc-mingw-w64-x86-64 ninja-build dpkg-dev
+        lintian"
     # Shaders in a browser (150 MB to download with what it depends on) and npm packages; what else brings
     # these commands serves as well.
     command -v chromium > /dev/null || command -v google-chrome > /dev/null ||

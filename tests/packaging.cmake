@@ -31,6 +31,12 @@ if(NOT HNBRDF_SANITIZE)
   add_test(NAME test_install COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/test_install.sh
     ${PROJECT_BINARY_DIR} ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}/install)
   set_tests_properties(test_install PROPERTIES SKIP_RETURN_CODE 77)
+  if(TARGET hnbrdf_cli AND TARGET amalgamation)
+    add_test(NAME test_packages COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/test_packages.sh
+      ${PROJECT_BINARY_DIR} ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}/packages
+      ${PROJECT_SOURCE_DIR}/examples/models/rgl_32x2.safetensors)
+    set_tests_properties(test_packages PROPERTIES SKIP_RETURN_CODE 77)
+  endif()
   add_test(NAME test_minimal COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/test_minimal.sh
     ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR} ${CMAKE_C_COMPILER}
     ${CMAKE_CURRENT_BINARY_DIR}/minimal)
