@@ -65,7 +65,8 @@ hnbrdf_room(scene
 hnbrdf_room(plot
   svg.c)
 hnbrdf_room(gpu
-  compile.c compute.c device.c evaluate.c picture.c probe.c probe_half.c sphere.c
+  commands.c compile.c compute.c device.c evaluate.c fragment.c
+  picture.c probe.c probe_half.c sphere.c
   stability.c timed.c
   verify.c)
 hnbrdf_room(gl

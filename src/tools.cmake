@@ -97,7 +97,8 @@ target_link_libraries(hnbrdf_cli PRIVATE hnbrdf_flags hnbrdf_report hnbrdf_bench
 target_link_options(hnbrdf_cli PRIVATE ${HNBRDF_LINK_FLAGS})
 target_compile_definitions(hnbrdf_cli PRIVATE _POSIX_C_SOURCE=200809L)
 if(HNBRDF_WITH_VULKAN)
-  hnbrdf_shader_texts(gpu verify.comp probe.comp probe_half.comp bench.comp evaluate.comp
+  hnbrdf_shader_texts(gpu verify.comp verify.frag verify.vert probe.comp probe_half.comp
+    bench.comp evaluate.comp
     sphere.comp)
   hnbrdf_tool_room(gpu hnbrdf_check hnbrdf_render Vulkan::Vulkan)
   target_compile_definitions(hnbrdf_cli PRIVATE HNBRDF_WITH_VULKAN)

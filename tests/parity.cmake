@@ -9,3 +9,4 @@ endif()
 add_test(NAME test_gl_cli COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/test_gl_cli.sh
   $<TARGET_FILE:hnbrdf_cli> $<TARGET_FILE:hnbrdf_glsl_scenes>)
 set_tests_properties(test_gl_cli PROPERTIES SKIP_RETURN_CODE 77)
+add_test(NAME test_parity_summary COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/test_parity_summary.sh)

@@ -14,7 +14,8 @@ cd "$(dirname "$0")/.."
 jobs=$(getconf _NPROCESSORS_ONLN 2> /dev/null || echo 2)
 start=$(date +%s)
 everything="-DHNBRDF_BUILD_FIT=ON -DHNBRDF_BUILD_CLI=ON -DHNBRDF_BUILD_TESTS=ON
-    -DHNBRDF_BUILD_EXAMPLES=ON -DHNBRDF_WITH_OPENEXR=ON -DHNBRDF_WITH_VULKAN=ON -DHNBRDF_WERROR=ON"
+    -DHNBRDF_BUILD_EXAMPLES=ON -DHNBRDF_WITH_OPENEXR=ON -DHNBRDF_WITH_VULKAN=ON
+    -DHNBRDF_WITH_EGL=ON -DHNBRDF_WERROR=ON"
 steps=7 step=0 quick=0 targets=""
 case ${1:-} in
 "") ;;
@@ -115,4 +116,5 @@ HNBRDF_FUZZ_SANITIZERS=memory HNBRDF_FUZZ_JOBS=$jobs sh tests/fuzz/run.sh 1 ||
 
 announce "release build with gcc, warnings are errors"
 build gcc build -DCMAKE_BUILD_TYPE=Release
-ctest --test-dir build -j "$jobs" --output-on-failure
+ctest --test-dir build -j "$jobs" --output-on-failure || fail "tests"
+sh tests/parity_summary.sh build/Testing/Temporary/LastTest.log

@@ -219,11 +219,13 @@ static int run_on(const gl_instance *instance, int display, gl_dialect dialect)
     };
     hnbrdf_error error = {""};
     if (gl_context_open(instance, display, dialect, &context, &error)) {
-        printf("skipped: %s\n", error.text);
+        printf("parity: glsl | %s | - | skipped: %s\n", gl_dialect_name(dialect), error.text);
         return 0;
     }
     printf("%s: %s, %s\n", gl_dialect_name(dialect), context.name, context.version);
     int failed = cmocka_run_group_tests_name(gl_dialect_name(dialect), tests, NULL, NULL);
+    if (!failed)
+        printf("parity: glsl | %s | %s | executed\n", gl_dialect_name(dialect), context.name);
     gl_context_close(&context);
     return failed;
 }

@@ -60,6 +60,8 @@ grep -q '"passed": true' "$work/v.json" || fail "json"
 [ "$(head -1 "$work/v.csv" | tr ',' '\n' | wc -l)" = "$(tail -1 "$work/v.csv" | sed 's/"[^"]*"/quoted/g' | tr ',' '\n' | wc -l)" ] || fail "csv columns"
 status 0 "$hnbrdf" verify "$uneven" --device 0 --pairs 256 --weights uniform --precision half --without-timing --json "$work/v.json"
 grep -q '"weights": "uniform", "precision": "half"' "$work/v.json" || fail "json does not name the style"
+status 0 "$hnbrdf" verify "$model" --device 0 --pairs 64 --stage fragment --materials 'blue fabric'
+grep -q '^vulkan fragment device 0: ' "$work/out" || fail "--stage fragment"
 status 1 "$hnbrdf" verify "$model" --device 99
 status 2 "$hnbrdf" verify "$model" --device first
 

@@ -27,12 +27,15 @@ static const hnbrdf_encoding DIRECTIONS = HNBRDF_ENCODING_DIRECTIONS,
 enum { PAIRS = SANITIZED ? 256 : 2048 };
 static const gpu_validation VALIDATION = SANITIZED ? GPU_VALIDATED : GPU_VALIDATED_SYNC;
 
+static gpu_stage stage_of_shaders = GPU_STAGE_COMPUTE;
+
 static check_report verify_styled(const hnbrdf_model *model, const gpu_scene *scene,
                                   hnbrdf_glsl_precision precision)
 {
     static const int all[SCENE_MATERIALS] = {0, 1, 2};
     const gpu_verify_options options = {
         .scene = *scene,
+        .stage = stage_of_shaders,
         .check = {.precision = precision,
                   .materials = all,
                   .material_count = hnbrdf_model_material_count(model),
@@ -326,6 +329,18 @@ static void half_equals_half_in_c(void **state)
     holds_as(&UNEVEN, HNBRDF_GLSL_UNIFORM, HNBRDF_GLSL_HALF);
 }
 
+/* The same as fragment shaders: drivers round otherwise there, and are asked how. */
+static void fragment_shaders_equal_c(void **state)
+{
+    (void)state;
+    stage_of_shaders = GPU_STAGE_FRAGMENT;
+    holds_as(&UNEVEN, HNBRDF_GLSL_UNIFORM, HNBRDF_GLSL_FLOAT);
+    holds_as(&UNEVEN_NEURAL, HNBRDF_GLSL_COLUMNS, HNBRDF_GLSL_HALF);
+    holds(&(scene_shape){.kind = HNBRDF_KIND_GGX, .anisotropic = 1, .rotated = 1});
+    stage_of_shaders = GPU_STAGE_COMPUTE;
+    printf("parity: glsl | Vulkan fragment | %s | executed\n", device.properties.deviceName);
+}
+
 /* The shader of one network with the bytes of another of its size. */
 static void one_uniform_shader_serves_other_networks(void **state)
 {
@@ -452,6 +467,7 @@ static int run_on(int index)
         cmocka_unit_test(columns_equal_c),
         cmocka_unit_test(a_uniform_block_equals_c),
         cmocka_unit_test(half_equals_half_in_c),
+        cmocka_unit_test(fragment_shaders_equal_c),
         cmocka_unit_test(one_uniform_shader_serves_other_networks),
         cmocka_unit_test(a_changed_weight_is_found),
         cmocka_unit_test(one_ulp_of_one_number_is_found),
@@ -467,6 +483,9 @@ static int run_on(int index)
     int failed =
         cmocka_run_group_tests_name(instance.properties[index].deviceName, tests, NULL, NULL);
     gpu_device_close(&device);
+    if (!failed)
+        printf("parity: glsl | Vulkan compute | %s | executed\n",
+               instance.properties[index].deviceName);
     return failed;
 }
 

@@ -1,11 +1,13 @@
 /* probe.c: every operation of a shader on one device compared with C. */
 #include "check/probe.h"
 
+#include "base/error.h"
 #include "core/math.h"
 #include "hnbrdf/measured.h"
 
 #include <float.h>
 #include <math.h>
+#include <stdlib.h>
 
 enum { OPERANDS = CHECK_PROBE_OPERANDS, RESULTS = CHECK_PROBE_RESULTS };
 
@@ -150,4 +152,26 @@ void check_probe_judge(const float (*operands)[CHECK_PROBE_OPERANDS],
     check_rules rules = check_rules_fast(&seen, is_llvmpipe);
     compare_all(&rules, operands, results, count, &seen);
     *arithmetic = seen;
+}
+
+hnbrdf_result check_probe_run(hnbrdf_result (*run)(void *user, const float *operands, int count,
+                                                   float *results, hnbrdf_error *error),
+                              void *user, int is_llvmpipe, check_arithmetic *arithmetic,
+                              hnbrdf_error *error)
+{
+    float(*operands)[OPERANDS] = calloc(CHECK_PROBE_COUNT, sizeof *operands);
+    float(*results)[RESULTS] = calloc(CHECK_PROBE_COUNT, sizeof *results);
+    hnbrdf_result result = HNBRDF_OK;
+    if (!operands || !results)
+        result = hnbrdf_fail(error, HNBRDF_ERROR_MEMORY, "probe: no memory");
+    if (!result) {
+        check_probe_draw(operands, CHECK_PROBE_COUNT);
+        result = run(user, operands[0], CHECK_PROBE_COUNT, results[0], error);
+    }
+    if (!result)
+        check_probe_judge((const float(*)[OPERANDS])operands, (const float(*)[RESULTS])results,
+                          CHECK_PROBE_COUNT, is_llvmpipe, arithmetic);
+    free(operands);
+    free(results);
+    return result;
 }

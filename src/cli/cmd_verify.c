@@ -13,7 +13,8 @@
 static const cli_command command = {
     "verify",
     "MODEL [--materials A,B] [--weights STYLE] [--precision P] [--fixed|--editable]\n"
-    "              [--api A] [--device N|all] [--pairs N] [--hand-out DIR [--language L]]\n"
+    "              [--api A] [--stage S] [--device N|all] [--pairs N]\n"
+    "              [--hand-out DIR [--language L]]\n"
     "       hnbrdf verify MODEL --hand-in DIR",
     "Proves on every device that the exported shader gives what the C library gives. Compared are\n"
     "the encoding, the network alone, the analytic part, the whole BRDF, and what is sampled with "
@@ -26,8 +27,9 @@ static const cli_command command = {
     "every\n"
     "pair from the error of each operation (Vulkan's limits).\n"
     "\n"
-    "--api vulkan runs compute shaders and needs glslangValidator. gl and gles run fragment "
-    "shaders through\n"
+    "--api vulkan runs compute shaders, or with --stage fragment fragment shaders, and needs "
+    "glslangValidator.\n"
+    "gl and gles run fragment shaders through\n"
     "EGL without a window: GL 3.3 and 4.5 core; GL ES 3.0 and 3.2 with float render targets, each "
     "as far as\n"
     "the driver has it. Before GLSL 400 and ES 320 there is no `precise`: compilers may order the "
@@ -67,6 +69,7 @@ typedef struct settings {
     const char *materials, *device, *csv, *json, *hand_out, *hand_in;
     long pairs, seed;
     int api, device_number; /* -1: not given; all */
+    int stage;              /* 0, compute, or 1, fragment; -1: not given */
     int validate, list, without_timing, fixed, editable;
     cli_word weights, precision, language;
 } settings;
@@ -216,6 +219,7 @@ static int verify_here(const hnbrdf_model *model, const settings *set, const cha
     if (result == CLI_OK) {
         verify_job job = {.exchange = exchange_of(set, materials, v.material_count),
                           .device = set->device_number,
+                          .fragment = set->stage == 1,
                           .validate = set->validate,
                           .without_timing = set->without_timing};
         v.materials = materials;
@@ -240,6 +244,7 @@ static int verify_model(const settings *set, const char *path)
 int cmd_verify(int argc, char **argv)
 {
     settings set = {.api = -1,
+                    .stage = -1,
                     .device = "all",
                     .pairs = 16384,
                     .seed = 1,
@@ -258,6 +263,8 @@ int cmd_verify(int argc, char **argv)
         {"editable", 0, CLI_FLAG, &set.editable, 0, 0, NULL, "as export --editable writes them"},
         {"api", 0, CLI_CHOICE, &set.api, 0, 0, "vulkan|gl|gles|all",
          "by which devices are asked (default vulkan)"},
+        {"stage", 0, CLI_CHOICE, &set.stage, 0, 0, "compute|fragment",
+         "of Vulkan (default compute); GL has fragment shaders alone"},
         {"device", 'd', CLI_TEXT, &set.device, 0, 0, "N|all",
          "number of a device, see --list (default: all)"},
         {"pairs", 'n', CLI_INT, &set.pairs, 64, 1 << 22, "N",
@@ -298,6 +305,8 @@ int cmd_verify(int argc, char **argv)
         return verify_list_devices(set.api < 0 ? VERIFY_ALL : (verify_api)set.api, set.validate);
     if (set.api < 0)
         set.api = VERIFY_VULKAN;
+    if (set.stage == 0 && (set.api == VERIFY_GL || set.api == VERIFY_GLES))
+        return cli_usage(&command, "--stage compute: GL is asked by fragment shaders");
     result = read_device(&set);
     return result >= 0 ? result : verify_model(&set, argv[1]);
 }

@@ -14,6 +14,19 @@
 #include <stdlib.h>
 #include <string.h>
 
+void verify_free_devices(verification *v)
+{
+    for (int d = 0; d < v->device_count; d++) {
+        check_report_free(&v->devices[d].report);
+        free((char *)v->devices[d].name);
+        free((char *)v->devices[d].kind);
+        free((char *)v->devices[d].driver);
+    }
+    free(v->devices);
+}
+
+#if defined(HNBRDF_WITH_VULKAN) || defined(HNBRDF_WITH_EGL)
+
 static void on_progress(void *user, double share)
 {
     cli_progress_update(user, share, "");
@@ -41,17 +54,6 @@ static verified_device *add_device(verification *v, int index, const char *api, 
     return NULL;
 }
 
-void verify_free_devices(verification *v)
-{
-    for (int d = 0; d < v->device_count; d++) {
-        check_report_free(&v->devices[d].report);
-        free((char *)v->devices[d].name);
-        free((char *)v->devices[d].kind);
-        free((char *)v->devices[d].driver);
-    }
-    free(v->devices);
-}
-
 /* Which of `count` devices are meant. 0, or CLI_FAILURE after a message. */
 static int choose(int device, int count, const char *api, const char *package, int *first,
                   int *after)
@@ -66,6 +68,8 @@ static int choose(int device, int count, const char *api, const char *package, i
     *after = device < 0 ? count : device + 1;
     return CLI_OK;
 }
+
+#endif
 
 /* ---- Vulkan ---------------------------------------------------------------------------------- */
 
@@ -97,10 +101,12 @@ static int run_vulkan_device(const gpu_instance *instance, int index, const veri
     gpu_device device;
     gpu_verify_options options = {.scene = {job->text, job->weights->bytes, job->weights->size},
                                   .check = job->exchange.check,
+                                  .stage = job->fragment ? GPU_STAGE_FRAGMENT : GPU_STAGE_COMPUTE,
                                   .without_timing = job->without_timing};
     options.check.progress = on_progress;
     options.check.progress_user = &progress;
-    verified_device *to = add_device(v, index, "vulkan", instance->properties[index].deviceName,
+    verified_device *to = add_device(v, index, job->fragment ? "vulkan fragment" : "vulkan",
+                                     instance->properties[index].deviceName,
                                      gpu_kind_name(instance, index), instance->drivers[index]);
     if (!to)
         return CLI_FAILURE;

@@ -20,7 +20,8 @@ typedef struct verify_job {
     check_exchange exchange; /* the folder is not used */
     const char *text;        /* of the scene, standalone */
     const hnbrdf_text_buffer *weights;
-    int device; /* number among those of its API; -1: all */
+    int device;   /* number among those of its API; -1: all */
+    int fragment; /* Vulkan: the fragment stage instead of compute */
     int validate, without_timing;
 } verify_job;
 

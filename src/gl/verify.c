@@ -1,12 +1,10 @@
 /* verify.c: shaders/parity.glsl with an exported scene in a GL context, in both builds. */
 #include "gl/verify.h"
 
-#include "base/error.h"
 #include "check/parity.h"
 #include "check/probe.h"
 #include "gl/timed.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 /* The texts of shaders/parity.glsl and shaders/probe.glsl. */
@@ -26,24 +24,23 @@ static const char PROBE[] = GL_FRAME "void main()\n"
 
 /* ---- The probe ------------------------------------------------------------------------------- */
 
-static hnbrdf_result run_probe(gl_verifier *s, float (*operands)[CHECK_PROBE_OPERANDS],
-                               float (*results)[CHECK_PROBE_RESULTS], hnbrdf_error *error)
+static hnbrdf_result run_probe(void *user, const float *operands, int count, float *results,
+                               hnbrdf_error *error)
 {
+    const gl_verifier *s = user;
     /* of the scene only what its first part, hybrid_brdf.glsl, defines is used */
     const char *const texts[] = {EXACT, s->text, hnbrdf_probe_glsl, PROBE};
-    const size_t count = CHECK_PROBE_COUNT;
     gl_sheet sheet = {0};
     GLuint program = 0;
-    check_probe_draw(operands, (int)count);
     hnbrdf_result result = gl_program_open(s->context, texts, 4, &program, error);
     if (!result)
-        result = gl_sheet_open(s->context, 1, count, &sheet, error);
+        result = gl_sheet_open(s->context, 1, (size_t)count, &sheet, error);
     if (!result)
-        result = gl_sheet_upload(s->context, &sheet, operands[0], count, error);
+        result = gl_sheet_upload(s->context, &sheet, operands, (size_t)count, error);
     for (int slot = 0; slot < CHECK_PROBE_RESULTS / 4 && !result; slot++) {
-        result = gl_draw(s->context, &sheet, program, slot, count, error);
+        result = gl_draw(s->context, &sheet, program, slot, (size_t)count, error);
         if (!result)
-            result = gl_sheet_download(s->context, &sheet, count, results[0] + 4 * slot,
+            result = gl_sheet_download(s->context, &sheet, (size_t)count, results + 4 * slot,
                                        CHECK_PROBE_RESULTS, error);
     }
     gl_sheet_close(s->context, &sheet);
@@ -58,19 +55,8 @@ static int is_llvmpipe(const gl_context *context)
 
 static hnbrdf_result probe(void *user, check_arithmetic *arithmetic, hnbrdf_error *error)
 {
-    gl_verifier *s = user;
-    float(*operands)[CHECK_PROBE_OPERANDS] = calloc(CHECK_PROBE_COUNT, sizeof *operands);
-    float(*results)[CHECK_PROBE_RESULTS] = calloc(CHECK_PROBE_COUNT, sizeof *results);
-    hnbrdf_result result = operands && results ? run_probe(s, operands, results, error)
-                                               : hnbrdf_fail(error, HNBRDF_ERROR_MEMORY,
-                                                             "%s: out of memory", s->context->name);
-    if (!result)
-        check_probe_judge((const float(*)[CHECK_PROBE_OPERANDS])operands,
-                          (const float(*)[CHECK_PROBE_RESULTS])results, CHECK_PROBE_COUNT,
-                          is_llvmpipe(s->context), arithmetic);
-    free(operands);
-    free(results);
-    return result;
+    const gl_verifier *s = user;
+    return check_probe_run(run_probe, user, is_llvmpipe(s->context), arithmetic, error);
 }
 
 /* ---- The parity body ------------------------------------------------------------------------- */

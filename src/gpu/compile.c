@@ -14,7 +14,7 @@
 extern char **environ;
 
 static const char COMPILER[] = "glslangValidator";
-enum { PATH_SIZE = 512, EXIT_NOT_FOUND = 127 };
+enum { PATH_SIZE = 512, EXIT_NOT_FOUND = 127, FIXED_ARGUMENTS = 8 };
 
 int gpu_compiler_found(void)
 {
@@ -117,10 +117,10 @@ static char *read_in(const workplace *place, const char *name, size_t *size)
 
 /* ---- The compiler ---------------------------------------------------------------------------- */
 
-static const char SOURCE[] = "shader.comp", OUTPUT[] = "shader.spv", MESSAGES[] = "messages";
+static const char SOURCE[] = "shader.glsl", OUTPUT[] = "shader.spv", MESSAGES[] = "messages";
 
 /* Exit status of the compiler, EXIT_NOT_FOUND if it cannot be run. */
-static int run_compiler(const workplace *place, const char *const *defines)
+static int run_compiler(const workplace *place, const char *stage, const char *const *defines)
 {
     char source[PATH_SIZE], output[PATH_SIZE], messages[PATH_SIZE];
     char include[PATH_SIZE + 2], definitions[GPU_MAX_DEFINES][128];
@@ -128,11 +128,13 @@ static int run_compiler(const workplace *place, const char *const *defines)
     path_in(place, OUTPUT, output);
     path_in(place, MESSAGES, messages);
     snprintf(include, sizeof include, "-I%s", place->directory);
-    char compiler[] = "glslangValidator", target[] = "-V", to[] = "-o";
-    char *arguments[6 + GPU_MAX_DEFINES + 1] = {compiler, target, include, source, to, output};
+    char compiler[] = "glslangValidator", target[] = "-V", to[] = "-o", at[] = "-S", named[8];
+    snprintf(named, sizeof named, "%s", stage);
+    char *arguments[FIXED_ARGUMENTS + GPU_MAX_DEFINES + 1] = {compiler, target, at, named,
+                                                              include,  source, to, output};
     for (int i = 0; defines && i < GPU_MAX_DEFINES && defines[i]; i++) {
         snprintf(definitions[i], sizeof definitions[i], "-D%s", defines[i]);
-        arguments[6 + i] = definitions[i];
+        arguments[FIXED_ARGUMENTS + i] = definitions[i];
     }
     posix_spawn_file_actions_t actions;
     if (posix_spawn_file_actions_init(&actions) != 0)
@@ -172,6 +174,13 @@ hnbrdf_result gpu_compile(const char *text, const gpu_include *includes, int inc
                           const char *const *defines, uint32_t **spirv, size_t *size,
                           hnbrdf_error *error)
 {
+    return gpu_compile_at("comp", text, includes, include_count, defines, spirv, size, error);
+}
+
+hnbrdf_result gpu_compile_at(const char *stage, const char *text, const gpu_include *includes,
+                             int include_count, const char *const *defines, uint32_t **spirv,
+                             size_t *size, hnbrdf_error *error)
+{
     workplace place;
     hnbrdf_result result = open_workplace(&place, error);
     if (result)
@@ -180,7 +189,7 @@ hnbrdf_result gpu_compile(const char *text, const gpu_include *includes, int inc
     for (int i = 0; i < include_count && !result; i++)
         result = write_in(&place, includes[i].name, includes[i].text, error);
     if (!result) {
-        int status = run_compiler(&place, defines);
+        int status = run_compiler(&place, stage, defines);
         char *bytes = status == 0 ? read_in(&place, OUTPUT, size) : NULL;
         if (bytes)
             *spirv = (uint32_t *)(void *)bytes;

@@ -32,5 +32,9 @@ int gpu_compiler_found(void);
 hnbrdf_result gpu_compile(const char *text, const gpu_include *includes, int include_count,
                           const char *const *defines, uint32_t **spirv, size_t *size,
                           hnbrdf_error *error);
+/* The same for a shader of another stage: "vert", "frag". */
+hnbrdf_result gpu_compile_at(const char *stage, const char *text, const gpu_include *includes,
+                             int include_count, const char *const *defines, uint32_t **spirv,
+                             size_t *size, hnbrdf_error *error);
 
 #endif

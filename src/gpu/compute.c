@@ -2,72 +2,12 @@
 #include "gpu/compute.h"
 
 #include "base/error.h"
+#include "gpu/commands.h"
 
 #include <math.h>
 #include <string.h>
 
-/* ---- Command buffers: recorded once, submitted, waited for ----------------------------------- */
-
-static hnbrdf_result begin(const gpu_device *device, VkCommandBuffer *commands, hnbrdf_error *error)
-{
-    VkCommandBufferAllocateInfo info = {.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
-                                        .commandPool = device->pool,
-                                        .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
-                                        .commandBufferCount = 1};
-    VkCommandBufferBeginInfo once = {.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
-                                     .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
-    hnbrdf_result result = gpu_check(vkAllocateCommandBuffers(device->handle, &info, commands),
-                                     "allocating a command buffer", error);
-    if (result)
-        return result;
-    return gpu_check(vkBeginCommandBuffer(*commands, &once), "recording", error);
-}
-
-static hnbrdf_result end(const gpu_device *device, VkCommandBuffer commands, hnbrdf_error *error)
-{
-    VkFenceCreateInfo info = {.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
-    VkSubmitInfo submit = {.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO,
-                           .commandBufferCount = 1,
-                           .pCommandBuffers = &commands};
-    VkFence fence = VK_NULL_HANDLE;
-    hnbrdf_result result = gpu_check(vkEndCommandBuffer(commands), "recording", error);
-    if (!result)
-        result = gpu_check(vkCreateFence(device->handle, &info, NULL, &fence), "creating a fence",
-                           error);
-    if (!result)
-        result =
-            gpu_check(vkQueueSubmit(device->queue, 1, &submit, fence), "submitting work", error);
-    if (!result)
-        result = gpu_check(vkWaitForFences(device->handle, 1, &fence, VK_TRUE, UINT64_MAX),
-                           "waiting for the device", error);
-    vkDestroyFence(device->handle, fence, NULL);
-    vkFreeCommandBuffers(device->handle, device->pool, 1, &commands);
-    return result;
-}
-
-static void barrier(VkCommandBuffer commands, VkPipelineStageFlags from, VkAccessFlags written,
-                    VkPipelineStageFlags to, VkAccessFlags read)
-{
-    VkMemoryBarrier memory = {
-        .sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER, .srcAccessMask = written, .dstAccessMask = read};
-    vkCmdPipelineBarrier(commands, from, to, 0, 1, &memory, 0, NULL, 0, NULL);
-}
-
 /* ---- Buffers --------------------------------------------------------------------------------- */
-
-/* A memory type among `types` with all of `needed`, with `wished` too if there is one; -1 if
- * none. */
-static int memory_type(const gpu_device *device, uint32_t types, VkMemoryPropertyFlags needed,
-                       VkMemoryPropertyFlags wished)
-{
-    const VkMemoryPropertyFlags masks[] = {needed | wished, needed};
-    for (int k = 0; k < 2; k++)
-        for (uint32_t i = 0; i < device->memory.memoryTypeCount; i++)
-            if ((types >> i & 1) &&
-                (device->memory.memoryTypes[i].propertyFlags & masks[k]) == masks[k])
-                return (int)i;
-    return -1;
-}
 
 static hnbrdf_result make_buffer(const gpu_device *device, size_t size, VkBufferUsageFlags usage,
                                  VkMemoryPropertyFlags needed, VkMemoryPropertyFlags wished,
@@ -84,7 +24,7 @@ static hnbrdf_result make_buffer(const gpu_device *device, size_t size, VkBuffer
         return result;
     VkMemoryRequirements required;
     vkGetBufferMemoryRequirements(device->handle, *buffer, &required);
-    int type = memory_type(device, required.memoryTypeBits, needed, wished);
+    int type = gpu_memory_type(device, required.memoryTypeBits, needed, wished);
     if (type < 0)
         return hnbrdf_fail(error, HNBRDF_ERROR_UNSUPPORTED, "Vulkan: no memory type for a buffer");
     *flags = device->memory.memoryTypes[type].propertyFlags;
@@ -154,14 +94,14 @@ static hnbrdf_result copy(const gpu_device *device, VkBuffer from, VkBuffer to, 
                           hnbrdf_error *error)
 {
     VkCommandBuffer commands;
-    hnbrdf_result result = begin(device, &commands, error);
+    hnbrdf_result result = gpu_commands_begin(device, &commands, error);
     if (result)
         return result;
     VkBufferCopy region = {.size = size};
     vkCmdCopyBuffer(commands, from, to, 1, &region);
-    barrier(commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
-            VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT);
-    return end(device, commands, error);
+    gpu_barrier(commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
+                VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT);
+    return gpu_commands_end(device, commands, error);
 }
 
 hnbrdf_result gpu_upload(const gpu_device *device, gpu_buffer *buffer, const void *data,
@@ -208,7 +148,7 @@ static hnbrdf_result make_layouts(const gpu_device *device, const gpu_buffer *co
         bindings[i].binding = i;
         bindings[i].descriptorType = buffers[i]->type;
         bindings[i].descriptorCount = 1;
-        bindings[i].stageFlags = VK_SHADER_STAGE_COMPUTE_BIT;
+        bindings[i].stageFlags = program->stage;
     }
     VkDescriptorSetLayoutCreateInfo set = {.sType =
                                                VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO,
@@ -219,8 +159,7 @@ static hnbrdf_result make_layouts(const gpu_device *device, const gpu_buffer *co
                   "creating a descriptor set layout", error);
     if (result)
         return result;
-    VkPushConstantRange push = {.stageFlags = VK_SHADER_STAGE_COMPUTE_BIT,
-                                .size = program->push_size};
+    VkPushConstantRange push = {.stageFlags = program->stage, .size = program->push_size};
     VkPipelineLayoutCreateInfo layout = {.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
                                          .setLayoutCount = 1,
                                          .pSetLayouts = &program->set_layout,
@@ -270,7 +209,17 @@ hnbrdf_result gpu_program_open(const gpu_device *device, const uint32_t *spirv, 
                                const gpu_buffer *const *buffers, uint32_t buffer_count,
                                uint32_t push_size, gpu_program *program, hnbrdf_error *error)
 {
+    return gpu_program_open_at(device, VK_SHADER_STAGE_COMPUTE_BIT, spirv, spirv_size, buffers,
+                               buffer_count, push_size, program, error);
+}
+
+hnbrdf_result gpu_program_open_at(const gpu_device *device, VkShaderStageFlagBits stage,
+                                  const uint32_t *spirv, size_t spirv_size,
+                                  const gpu_buffer *const *buffers, uint32_t buffer_count,
+                                  uint32_t push_size, gpu_program *program, hnbrdf_error *error)
+{
     memset(program, 0, sizeof *program);
+    program->stage = stage;
     program->push_size = push_size;
     program->slots = 1;
     VkShaderModuleCreateInfo module = {.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
@@ -334,13 +283,14 @@ static void record(const gpu_device *device, VkCommandBuffer commands, const gpu
     }
     for (int i = 0; i < repeats; i++) {
         vkCmdDispatch(commands, groups, program->slots, 1);
-        barrier(commands, compute, VK_ACCESS_SHADER_WRITE_BIT, compute, VK_ACCESS_SHADER_WRITE_BIT);
+        gpu_barrier(commands, compute, VK_ACCESS_SHADER_WRITE_BIT, compute,
+                    VK_ACCESS_SHADER_WRITE_BIT);
     }
     if (timed)
         vkCmdWriteTimestamp(commands, compute, device->timestamps, 1);
-    barrier(commands, compute, VK_ACCESS_SHADER_WRITE_BIT,
-            VK_PIPELINE_STAGE_HOST_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
-            VK_ACCESS_HOST_READ_BIT | VK_ACCESS_TRANSFER_READ_BIT);
+    gpu_barrier(commands, compute, VK_ACCESS_SHADER_WRITE_BIT,
+                VK_PIPELINE_STAGE_HOST_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
+                VK_ACCESS_HOST_READ_BIT | VK_ACCESS_TRANSFER_READ_BIT);
 }
 
 hnbrdf_result gpu_dispatch(const gpu_device *device, const gpu_program *program,
@@ -349,11 +299,11 @@ hnbrdf_result gpu_dispatch(const gpu_device *device, const gpu_program *program,
 {
     VkCommandBuffer commands;
     int timed = ns && device->tick_ns > 0;
-    hnbrdf_result result = begin(device, &commands, error);
+    hnbrdf_result result = gpu_commands_begin(device, &commands, error);
     if (result)
         return result;
     record(device, commands, program, pipeline, push, invocations, repeats, timed);
-    result = end(device, commands, error);
+    result = gpu_commands_end(device, commands, error);
     if (ns)
         *ns = (double)NAN;
     if (result || !timed)

@@ -37,6 +37,7 @@ typedef struct gpu_program {
     VkPipelineLayout layout;
     VkDescriptorPool pool;
     VkDescriptorSet set;
+    VkShaderStageFlagBits stage;
     uint32_t push_size;
     uint32_t slots; /* invocations in y of every one in x; 1 unless the caller sets it */
 } gpu_program;
@@ -44,6 +45,11 @@ typedef struct gpu_program {
 hnbrdf_result gpu_program_open(const gpu_device *device, const uint32_t *spirv, size_t spirv_size,
                                const gpu_buffer *const *buffers, uint32_t buffer_count,
                                uint32_t push_size, gpu_program *program, hnbrdf_error *error);
+/* The same for another stage, see fragment.h. */
+hnbrdf_result gpu_program_open_at(const gpu_device *device, VkShaderStageFlagBits stage,
+                                  const uint32_t *spirv, size_t spirv_size,
+                                  const gpu_buffer *const *buffers, uint32_t buffer_count,
+                                  uint32_t push_size, gpu_program *program, hnbrdf_error *error);
 void gpu_program_close(const gpu_device *device, gpu_program *program);
 
 /* Entry point main with specialisation constant 0 set to `constant`. Destroy with

@@ -184,16 +184,20 @@ const char *gpu_kind_name(const gpu_instance *instance, int index)
 /* ---- Device ---------------------------------------------------------------------------------- */
 
 /* The first family that computes: such a queue can always copy. -1 if there is none. */
-static int compute_family(VkPhysicalDevice physical, uint32_t *timestamp_bits)
+static int compute_family(VkPhysicalDevice physical, uint32_t *timestamp_bits, int *draws)
 {
     VkQueueFamilyProperties families[64];
     uint32_t count = 64;
     vkGetPhysicalDeviceQueueFamilyProperties(physical, &count, families);
-    for (uint32_t i = 0; i < count; i++)
-        if (families[i].queueFlags & VK_QUEUE_COMPUTE_BIT) {
-            *timestamp_bits = families[i].timestampValidBits;
-            return (int)i;
-        }
+    const VkQueueFlags wanted[] = {VK_QUEUE_COMPUTE_BIT | VK_QUEUE_GRAPHICS_BIT,
+                                   VK_QUEUE_COMPUTE_BIT};
+    for (int k = 0; k < 2; k++)
+        for (uint32_t i = 0; i < count; i++)
+            if ((families[i].queueFlags & wanted[k]) == wanted[k]) {
+                *timestamp_bits = families[i].timestampValidBits;
+                *draws = k == 0;
+                return (int)i;
+            }
     return -1;
 }
 
@@ -237,7 +241,7 @@ hnbrdf_result gpu_device_open(const gpu_instance *instance, int index, gpu_devic
     device->driver_id = instance->driver_ids[index];
     vkGetPhysicalDeviceMemoryProperties(physical, &device->memory);
     uint32_t timestamp_bits = 0;
-    int family = compute_family(physical, &timestamp_bits);
+    int family = compute_family(physical, &timestamp_bits, &device->draws);
     if (family < 0)
         return hnbrdf_fail(error, HNBRDF_ERROR_UNSUPPORTED, "%s: no queue that computes",
                            device->properties.deviceName);

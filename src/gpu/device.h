@@ -44,6 +44,7 @@ typedef struct gpu_device {
     VkDriverId driver_id;
     VkPhysicalDeviceMemoryProperties memory;
     int has_half;           /* shaders may compute in half precision (shaderFloat16) */
+    int draws;              /* the queue draws too */
     double tick_ns;         /* of a timestamp; 0 if the queue has none */
     VkQueryPool timestamps; /* two */
 } gpu_device;

@@ -1,7 +1,6 @@
 /* probe.c: runs shaders/probe.comp and compares every operation with C. */
 #include "gpu/probe.h"
 
-#include "base/error.h"
 #include "check/probe.h"
 #include "gpu/compile.h"
 #include "gpu/compute.h"
@@ -35,51 +34,48 @@ static hnbrdf_result run(const gpu_device *device, const gpu_program *program, g
     return result;
 }
 
-static hnbrdf_result probe_with(const gpu_device *device, const uint32_t *spirv, size_t spirv_size,
-                                float (*operands)[OPERANDS], float (*results)[RESULTS],
-                                hnbrdf_error *error)
+typedef struct job {
+    const gpu_device *device;
+    const uint32_t *spirv;
+    size_t spirv_size;
+} job;
+
+static hnbrdf_result run_job(void *user, const float *operands, int count, float *results,
+                             hnbrdf_error *error)
 {
-    const size_t operand_bytes = sizeof *operands * VALUES, result_bytes = sizeof *results * VALUES;
+    const job *j = user;
+    const size_t operand_bytes = sizeof *operands * OPERANDS * (size_t)count,
+                 result_bytes = sizeof *results * RESULTS * (size_t)count;
     gpu_buffer input = {0}, output = {0};
     gpu_program program = {0};
-    check_probe_draw(operands, VALUES);
-    hnbrdf_result result = gpu_buffer_open(device, operand_bytes, &input, error);
+    hnbrdf_result result = gpu_buffer_open(j->device, operand_bytes, &input, error);
     if (!result)
-        result = gpu_buffer_open(device, result_bytes, &output, error);
+        result = gpu_buffer_open(j->device, result_bytes, &output, error);
     const gpu_buffer *const buffers[] = {&input, &output};
     if (!result)
-        result = gpu_program_open(device, spirv, spirv_size, buffers, 2, sizeof(uint32_t), &program,
-                                  error);
+        result = gpu_program_open(j->device, j->spirv, j->spirv_size, buffers, 2, sizeof(uint32_t),
+                                  &program, error);
     program.slots = SLOTS;
     if (!result)
-        result = run(device, &program, &input, &output, operands, operand_bytes, results,
+        result = run(j->device, &program, &input, &output, operands, operand_bytes, results,
                      result_bytes, error);
-    gpu_program_close(device, &program);
-    gpu_buffer_close(device, &input);
-    gpu_buffer_close(device, &output);
+    gpu_program_close(j->device, &program);
+    gpu_buffer_close(j->device, &input);
+    gpu_buffer_close(j->device, &output);
     return result;
 }
 
 hnbrdf_result gpu_probe(const gpu_device *device, check_arithmetic *arithmetic, hnbrdf_error *error)
 {
     uint32_t *spirv = NULL;
-    size_t spirv_size = 0;
+    job j = {.device = device};
     const gpu_include include = {"probe.glsl", hnbrdf_probe_glsl};
     hnbrdf_result result =
-        gpu_compile(hnbrdf_probe_comp, &include, 1, NULL, &spirv, &spirv_size, error);
-    if (result)
-        return result;
-    float(*operands)[OPERANDS] = calloc(VALUES, sizeof *operands);
-    float(*results)[RESULTS] = calloc(VALUES, sizeof *results);
-    if (operands && results)
-        result = probe_with(device, spirv, spirv_size, operands, results, error);
-    else
-        result = hnbrdf_fail(error, HNBRDF_ERROR_MEMORY, "probe: no memory");
+        gpu_compile(hnbrdf_probe_comp, &include, 1, NULL, &spirv, &j.spirv_size, error);
+    j.spirv = spirv;
     if (!result)
-        check_probe_judge((const float(*)[OPERANDS])operands, (const float(*)[RESULTS])results,
-                          VALUES, device->driver_id == VK_DRIVER_ID_MESA_LLVMPIPE, arithmetic);
-    free(operands);
-    free(results);
+        result = check_probe_run(run_job, &j, device->driver_id == VK_DRIVER_ID_MESA_LLVMPIPE,
+                                 arithmetic, error);
     free(spirv);
     return result;
 }

@@ -6,8 +6,15 @@
 #include "gpu/device.h"
 #include "gpu/scene.h"
 
+/* Where the shader runs. */
+typedef enum gpu_stage {
+    GPU_STAGE_COMPUTE = 0,
+    GPU_STAGE_FRAGMENT /* an RGBA32F image that is drawn into; not timed */
+} gpu_stage;
+
 typedef struct gpu_verify_options {
     gpu_scene scene;
+    gpu_stage stage;
     check_verify_options check;
     int without_timing;
 } gpu_verify_options;
