@@ -28,6 +28,11 @@ if(NOT HNBRDF_SANITIZE)
   endif()
   add_test(NAME test_exports COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/test_exports.sh
     ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR} ${parts})
+  add_test(NAME test_abi COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/test_abi.sh
+    ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR} ${CMAKE_CURRENT_BINARY_DIR}/abi)
+  add_test(NAME test_recipes COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/test_recipes.sh
+    ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR} ${CMAKE_CURRENT_BINARY_DIR}/recipes
+    ${PROJECT_VERSION})
   add_test(NAME test_install COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/test_install.sh
     ${PROJECT_BINARY_DIR} ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}/install)
   set_tests_properties(test_install PROPERTIES SKIP_RETURN_CODE 77)
