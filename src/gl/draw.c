@@ -12,6 +12,7 @@ static GLuint make_texture(const gl_functions *f, int width, int height)
 {
     GLuint texture;
     f->GenTextures(1, &texture);
+    f->ActiveTexture(GL_TEXTURE0);
     f->BindTexture(GL_TEXTURE_2D, texture);
     f->TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, width, height, 0, GL_RGBA, GL_FLOAT, NULL);
     f->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
@@ -65,6 +66,7 @@ hnbrdf_result gl_sheet_upload(const gl_context *context, gl_sheet *sheet, const 
     const gl_functions *f = &context->f;
     const size_t numbers = 4 * (size_t)sheet->texels, whole = count / GL_ROW_LENGTH;
     const int rest = (int)(count % GL_ROW_LENGTH);
+    f->ActiveTexture(GL_TEXTURE0); /* others may hold textures of the caller */
     f->BindTexture(GL_TEXTURE_2D, sheet->rows);
     if (whole > 0)
         f->TexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, sheet->texels * GL_ROW_LENGTH, (GLsizei)whole,
