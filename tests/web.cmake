@@ -13,13 +13,13 @@ function(hnbrdf_web_test name)
     TIMEOUT 300)
 endfunction()
 
-foreach(example webgl three babylon babylon_webgpu)
+foreach(example webgl three babylon babylon_webgpu webgpu)
   hnbrdf_web_test(test_web_${example} sh ${CMAKE_CURRENT_LIST_DIR}/test_web_example.sh
     ${example} ${PROJECT_SOURCE_DIR} $<TARGET_FILE:hnbrdf_cli> ${HNBRDF_WEB_PACKAGES}
     ${CMAKE_CURRENT_BINARY_DIR}/web_${example})
 endforeach()
 
-foreach(api webgl)
+foreach(api webgl webgpu dawn slang)
   hnbrdf_web_test(test_web_parity_${api} sh ${CMAKE_CURRENT_LIST_DIR}/test_web_parity.sh ${api}
     ${PROJECT_SOURCE_DIR} $<TARGET_FILE:hnbrdf_cli> $<TARGET_FILE:hnbrdf_glsl_scenes>
     ${HNBRDF_WEB_PACKAGES} ${CMAKE_CURRENT_BINARY_DIR}/web_parity_${api})
@@ -31,6 +31,8 @@ foreach(tool naga babylon)
     ${CMAKE_CURRENT_BINARY_DIR}/web_${tool}_texts)
 endforeach()
 
-hnbrdf_web_test(test_web_hlsl sh ${CMAKE_CURRENT_LIST_DIR}/test_web_hlsl.sh
-  ${PROJECT_SOURCE_DIR} $<TARGET_FILE:hnbrdf_cli> ${HNBRDF_WEB_PACKAGES}
-  ${CMAKE_CURRENT_BINARY_DIR}/web_hlsl)
+foreach(compiler glslang direct3d)
+  hnbrdf_web_test(test_web_hlsl_${compiler} sh ${CMAKE_CURRENT_LIST_DIR}/test_web_hlsl.sh
+    ${compiler} ${PROJECT_SOURCE_DIR} $<TARGET_FILE:hnbrdf_cli> ${HNBRDF_WEB_PACKAGES}
+    ${CMAKE_CURRENT_BINARY_DIR}/web_hlsl_${compiler})
+endforeach()

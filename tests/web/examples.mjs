@@ -15,4 +15,5 @@ export const examples = {
   three: { spheres: [shader, { name: 'MeshStandardMaterial', ...mesh }] },
   babylon: { spheres: [shader] },
   babylon_webgpu: { spheres: [shader], address: '?webgpu' },
+  webgpu: { spheres: [{ name: 'fragment shader' }] },
 };

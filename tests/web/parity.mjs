@@ -1,5 +1,6 @@
-// parity.mjs webgl|webgpu|dawn FOLDER...: runs cases of `hnbrdf verify --hand-out FOLDER` in a browser (WebGL2, WebGPU)
-// or on Dawn, Chromium's WebGPU, in this process. What came out goes into each FOLDER, for `hnbrdf verify --hand-in`.
+// parity.mjs webgl|webgpu|dawn|slang FOLDER...: runs cases of `hnbrdf verify --hand-out FOLDER` in a browser (WebGL2,
+// WebGPU) or on Dawn, Chromium's WebGPU, in this process (WGSL, Slang). What came out goes into each FOLDER, for
+// `hnbrdf verify --hand-in`.
 import { mkdirSync, mkdtempSync, readFileSync, rmSync, symlinkSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { basename, join, resolve } from 'node:path';
@@ -9,23 +10,26 @@ import { withPage } from './browser.mjs';
 import { withDawn } from './dawn.mjs';
 
 const [api, ...folders] = process.argv.slice(2);
-const module = { webgl: 'parity_webgl.mjs', webgpu: 'parity_webgpu.mjs', dawn: 'parity_webgpu.mjs' }[api];
+const module = {
+  webgl: 'parity_webgl.mjs', webgpu: 'parity_webgpu.mjs', dawn: 'parity_webgpu.mjs', slang: 'parity_slang.mjs',
+}[api];
 if (!module || !folders.length) {
-  console.error('usage: node parity.mjs webgl|webgpu|dawn FOLDER...');
+  console.error('usage: node parity.mjs webgl|webgpu|dawn|slang FOLDER...');
   process.exit(2);
 }
 
-function write(folder, device, files, start) {
+function write(folder, { device, compiled, files }, start) {
   for (const [name, floats] of Object.entries(files)) writeFileSync(join(folder, name), floats);
   writeFileSync(join(folder, 'device.txt'), device + '\n');
-  console.log(`${basename(folder)} on ${device}: ${((Date.now() - start) / 1000).toFixed(2)} s`);
+  const seconds = ((Date.now() - start) / 1000).toFixed(2);
+  console.log(`${basename(folder)} on ${device}: ${compiled} shaders compiled, ${seconds} s`);
 }
 
 // In a page that sees the module as run.mjs and cases as case/NUMBER/. Floats travel as base64.
 async function runInPage(page, number) {
-  const { device, files } = await page.evaluate(`(async () => {
+  const { files, ...found } = await page.evaluate(`(async () => {
     const { runCase } = await import('/run.mjs');
-    const { device, files } = await runCase(async (name) => {
+    const { device, compiled, files } = await runCase(async (name) => {
       const response = await fetch('/case/${number}/' + name);
       if (!response.ok) throw new Error('no ' + name);
       return response.arrayBuffer();
@@ -36,9 +40,10 @@ async function runInPage(page, number) {
       for (let i = 0; i < bytes.length; i += 4096) text += String.fromCharCode(...bytes.subarray(i, i + 4096));
       return [name, btoa(text)];
     });
-    return { device, files: Object.fromEntries(texts) };
+    return { device, compiled, files: Object.fromEntries(texts) };
   })()`);
-  return { device, files: Object.fromEntries(Object.entries(files).map(([n, t]) => [n, Buffer.from(t, 'base64')])) };
+  const floats = Object.entries(files).map(([name, text]) => [name, Buffer.from(text, 'base64')]);
+  return { ...found, files: Object.fromEntries(floats) };
 }
 
 async function inBrowser() {
@@ -53,8 +58,7 @@ async function inBrowser() {
       await page.open(server.url);
       for (const [number, folder] of folders.entries()) {
         const start = Date.now();
-        const { device, files } = await runInPage(page, number);
-        write(folder, device, files, start);
+        write(folder, await runInPage(page, number), start);
       }
     });
   } finally {
@@ -68,11 +72,11 @@ async function inProcess() {
   await withDawn(async (gpu) => {
     for (const folder of folders) {
       const start = Date.now();
-      const { device, files } = await runCase(async (name) => new Uint8Array(readFileSync(join(folder, name))).buffer, gpu);
-      write(folder, device, files, start);
+      const read = async (name) => new Uint8Array(readFileSync(join(folder, name))).buffer;
+      write(folder, await runCase(read, gpu), start);
     }
   });
 }
 
-await (api === 'dawn' ? inProcess() : inBrowser());
+await (api.startsWith('web') ? inBrowser() : inProcess());
 process.exit(0); // Dawn would keep the process

@@ -26,9 +26,13 @@ ${fetches}    result = ${call};
 }`;
 }
 
-function compile(gl, texts) {
+// Programs by their text: a case that has the text of one before runs its program, with its own weights.
+const programs = new Map();
+
+function compile(gl, text) {
+  if (programs.has(text)) return programs.get(text);
   const program = gl.createProgram();
-  const shaders = texts.map((text, i) => {
+  const shaders = [vertexText, text].map((text, i) => {
     const shader = gl.createShader([gl.VERTEX_SHADER, gl.FRAGMENT_SHADER][i]);
     gl.shaderSource(shader, text);
     gl.compileShader(shader);
@@ -38,6 +42,7 @@ function compile(gl, texts) {
   gl.linkProgram(program);
   if (!gl.getProgramParameter(program, gl.LINK_STATUS))
     throw new Error(shaders.map((s) => gl.getShaderInfoLog(s)).join('') + gl.getProgramInfoLog(program));
+  programs.set(text, program);
   return program;
 }
 
@@ -87,24 +92,30 @@ function run(gl, program, numbers, inputs, slots, weights) {
   return results;
 }
 
-// read(name) gives a file of the case as an ArrayBuffer. Gives { device, files: { name: Float32Array } }.
+let context = null;
+
+// read(name) gives a file of the case as an ArrayBuffer. Gives { device, compiled: how many
+// programs, files: { name: Float32Array } }.
 export async function runCase(read) {
   const text = async (name) => new TextDecoder().decode(await read(name));
   const floats = async (name) => new Float32Array(await read(name));
   const about = JSON.parse(await text('case.json'));
-  const gl = document.createElement('canvas').getContext('webgl2');
+  context ??= document.createElement('canvas').getContext('webgl2');
+  const gl = context;
   if (!gl?.getExtension('EXT_color_buffer_float')) throw new Error('no WebGL2 with float targets');
+  const known = programs.size;
   const weights = about.weights_bytes ? await read('weights.bin') : null;
   const inputs = await floats('inputs.f32');
   const files = {};
   for (const build of ['', '_exact']) {
     const texts = [await text(`scene${build}.glsl`), await text(`parity${build}.glsl`)];
-    const parity = compile(gl, [vertexText, fragmentText(texts, 4, 'hnbrdf_parity(v0, v1, v2, v3, slot)')]);
+    const parity = compile(gl, fragmentText(texts, 4, 'hnbrdf_parity(v0, v1, v2, v3, slot)'));
     files[`outputs${build}.f32`] = run(gl, parity, inputs, 4, about.slots, weights);
     if (!build) continue;
-    const probe = compile(gl, [vertexText, fragmentText(texts, 1, 'hnbrdf_probe(v0, slot)')]);
+    const probe = compile(gl, fragmentText(texts, 1, 'hnbrdf_probe(v0, slot)'));
     files['probe_results.f32'] = run(gl, probe, await floats('probe.f32'), 1, about.probe_slots, weights);
   }
   const info = gl.getExtension('WEBGL_debug_renderer_info');
-  return { device: `WebGL2: ${gl.getParameter(info ? info.UNMASKED_RENDERER_WEBGL : gl.RENDERER)}`, files };
+  const device = `WebGL2: ${gl.getParameter(info ? info.UNMASKED_RENDERER_WEBGL : gl.RENDERER)}`;
+  return { device, compiled: programs.size - known, files };
 }

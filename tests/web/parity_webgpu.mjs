@@ -1,7 +1,7 @@
 // parity_webgpu.mjs: runs a case of `hnbrdf verify --hand-out --language wgsl` by a compute shader of WebGPU, in a page
 // or in a program that has Dawn.
 
-const GROUP = 64; // rows a workgroup
+export const GROUP = 64; // rows a workgroup
 
 // Around the exported texts: a thread for every row, which calls the function for every slot. group 0 is the caller's,
 // the scene's weights are where its own text says.
@@ -22,12 +22,19 @@ fn main(@builtin(global_invocation_id) id: vec3<u32>) {
 }`;
 }
 
+// Pipelines by their text: a case that has the text of one before runs its pipeline, with its own weights.
+const pipelines = new Map();
+
 async function compile(device, code) {
+  if (pipelines.has(code)) return pipelines.get(code);
   const module = device.createShaderModule({ code });
   const { messages } = await module.getCompilationInfo();
   const errors = messages.filter(({ type }) => type === 'error');
   if (errors.length) throw new Error(errors.map((m) => `${m.lineNum}:${m.linePos}: ${m.message}`).join('\n'));
-  return device.createComputePipelineAsync({ layout: 'auto', compute: { module, entryPoint: 'main' } });
+  const pipeline =
+    await device.createComputePipelineAsync({ layout: 'auto', compute: { module, entryPoint: 'main' } });
+  pipelines.set(code, pipeline);
+  return pipeline;
 }
 
 function filled(device, usage, bytes) {
@@ -65,21 +72,25 @@ async function run(device, code, numbers, inputs, slots, weights) {
   return results;
 }
 
-// read(name) gives a file of the case as an ArrayBuffer; gpu is a GPU object. Gives { device, files }.
-export async function runCase(read, gpu = globalThis.navigator.gpu) {
+let adapter = null;
+let device = null;
+
+// computeText makes WGSL of the texts; otherwise as runCase().
+export async function runWith(computeText, read, gpu) {
   const text = async (name) => new TextDecoder().decode(await read(name));
   const floats = async (name) => new Float32Array(await read(name));
   const about = JSON.parse(await text('case.json'));
-  const adapter = await gpu?.requestAdapter();
+  adapter ??= await gpu?.requestAdapter();
   if (!adapter) throw new Error('no WebGPU adapter');
-  const device = await adapter.requestDevice();
+  device ??= await adapter.requestDevice();
+  const known = pipelines.size;
   let failure = null;
   device.onuncapturederror = ({ error }) => { failure ??= error.message; };
   const weights = about.weights_bytes ? await read('weights.bin') : null;
   const inputs = await floats('inputs.f32');
   const files = {};
   for (const build of ['', '_exact']) {
-    const texts = [await text(`scene${build}.wgsl`), await text(`parity${build}.wgsl`)];
+    const texts = [await text(`scene${build}.${about.extension}`), await text(`parity${build}.${about.extension}`)];
     const code = computeText(texts, 4, about.slots, 'hnbrdf_parity');
     files[`outputs${build}.f32`] = await run(device, code, inputs, 4, about.slots, weights);
     if (!build) continue;
@@ -88,5 +99,10 @@ export async function runCase(read, gpu = globalThis.navigator.gpu) {
   }
   if (failure) throw new Error(failure);
   const { vendor, architecture, description } = adapter.info;
-  return { device: `WebGPU: ${[vendor, architecture, description].filter(Boolean).join(' ')}`, files };
+  const name = `WebGPU: ${[vendor, architecture, description].filter(Boolean).join(' ')}`;
+  return { device: name, compiled: pipelines.size - known, files };
 }
+
+// read(name) gives a file of the case as an ArrayBuffer; gpu is a GPU object. Gives { device, compiled:
+// how many pipelines, files: { name: Float32Array } }.
+export const runCase = (read, gpu = globalThis.navigator.gpu) => runWith(computeText, read, gpu);
