@@ -35,12 +35,6 @@ uniform vec3 irradiance;
 varying vec3 worldNormal;
 varying vec3 worldPosition;
 
-// v in a frame whose z axis is n. The tangent does not matter to a material that is isotropic.
-vec3 toFrame(vec3 n, vec3 v) {
-    vec3 t = normalize(cross(abs(n.y) < 0.9 ? vec3(0.0, 1.0, 0.0) : vec3(1.0, 0.0, 0.0), n));
-    return vec3(dot(v, t), dot(v, cross(n, t)), dot(v, n));
-}
-
 vec3 toDisplay(vec3 c) { // sRGB
     c = clamp(c, 0.0, 1.0);
     return mix(12.92 * c, 1.055 * pow(c, vec3(1.0 / 2.4)) - 0.055, step(0.0031308, c));
@@ -48,10 +42,10 @@ vec3 toDisplay(vec3 c) { // sRGB
 
 void main() {
     vec3 n = normalize(worldNormal);
-    vec3 wi = toFrame(n, toLight);
-    vec3 wo = toFrame(n, normalize(cameraPosition - worldPosition));
-    hnbrdf_material m = hnbrdf_scene_material(0);
-    gl_FragColor = vec4(toDisplay(hnbrdf_eval(m, wi, wo) * irradiance * max(wi.z, 0.0)), 1.0);
+    vec3 t = vec3(0.0); // no tangent: any does for a material that is isotropic
+    vec3 toViewer = normalize(cameraPosition - worldPosition);
+    vec3 f = hnbrdf_eval_world(hnbrdf_scene_material(0), n, t, toLight, toViewer);
+    gl_FragColor = vec4(toDisplay(f * irradiance * max(dot(n, toLight), 0.0)), 1.0);
 }`;
 
 async function createEngine(canvas) {

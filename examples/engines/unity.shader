@@ -43,31 +43,25 @@ Shader "hnbrdf/Measured"
                 return result;
             }
 
-            // v in a frame whose z axis is n. The tangent does not matter to a material that is isotropic.
-            float3 to_frame(float3 n, float3 v)
-            {
-                float3 t = normalize(cross(abs(n.y) < 0.9 ? float3(0, 1, 0) : float3(1, 0, 0), n));
-                return float3(dot(v, t), dot(v, cross(n, t)), dot(v, n));
-            }
-
             // Lights of URP are scaled so that a white surface which faces a light of intensity 1 has the value 1: the
             // irradiance is pi times their colour.
-            float3 reflected(hnbrdf_material m, float3 n, float3 wo, Light light)
+            // No tangent: any does for a material that is isotropic.
+            float3 reflected(hnbrdf_material m, float3 n, float3 toViewer, Light light)
             {
-                float3 wi = to_frame(n, light.direction);
                 float3 irradiance = PI * light.color * (light.distanceAttenuation * light.shadowAttenuation);
-                return hnbrdf_eval(m, wi, wo) * irradiance * max(wi.z, 0.0);
+                float3 f = hnbrdf_eval_world(m, n, float3(0, 0, 0), light.direction, toViewer);
+                return f * irradiance * max(dot(n, light.direction), 0.0);
             }
 
             float4 fragment(Varying varying) : SV_Target
             {
                 float3 n = normalize(varying.normalWS);
-                float3 wo = to_frame(n, GetWorldSpaceNormalizeViewDir(varying.positionWS));
+                float3 toViewer = GetWorldSpaceNormalizeViewDir(varying.positionWS);
                 hnbrdf_material m = hnbrdf_scene_material(0);
-                float3 radiance = reflected(m, n, wo, GetMainLight());
+                float3 radiance = reflected(m, n, toViewer, GetMainLight());
                 #ifdef _ADDITIONAL_LIGHTS
                 for (uint i = 0u; i < uint(GetAdditionalLightsCount()); i++)
-                    radiance += reflected(m, n, wo, GetAdditionalLight(i, varying.positionWS));
+                    radiance += reflected(m, n, toViewer, GetAdditionalLight(i, varying.positionWS));
                 #endif
                 return float4(radiance, 1.0);
             }

@@ -8,9 +8,6 @@
 // (PixelNormalWS), View (CameraVectorWS), ToLight (of length 1, towards the light) and Irradiance, all in world space.
 // Connect the output to Emissive Color of an unlit material: the lights of the deferred renderer do not reach a node.
 float3 n = normalize(Normal);
-float3 t = normalize(cross(abs(n.y) < 0.9 ? float3(0, 1, 0) : float3(1, 0, 0), n));
-float3 b = cross(n, t);
-float3 wi = float3(dot(ToLight, t), dot(ToLight, b), dot(ToLight, n));
-float3 wo = float3(dot(View, t), dot(View, b), dot(View, n));
-hnbrdf_material m = hnbrdf_scene_material(0);
-return hnbrdf_eval(m, wi, wo) * Irradiance * max(wi.z, 0.0);
+float3 t = float3(0, 0, 0); // no tangent: any does for a material that is isotropic
+float3 f = hnbrdf_eval_world(hnbrdf_scene_material(0), n, t, ToLight, View);
+return f * Irradiance * max(dot(n, ToLight), 0.0);

@@ -4,13 +4,6 @@ import * as THREE from 'three';
 
 const brdf = await (await fetch('scene.glsl')).text(); // hnbrdf export --standalone
 
-// What both need: v in a frame whose z axis is n. The tangent does not matter to a material that is isotropic.
-const toFrame = `
-vec3 toFrame(vec3 n, vec3 v) {
-    vec3 t = normalize(cross(abs(n.y) < 0.9 ? vec3(0.0, 1.0, 0.0) : vec3(1.0, 0.0, 0.0), n));
-    return vec3(dot(v, t), dot(v, cross(n, t)), dot(v, n));
-}`;
-
 function shaderMaterial(toLight, irradiance) {
   return new THREE.ShaderMaterial({
     uniforms: { toLight: { value: toLight }, irradiance: { value: irradiance } }, // in world space, of length 1
@@ -25,16 +18,15 @@ function shaderMaterial(toLight, irradiance) {
       }`,
     fragmentShader: `
       ${brdf}
-      ${toFrame}
       uniform vec3 toLight, irradiance;
       varying vec3 worldNormal;
       varying vec3 worldPosition;
       void main() {
           vec3 n = normalize(worldNormal);
-          vec3 wi = toFrame(n, toLight);
-          vec3 wo = toFrame(n, normalize(cameraPosition - worldPosition));
-          hnbrdf_material m = hnbrdf_scene_material(0);
-          gl_FragColor = vec4(hnbrdf_eval(m, wi, wo) * irradiance * max(wi.z, 0.0), 1.0);
+          vec3 t = vec3(0.0); // no tangent: any does for a material that is isotropic
+          vec3 toViewer = normalize(cameraPosition - worldPosition);
+          vec3 f = hnbrdf_eval_world(hnbrdf_scene_material(0), n, t, toLight, toViewer);
+          gl_FragColor = vec4(f * irradiance * max(dot(n, toLight), 0.0), 1.0);
           #include <tonemapping_fragment>
           #include <colorspace_fragment>
       }`,
@@ -49,14 +41,12 @@ function standardMaterial() {
     shader.fragmentShader = shader.fragmentShader.replace('#include <lights_physical_pars_fragment>', `
       #include <lights_physical_pars_fragment>
       ${brdf}
-      ${toFrame}
       void hnbrdfDirect(const in IncidentLight directLight, const in vec3 geometryPosition,
               const in vec3 geometryNormal, const in vec3 geometryViewDir, const in vec3 geometryClearcoatNormal,
               const in PhysicalMaterial material, inout ReflectedLight reflectedLight) {
-          vec3 wi = toFrame(geometryNormal, directLight.direction);
-          vec3 wo = toFrame(geometryNormal, geometryViewDir);
-          hnbrdf_material m = hnbrdf_scene_material(0);
-          reflectedLight.directSpecular += hnbrdf_eval(m, wi, wo) * directLight.color * max(wi.z, 0.0);
+          vec3 toLight = directLight.direction; // in the space of the view, as the normal
+          vec3 f = hnbrdf_eval_world(hnbrdf_scene_material(0), geometryNormal, vec3(0.0), toLight, geometryViewDir);
+          reflectedLight.directSpecular += f * directLight.color * max(dot(geometryNormal, toLight), 0.0);
       }
       #undef RE_Direct
       #define RE_Direct hnbrdfDirect`);

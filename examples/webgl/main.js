@@ -18,12 +18,6 @@ out vec4 colour;
 const vec3 camera = vec3(0.0, 0.0, 4.0);
 const float field = 0.26794919; // tan of half the field of view, 30 degrees
 
-// v in a frame whose z axis is n. The tangent does not matter to a material that is isotropic.
-vec3 toFrame(vec3 n, vec3 v) {
-    vec3 t = normalize(cross(abs(n.y) < 0.9 ? vec3(0.0, 1.0, 0.0) : vec3(1.0, 0.0, 0.0), n));
-    return vec3(dot(v, t), dot(v, cross(n, t)), dot(v, n));
-}
-
 vec3 toDisplay(vec3 c) { // sRGB
     c = clamp(c, 0.0, 1.0);
     return mix(12.92 * c, 1.055 * pow(c, vec3(1.0 / 2.4)) - 0.055, step(0.0031308, c));
@@ -37,10 +31,9 @@ void main() {
     if (inside <= 0.0)
         return;
     vec3 n = camera + ray * (along - sqrt(inside)); // the point is its own normal
-    vec3 wi = toFrame(n, toLight);
-    vec3 wo = toFrame(n, -ray);
-    hnbrdf_material m = hnbrdf_scene_material(0);
-    colour.rgb = toDisplay(hnbrdf_eval(m, wi, wo) * irradiance * max(wi.z, 0.0));
+    vec3 t = vec3(0.0); // no tangent: any does for a material that is isotropic
+    vec3 f = hnbrdf_eval_world(hnbrdf_scene_material(0), n, t, toLight, -ray);
+    colour.rgb = toDisplay(f * irradiance * max(dot(n, toLight), 0.0));
 }`;
 
 const canvas = document.querySelector('canvas');

@@ -18,12 +18,6 @@ fn corner(@builtin(vertex_index) index: u32) -> @builtin(position) vec4f { // on
     return vec4f(vec2f(f32(index & 1u), f32(index >> 1u)) * 4.0 - 1.0, 0.0, 1.0);
 }
 
-// v in a frame whose z axis is n. The tangent does not matter to a material that is isotropic.
-fn toFrame(n: vec3f, v: vec3f) -> vec3f {
-    let t = normalize(cross(select(vec3f(1.0, 0.0, 0.0), vec3f(0.0, 1.0, 0.0), abs(n.y) < 0.9), n));
-    return vec3f(dot(v, t), dot(v, cross(n, t)), dot(v, n));
-}
-
 fn toDisplay(radiance: vec3f) -> vec3f { // sRGB
     let c = clamp(radiance, vec3f(0.0), vec3f(1.0));
     return select(1.055 * pow(c, vec3f(1.0 / 2.4)) - 0.055, 12.92 * c, c < vec3f(0.0031308));
@@ -39,10 +33,9 @@ fn colour(@builtin(position) pixel: vec4f) -> @location(0) vec4f {
         return vec4f(0.0, 0.0, 0.0, 1.0);
     }
     let n = camera + ray * (along - sqrt(inside)); // the point is its own normal
-    let wi = toFrame(n, frame.toLight);
-    let wo = toFrame(n, -ray);
-    let f = hnbrdf_eval(hnbrdf_scene_material(0), wi, wo);
-    return vec4f(toDisplay(f * frame.irradiance * max(wi.z, 0.0)), 1.0);
+    let t = vec3f(0.0); // no tangent: any does for a material that is isotropic
+    let f = hnbrdf_eval_world(hnbrdf_scene_material(0), n, t, frame.toLight, -ray);
+    return vec4f(toDisplay(f * frame.irradiance * max(dot(n, frame.toLight), 0.0)), 1.0);
 }`;
 
 const canvas = document.querySelector('canvas');
