@@ -789,14 +789,15 @@ vec3 hnbrdf_cross(vec3 a, vec3 b)
 }
 
 // w of length 1, or instead_of where it has no direction: 0, not finite. Scaled first, so that no square overflows or
-// vanishes.
+// vanishes. Never divided by 0: of a constant 0, as for no tangent, a compiler would see and warn (FXC, X4008).
 vec3 hnbrdf_unit(vec3 w, vec3 instead_of)
 {
     float r = max(max(abs(w.x), abs(w.y)), abs(w.z));
-    HNBRDF_PRECISE vec3 w_scaled = w / r;
+    HNBRDF_PRECISE vec3 w_scaled = w / (r > 0.0 ? r : 1.0);
     float length_2 = hnbrdf_dot3(w_scaled);
-    HNBRDF_PRECISE vec3 value_out = w_scaled / sqrt(length_2);
-    return length_2 > 0.5 ? value_out : instead_of; // at least 1, but for roundings
+    bool is_unit = length_2 > 0.5; // at least 1, but for roundings
+    HNBRDF_PRECISE vec3 value_out = w_scaled / sqrt(is_unit ? length_2 : 1.0);
+    return is_unit ? value_out : instead_of;
 }
 
 // From a normal and a tangent as they come from a mesh, interpolated or not: of any length, at any angle. A tangent
