@@ -1,6 +1,7 @@
 hnbrdf_test(test_fit_gradients test_fit_gradients.c)
 hnbrdf_test(test_fit test_fit.c)
 hnbrdf_test(test_fit_choices test_fit_choices.c)
+hnbrdf_test(test_fit_alone test_fit_alone.c)
 hnbrdf_test(test_fit_checkpoint test_fit_checkpoint.c)
 hnbrdf_test(test_fit_divergence test_fit_divergence.c)
 hnbrdf_test(test_fit_stiff test_fit_stiff.c)

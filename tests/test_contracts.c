@@ -518,7 +518,9 @@ static void options_of_0_stand_for_their_defaults(void **state)
     o.floor = 0.003f;
     o.batch = 2048;
     o.learning_rate = 6e-2f;
-    o.uniform_share = 0.5f;
+    o.uniform_share = 0.667f;
+    o.bright_share = 0.25f;
+    o.lift = 1.0f;
     o.encoding = "angles";
     assert_true(same_fit(o, hybrid));
     o = neural;

@@ -205,7 +205,7 @@ static void a_file_of_another_size_is_refused(void **state)
 
 /* ---- Fingerprint ----------------------------------------------------------------------------- */
 
-enum { CHANGES = 17 };
+enum { CHANGES = 19 };
 
 static void change_option(hnbrdf_fit_options *o, int k)
 {
@@ -257,6 +257,12 @@ static void change_option(hnbrdf_fit_options *o, int k)
         break;
     case 15:
         o->uniform_share = 0.75f;
+        break;
+    case 16:
+        o->bright_share = 0.5f;
+        break;
+    case 17:
+        o->lift = 0.5f;
         break;
     default:
         o->materials = NULL;

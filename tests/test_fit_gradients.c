@@ -169,6 +169,40 @@ static void clipped_value_is_pulled_up(void **state)
     problem_free(&p);
 }
 
+/* Where the value is below the target by more than a factor of 1.25 and exp(c) is small beside the
+ * gated GGX, the derivative by c is that of `lift` of the gated GGX; elsewhere it is the true
+ * one. All weights are 0, so that c and g are the last biases: exp(c) = 1e-4, the gate 1/2. */
+static void a_small_correction_is_lifted_where_ggx_is_too_low(void **state)
+{
+    (void)state;
+    static const struct {
+        float target; /* f is 1.0001 everywhere */
+        int lifted;
+    } cases[] = {{9.0f, 1}, {1.26f, 1}, {1.24f, 0}, {0.5f, 0}};
+    for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
+        problem p;
+        problem_make(&p, HNBRDF_KIND_HYBRID, 16, 2, 4, 0, 0.0f);
+        memset(p.parameters, 0, sizeof(double) * p.layout.count);
+        double *bias = p.parameters + p.layout.bias[2], by_c[2];
+        for (int c = 0; c < 3; c++)
+            bias[c] = log(1e-4);
+        for (int b = 0; b < 3 * FIT_TILE; b++) {
+            p.target[b] = cases[k].target;
+            p.frozen[b] = 2.0f;
+        }
+        for (int lift = 0; lift < 2; lift++) {
+            memset(p.gradient, 0, sizeof(double) * p.layout.count);
+            p.layout.lift = 0.5f * (float)lift;
+            loss_at(&p, p.gradient, 0.5);
+            by_c[lift] = p.gradient[p.layout.bias[2]];
+        }
+        assert_true(by_c[0] != 0.0);
+        /* exp(c) is 1e-4, half of the gated GGX 0.5; both to 1e-5 in single precision */
+        assert_true(fabs(by_c[1] / by_c[0] - (cases[k].lifted ? 5000.0 : 1.0)) < 0.1);
+        problem_free(&p);
+    }
+}
+
 static const fit_kernel *kernel_number(int k)
 {
     switch (k) {
@@ -197,6 +231,7 @@ static void instruction_sets_agree_to_the_bit(void **state)
     for (size_t s = 0; s < 5; s++) {
         problem p;
         problem_make(&p, HNBRDF_KIND_HYBRID, sizes[s][0], sizes[s][1], sizes[s][2], 1, 0.003f);
+        p.layout.lift = 1.0f;
         double wanted_loss = loss_at(&p, p.gradient, 0.4), largest = 0.0;
         size_t count = p.layout.count;
         float *parameters = malloc(sizeof(float) * count), *first = calloc(count, sizeof(float));
@@ -324,6 +359,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(gradient_matches_finite_differences),
         cmocka_unit_test(clipped_value_is_pulled_up),
+        cmocka_unit_test(a_small_correction_is_lifted_where_ggx_is_too_low),
         cmocka_unit_test(instruction_sets_agree_to_the_bit),
         cmocka_unit_test(gradients_stay_finite_at_the_limits),
         cmocka_unit_test(gradients_are_bounded_near_the_alpha_floor_and_eta_1),

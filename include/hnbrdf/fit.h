@@ -105,6 +105,16 @@ typedef struct hnbrdf_communicator {
     void *user;
 } hnbrdf_communicator;
 
+/* A fitted material with the network and without it, over the training pairs and in a small picture
+ * of a sphere under an even light and a sun of 3 degrees: of three suns the one under which the
+ * network does worst. */
+typedef struct hnbrdf_fit_worth {
+    double smape, ggx_smape;     /* mean over up to 16384 of the pairs */
+    double picture, ggx_picture; /* mean squared error of the radiance; the even light has 1 */
+    int worse;                   /* 1: worse with the network, in SMAPE or in that picture */
+    int alone;                   /* 1: for that left to GGX alone; the figures are those before */
+} hnbrdf_fit_worth;
+
 /* Zero-initialise for defaults: 0 is the default of every field. Where 0 itself is wanted, a flag
  * named ..._none asks for it; a number beside such a flag is refused. */
 typedef struct hnbrdf_fit_options {
@@ -125,6 +135,8 @@ typedef struct hnbrdf_fit_options {
     hnbrdf_fit_search *search; /* [count] written: how the GGX fit of each material went, or NULL */
     /* [count] written: what was found in the data of each material, or NULL */
     hnbrdf_fit_drawn *drawn;
+    /* [count] written of a hybrid: what its network does for each material, or NULL */
+    hnbrdf_fit_worth *worth;
     long steps;     /* network steps; 0 stands for 32000 */
     double seconds; /* time budget for the network stage instead of steps */
     int batch;      /* pairs a step; 0 stands for 2048; rounded up to a multiple of 1024 */
@@ -133,12 +145,21 @@ typedef struct hnbrdf_fit_options {
     float learning_rate;
     hnbrdf_fit_loss loss;
     hnbrdf_fit_schedule schedule;
-    /* of the pairs, drawn by the uniform sampler, the others by grid; at most 1; 0 stands for
-     * 0.5 */
+    /* of the pairs, drawn where a picture of the material is bright, about in proportion to
+     * f wi.z wo.z; at most 1; 0 stands for 0.25 */
+    float bright_share;
+    int bright_none; /* 1: no such pairs */
+    /* of all other pairs, drawn by the uniform sampler, the rest by grid; at most 1; 0 stands for
+     * 0.667 */
     float uniform_share;
-    int uniform_none; /* 1: all pairs by grid */
-    uint64_t seed;    /* of everything random */
-    int threads;      /* 0: all cores */
+    int uniform_none; /* 1: those by grid */
+    /* Of a hybrid: where f is below the data by more than a factor of 1.25, the derivative of
+     * exp(c) is taken as at least this share of the gated GGX. Without it a correction that is
+     * small beside GGX stays small in highlights where GGX is too low. At most 1; 0 stands for 1 */
+    float lift;
+    int lift_none; /* 1: the derivative as it is */
+    uint64_t seed; /* of everything random */
+    int threads;   /* 0: all cores */
     hnbrdf_fit_progress_fn progress;
     void *progress_user;
     /* Keep this model's network: only kd, eta, alpha and the latent codes of the new materials are
@@ -197,8 +218,13 @@ typedef struct hnbrdf_fit_report {
     /* the step whose state was returned: `steps`, or an earlier one that was better by more than
      * 5 % plus 0.001 */
     long best_step;
-    int ggx_alone;    /* 1: none was as good as GGX alone; the network returned leaves GGX as it is.
+    int ggx_alone; /* 1: none was as good as GGX alone; the network returned leaves GGX as it is.
                          best_step is 0 */
+    /* Materials that the network makes worse than GGX alone (hnbrdf_fit_worth): those whose
+     * code turns it off, so that they are GGX, and those that have no such code, because the
+     * network has a single hidden layer, fewer than 16 units in one, or was frozen and trained
+     * without */
+    int left_alone, worse;
     double best_loss; /* of the state returned */
     double ggx_loss;  /* of GGX alone; NaN but for a hybrid whose network was trained */
 } hnbrdf_fit_report;

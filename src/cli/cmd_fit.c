@@ -166,6 +166,22 @@ static void tell_about_training(const hnbrdf_fit_report *r)
             r->best_loss);
 }
 
+/* Which materials the network makes worse, and what was done. */
+static void tell_about_worth(const job *j, const hnbrdf_model *model, const hnbrdf_fit_report *r)
+{
+    for (int m = 0; m < j->data.count && r->left_alone + r->worse > 0; m++) {
+        const hnbrdf_fit_worth *w = &j->fit.worth[m];
+        if (w->worse)
+            fprintf(cli_words(),
+                    "note: %s: with the network it is worse than GGX alone: SMAPE %.4f (GGX "
+                    "%.4f), pictures %+.1f dB; %s\n",
+                    hnbrdf_model_material_name(model, m), w->smape, w->ggx_smape,
+                    10.0 * log10(w->ggx_picture / w->picture),
+                    w->alone ? "its latent code turns the network off"
+                             : "this network cannot be turned off for one material");
+    }
+}
+
 static int write_speed(const job *j, const hnbrdf_fit_report *report)
 {
     bench_speed speed = bench_speed_of(report);
@@ -209,6 +225,7 @@ static int run(job *j)
         summarise(j, model, &report);
         tell_about_data(j, model);
         tell_about_training(&report);
+        tell_about_worth(j, model, &report);
         if (!report.stopped && first)
             remove(j->fit.checkpoint);
         code = first ? write_speed(j, &report) : CLI_OK;
@@ -241,8 +258,10 @@ static int open_and_run(job *j, const char *freeze, char *const *data, int count
     code = cli_ranks_agree(code);
     if (!code && !(code = cli_open_data_of_ranks(data, count, &j->data))) {
         j->fit.drawn = calloc((size_t)j->data.count, sizeof *j->fit.drawn);
-        code = j->fit.drawn ? run(j) : cli_fail("out of memory");
+        j->fit.worth = calloc((size_t)j->data.count, sizeof *j->fit.worth);
+        code = j->fit.drawn && j->fit.worth ? run(j) : cli_fail("out of memory");
         free(j->fit.drawn);
+        free(j->fit.worth);
         cli_close_data(&j->data);
     }
     cli_close_source(&source);
@@ -259,7 +278,7 @@ int cmd_fit(int argc, char **argv)
     cli_word analytic = {HNBRDF_FIT_FAITHFUL, cli_analytic_word};
     cli_word loss = {HNBRDF_FIT_LOG_TO_SMAPE, cli_loss_word};
     cli_word schedule = {HNBRDF_FIT_COSINE, cli_schedule_word};
-    double uniform_share = 0.5;
+    double uniform_share = 0.667, bright_share = 0.25, lift = 1.0;
     int net[2] = {0, 0};
     long latent = 0, steps = 0, seed = 1, threads = 0, batch = 0, pool = 0;
     double seconds = 0.0, floor = 0.003, rate = 0.0;
@@ -293,7 +312,12 @@ int cmd_fit(int argc, char **argv)
         {"schedule", 0, CLI_WORD, &schedule, 0, 0, "NAME",
          "of the rate: cosine or linear down to 1 %, or constant (default cosine)"},
         {"uniform-share", 0, CLI_REAL, &uniform_share, 0, 1, "S",
-         "of the pairs, drawn uniformly, the others on MERL's grid (default 0.5)"},
+         "of the other pairs, drawn uniformly, the rest on MERL's grid (default 0.667)"},
+        {"bright-share", 0, CLI_REAL, &bright_share, 0, 1, "S",
+         "of the pairs, drawn where a picture of the material is bright (default 0.25)"},
+        {"lift", 0, CLI_REAL, &lift, 0, 1, "L",
+         "how strongly the correction is pulled up where GGX is too low: as if it were at least L "
+         "of GGX; 0: the plain gradient (default 1)"},
         {"seed", 0, CLI_INT, &seed, 0, 9e15, "N", "seed of everything random (default 1)"},
         {"freeze", 0, CLI_READ, &freeze, 0, 0, "MODEL",
          "keep this model's network, fit only the new materials (default steps 3000)"},
@@ -344,6 +368,10 @@ int cmd_fit(int argc, char **argv)
     j.fit.schedule = (hnbrdf_fit_schedule)schedule.value;
     j.fit.uniform_share = (float)uniform_share;
     j.fit.uniform_none = j.fit.uniform_share == 0.0f;
+    j.fit.bright_share = (float)bright_share;
+    j.fit.bright_none = j.fit.bright_share == 0.0f;
+    j.fit.lift = (float)lift;
+    j.fit.lift_none = j.fit.lift == 0.0f;
     j.fit.seed = (uint64_t)seed;
     j.fit.threads = (int)threads;
     j.fit.resume = resume;

@@ -53,6 +53,8 @@ static uint64_t fingerprint(const trainer *t)
                               o->loss,
                               o->schedule,
                               (double)o->uniform_share,
+                              (double)o->bright_share,
+                              (double)o->lift,
                               o->materials != NULL};
     uint64_t h = HNBRDF_HASH_START;
     for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++)

@@ -231,7 +231,7 @@ static hnbrdf_result run(trainer *t, hnbrdf_model **model, hnbrdf_fit_report *re
     if (t->options.kind != HNBRDF_KIND_GGX)
         status = hnbrdf_fit_train(t, result, error);
     result->stopped = t->stopped;
-    return status ? status : hnbrdf_fit_result(t, model, error);
+    return status ? status : hnbrdf_fit_result(t, model, result, error);
 }
 
 static hnbrdf_result check_arguments(const trainer *t, hnbrdf_error *error)
@@ -283,12 +283,14 @@ static hnbrdf_result set_up(trainer *t, hnbrdf_error *error)
                                       t->ranks.size, hnbrdf_threads_count(t->workers));
     t->pool.tiles = (o->pool + FIT_TILE - 1) / FIT_TILE;
     t->pool.tiles = t->pool.tiles > 0 ? t->pool.tiles : 1;
+    t->pool.bright_share = o->bright_share;
     t->pool.uniform_share = o->uniform_share;
     t->pool.seed = o->seed;
     t->pool.encoding = t->encoding;
     t->kernel = hnbrdf_fit_kernel_choose();
     hnbrdf_fit_layout_make(&t->layout, o->kind, o->hidden, o->layers, o->latent, t->count,
                            o->analytic == HNBRDF_FIT_JOINT, o->floor);
+    t->layout.lift = o->lift;
     if (!allocate(t))
         result = hnbrdf_fail(
             error, HNBRDF_ERROR_MEMORY,

@@ -31,6 +31,7 @@ typedef struct fit_layout {
     int latent_size, hidden_size, padded, layers, outputs, materials;
     int train_analytic; /* 1: the gradient of the analytic part is wanted */
     float floor;
+    float lift; /* see FIT_LIFT_BELOW; hnbrdf_fit_layout_make() sets 0 */
     size_t first, latent, bias[HNBRDF_MAX_LAYERS + 1], hidden[HNBRDF_MAX_LAYERS], last, codes,
         analytic;
     size_t network_count; /* numbers before codes: all shared by the materials */
@@ -60,6 +61,12 @@ typedef struct fit_tile {
  */
 #define FIT_LOG_OFFSET 1e-3
 #define FIT_SMAPE_OFFSET 1e-4
+/* Where GGX is too low even with an open gate, exp(c) has to add what is missing. But its
+ * derivative is exp(c) itself: once it is small beside the gated GGX, as it is in a highlight, it
+ * stays small whatever the loss. So where f is below the target by more than this factor, the
+ * derivative of exp(c) is taken as at least `lift` of the gated GGX. Nearer to the target, and
+ * above it, the derivative is the true one. */
+#define FIT_LIFT_BELOW 1.25
 /* Values and targets end here: their squares must be floats. At the roughness floor of 1e-4 GGX
  * itself stays below 1/(pi alpha^2) / (4 cos cos) = 8e10 where the samplers draw. */
 #define FIT_MOST 1e15f

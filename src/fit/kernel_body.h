@@ -284,9 +284,14 @@ static double compose_loss(const fit_layout *l, const REAL *out, const fit_tile 
         bounded_exp(out + k, 1, e, inside);
         for (int b = 0; b < FIT_TILE; b++)
             u[b] = e[b] + (hybrid ? gate[b] * analytic[k][b] : 0) - (REAL)l->floor;
-        loss += channel_loss(u, tile->target + k * FIT_TILE, mix, slope);
-        for (int b = 0; b < FIT_TILE; b++)
-            by_out[b * FIT_LANES + k] = slope[b] * e[b] * inside[b];
+        const float *target = tile->target + k * FIT_TILE;
+        loss += channel_loss(u, target, mix, slope);
+        for (int b = 0; b < FIT_TILE; b++) {
+            REAL least = (REAL)l->lift * (hybrid ? gate[b] * analytic[k][b] : 0);
+            REAL reach = u[b] * (REAL)FIT_LIFT_BELOW;
+            REAL by = e[b] < least && reach < (REAL)target[b] ? least : e[b];
+            by_out[b * FIT_LANES + k] = slope[b] * by * inside[b];
+        }
         if (hybrid)
             for (int b = 0; b < FIT_TILE; b++) {
                 by_out[b * FIT_LANES + k + 3] =

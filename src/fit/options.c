@@ -19,7 +19,9 @@ enum {
 #define DEFAULT_RATE 6e-2f
 #define RATE_UNITS 64
 #define DEFAULT_FLOOR 0.003f
-#define DEFAULT_UNIFORM_SHARE 0.5f
+#define DEFAULT_UNIFORM_SHARE 0.667f
+#define DEFAULT_BRIGHT_SHARE 0.25f
+#define DEFAULT_LIFT 1.0f
 #define POOL_LIMIT 1.25e9 /* bytes of training data; beyond, fewer pairs a material */
 
 /* Kind, sizes, encoding and floor are those of the network that stays. */
@@ -60,7 +62,9 @@ static hnbrdf_result check_flags(const hnbrdf_fit_options *o, hnbrdf_error *erro
         int none;
     } pairs[] = {{"latent", "latent_none", o->latent, o->latent_none},
                  {"floor", "floor_none", (double)o->floor, o->floor_none},
-                 {"uniform_share", "uniform_none", (double)o->uniform_share, o->uniform_none}};
+                 {"uniform_share", "uniform_none", (double)o->uniform_share, o->uniform_none},
+                 {"bright_share", "bright_none", (double)o->bright_share, o->bright_none},
+                 {"lift", "lift_none", (double)o->lift, o->lift_none}};
     hnbrdf_encoding encoding;
     for (size_t k = 0; k < sizeof pairs / sizeof pairs[0]; k++)
         if (pairs[k].value != 0.0 && pairs[k].none)
@@ -99,6 +103,10 @@ hnbrdf_result hnbrdf_fit_fill_options(hnbrdf_fit_options *o, int count, hnbrdf_e
                                                 : o->learning_rate;
     if (o->uniform_share == 0.0f && !o->uniform_none)
         o->uniform_share = DEFAULT_UNIFORM_SHARE;
+    if (o->bright_share == 0.0f && !o->bright_none)
+        o->bright_share = DEFAULT_BRIGHT_SHARE;
+    if (o->lift == 0.0f && !o->lift_none)
+        o->lift = DEFAULT_LIFT;
     if (o->hidden < 1 || o->hidden > HNBRDF_MAX_HIDDEN || o->layers < 1 ||
         o->layers > HNBRDF_MAX_LAYERS)
         return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT, "network %dx%d, expected 1x1 to %dx%d",
@@ -111,12 +119,13 @@ hnbrdf_result hnbrdf_fit_fill_options(hnbrdf_fit_options *o, int count, hnbrdf_e
         !(o->seconds >= 0.0) || !(o->learning_rate > 0.0f && o->learning_rate <= FLT_MAX) ||
         !(o->floor >= 0.0f && o->floor < 1.0f) ||
         !(o->uniform_share >= 0.0f && o->uniform_share <= 1.0f) ||
-        (unsigned)o->loss > HNBRDF_FIT_SMAPE || (unsigned)o->schedule > HNBRDF_FIT_CONSTANT ||
-        !hnbrdf_kind_name(o->kind))
+        !(o->bright_share >= 0.0f && o->bright_share <= 1.0f) ||
+        !(o->lift >= 0.0f && o->lift <= 1.0f) || (unsigned)o->loss > HNBRDF_FIT_SMAPE ||
+        (unsigned)o->schedule > HNBRDF_FIT_CONSTANT || !hnbrdf_kind_name(o->kind))
         return hnbrdf_fail(
             error, HNBRDF_ERROR_ARGUMENT,
             "a fit option is out of its range: steps, batch and pool at least 1, learning "
-            "rate above 0 and finite, floor and uniform share from 0 to 1, seconds and threads not "
+            "rate above 0 and finite, floor, shares and lift from 0 to 1, seconds and threads not "
             "negative");
     if (o->resume && !o->checkpoint)
         return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT,

@@ -4,6 +4,9 @@
 #include "core/encoding.h"
 #include "core/frame.h"
 #include "core/microfacet.h"
+#include "fit/bright.h"
+
+#include <limits.h>
 
 int hnbrdf_fit_pool_keeps(int held, int tiles, double bytes)
 {
@@ -32,7 +35,8 @@ fit_tile hnbrdf_fit_pool_view(const fit_pool *pool, int at, int tile)
 /* What a drawing under way has come to. */
 typedef struct drawing {
     hnbrdf_rng rng;
-    long draws, most; /* so far; before it gives up */
+    /* pairs looked at so far, those with a valid measurement; when it gives up */
+    long looked, valid, most;
     hnbrdf_fit_drawn sums;
 } drawing;
 
@@ -50,22 +54,42 @@ static void put(float *tile, size_t b, const float wi[3], const float wo[3], con
     }
 }
 
+/* Whether number k of a series takes part where `share` of them do, spread evenly. */
+static int is_turn(double k, double share)
+{
+    return floor(share * (k + 1.0)) > floor(share * k);
+}
+
+/* Pair number k of a material. 0 if what it looked at has no valid measurement. */
+static int draw_pair(const fit_pool *pool, const fit_source *source, double k, drawing *d,
+                     float wi[3], float wo[3], float f[3])
+{
+    const double bright = (double)pool->bright_share, others = k - floor(bright * k);
+    int valid;
+    if (is_turn(k, bright)) {
+        valid = hnbrdf_fit_bright_draw(source->measured, &d->rng, wi, wo, f);
+        d->looked += FIT_BRIGHT_CANDIDATES;
+    } else {
+        const int is_uniform = is_turn(others, (double)pool->uniform_share);
+        hnbrdf_sampler_draw(is_uniform ? HNBRDF_SAMPLER_UNIFORM : HNBRDF_SAMPLER_GRID, &d->rng, wi,
+                            wo);
+        valid = hnbrdf_measured_eval(source->measured, wi, wo, f) != 0;
+        d->looked++;
+    }
+    d->valid += valid;
+    return valid;
+}
+
 /* The pairs of tile `index` of a material; how many there are before it gives up. */
 static int draw_tile(const fit_pool *pool, const fit_source *source, int index, drawing *d,
                      float *tile)
 {
-    const double share = (double)pool->uniform_share;
     for (int b = 0; b < FIT_TILE; b++) {
-        const double k = (double)index * FIT_TILE + b;
-        const int is_uniform = floor(share * (k + 1.0)) > floor(share * k);
         float wi[3], wo[3], f[3];
-        do {
-            if (d->draws == d->most)
+        do
+            if (d->looked >= d->most)
                 return b;
-            d->draws++;
-            hnbrdf_sampler_draw(is_uniform ? HNBRDF_SAMPLER_UNIFORM : HNBRDF_SAMPLER_GRID, &d->rng,
-                                wi, wo);
-        } while (!hnbrdf_measured_eval(source->measured, wi, wo, f));
+        while (!draw_pair(pool, source, (double)index * FIT_TILE + b, d, wi, wo, f));
         put(tile, (size_t)b, wi, wo, f, &d->sums);
     }
     return FIT_TILE;
@@ -82,12 +106,12 @@ int hnbrdf_fit_pool_draw(const fit_pool *pool, int at, hnbrdf_fit_drawn *drawn)
         int done = draw_tile(pool, source, t, &d, at < pool->kept ? kept_tile(pool, at, t) : room);
         if (done < FIT_TILE) {
             *drawn = d.sums;
-            drawn->valid = (double)((long)t * FIT_TILE + done) / (double)d.draws;
+            drawn->valid = (double)d.valid / (double)d.looked;
             return 0;
         }
     }
     *drawn = d.sums;
-    drawn->valid = (double)pairs / (double)d.draws;
+    drawn->valid = (double)d.valid / (double)d.looked;
     drawn->dark /= 3.0 * (double)pairs;
     drawn->cut /= 3.0 * (double)pairs;
     return 1;
@@ -97,7 +121,7 @@ int hnbrdf_fit_pool_draw(const fit_pool *pool, int at, hnbrdf_fit_drawn *drawn)
 
 static void draw_next(const fit_pool *pool, fit_source *source, float *tile)
 {
-    drawing d = {.rng = source->rng, .most = -1}; /* it ended before, and does now */
+    drawing d = {.rng = source->rng, .most = LONG_MAX}; /* it ended before, and does now */
     draw_tile(pool, source, source->next, &d, tile);
     source->rng = d.rng;
     source->next++;

@@ -34,7 +34,7 @@ typedef struct fit_pool {
     float *data; /* [kept][tiles][FIT_POOL_TILE] */
     int kept;    /* of the materials held, the first ones */
     int tiles;   /* per material */
-    float uniform_share;
+    float bright_share, uniform_share;
     uint64_t seed;
     hnbrdf_encoding encoding;
     fit_source *sources; /* [held] */
@@ -48,7 +48,8 @@ fit_tile hnbrdf_fit_tile_view(const float *tile);
 /* The same of a material that is kept. */
 fit_tile hnbrdf_fit_pool_view(const fit_pool *pool, int at, int tile);
 
-/* Draw all tiles of material `at` of those held, uniform_share of the pairs by the uniform sampler;
+/* Draw all tiles of material `at` of those held, bright_share of the pairs where it is bright,
+ * uniform_share of the others by the uniform sampler;
  * depends on (seed, sequence) only. 0 if less than 1 % of the drawn pairs were valid
  * measurements, 1 otherwise. drawn says what was found. */
 int hnbrdf_fit_pool_draw(const fit_pool *pool, int at, hnbrdf_fit_drawn *drawn);

@@ -97,7 +97,8 @@ static hnbrdf_result fit_lobes(trainer *t, hnbrdf_model_desc *desc, hnbrdf_mater
 
 /* ---- The model ------------------------------------------------------------------------------- */
 
-hnbrdf_result hnbrdf_fit_result(trainer *t, hnbrdf_model **model, hnbrdf_error *error)
+hnbrdf_result hnbrdf_fit_result(trainer *t, hnbrdf_model **model, hnbrdf_fit_report *report,
+                                hnbrdf_error *error)
 {
     const fit_layout *l = &t->layout;
     size_t h = (size_t)l->hidden_size, in = FIT_INPUTS + (size_t)l->latent_size;
@@ -106,7 +107,7 @@ hnbrdf_result hnbrdf_fit_result(trainer *t, hnbrdf_model **model, hnbrdf_error *
     size_t count = (size_t)before + (size_t)t->count;
     hnbrdf_model_desc desc = {0};
     float *weights = malloc(sizeof(float) * (numbers + 1));
-    hnbrdf_material *materials = calloc(count, sizeof *materials);
+    hnbrdf_material *materials = calloc(count + (size_t)t->count, sizeof *materials);
     const char **names = calloc(count, sizeof *names);
     hnbrdf_result result = HNBRDF_ERROR_MEMORY;
     if (!weights || !materials || !names) {
@@ -116,6 +117,9 @@ hnbrdf_result hnbrdf_fit_result(trainer *t, hnbrdf_model **model, hnbrdf_error *
             hnbrdf_model_describe(t->options.freeze, &desc);
         else if (l->kind != HNBRDF_KIND_GGX)
             describe_network(t, weights, &desc);
+        hnbrdf_material *ggx = materials + count;
+        for (int m = 0; m < t->count; m++)
+            ggx[m] = t->found[m].material;
         settle_materials(t);
         int kept = 0; /* a new material takes the place of a known one of its name */
         for (int m = 0; m < t->count; m++) {
@@ -135,7 +139,9 @@ hnbrdf_result hnbrdf_fit_result(trainer *t, hnbrdf_model **model, hnbrdf_error *
         desc.material_count = t->count + kept;
         desc.materials = materials;
         desc.names = names;
-        result = fit_lobes(t, &desc, materials, model, error);
+        result = hnbrdf_fit_leave_alone(t, &desc, ggx, materials, report, error);
+        if (!result)
+            result = fit_lobes(t, &desc, materials, model, error);
     }
     free(weights);
     free(materials);

@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "fit/adam.h"
 #include "fit/ggx.h"
+#include "fit/switch.h"
 
 #include <math.h>
 #include <string.h>
@@ -84,7 +85,8 @@ static double loss_of_code(trainer *t, int material, const float *const *tiles, 
     return loss;
 }
 
-/* The code, of those of the known materials, that describes a material best. */
+/* The code, of those of the known materials, that describes a material best. One that turns the
+ * network off leads nowhere: its derivative is 0. */
 static void take_code(trainer *t, int material)
 {
     const size_t size = (size_t)t->layout.latent_size;
@@ -93,10 +95,14 @@ static void take_code(trainer *t, int material)
     const float *tiles[CODE_TILES];
     int count = t->pool.tiles < CODE_TILES ? t->pool.tiles : CODE_TILES, best = 0;
     double least = INFINITY;
+    hnbrdf_model_desc network;
+    hnbrdf_model_describe(t->options.freeze, &network);
     for (int k = 0; k < count; k++)
         tiles[k] = hnbrdf_fit_pool_fetch(&t->pool, t->at[material], k, room[k]);
     for (int k = 0; k < hnbrdf_model_material_count(t->options.freeze); k++) {
         memcpy(code, hnbrdf_model_material(t->options.freeze, k)->latent, sizeof(float) * size);
+        if (hnbrdf_fit_switch_is_on(&network, code))
+            continue;
         double loss = loss_of_code(t, material, tiles, count);
         if (loss < least) {
             least = loss;
@@ -182,6 +188,8 @@ static hnbrdf_result start(trainer *t, hnbrdf_error *error)
         result = take_codes(t, error);
     } else {
         initialise(t);
+        if (hnbrdf_fit_switch_fits(&t->layout))
+            hnbrdf_fit_switch_reserve(&t->layout, t->parameters);
     }
     if (!result)
         result = hnbrdf_fit_supply_make(t, error);
@@ -271,6 +279,8 @@ hnbrdf_result hnbrdf_fit_train(trainer *t, hnbrdf_fit_report *report, hnbrdf_err
         return result;
     double elapsed = hnbrdf_fit_stage_seconds(t);
     hnbrdf_fit_judge_end(t, report);
+    if (!t->options.freeze && hnbrdf_fit_switch_fits(&t->layout))
+        hnbrdf_fit_switch_install(&t->layout, t->parameters);
     if (t->lost)
         return hnbrdf_fit_fail_lost(t, error);
     report->pairs_per_s = elapsed > 0.0 ? pairs / elapsed : 0.0;

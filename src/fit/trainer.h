@@ -152,6 +152,14 @@ hnbrdf_result hnbrdf_fit_checkpoint_save(const trainer *t, hnbrdf_error *error);
 hnbrdf_result hnbrdf_fit_checkpoint_load(trainer *t, hnbrdf_error *error);
 
 /* The model of what was found and trained, with lobes. */
-hnbrdf_result hnbrdf_fit_result(trainer *t, hnbrdf_model **model, hnbrdf_error *error);
+hnbrdf_result hnbrdf_fit_result(trainer *t, hnbrdf_model **model, hnbrdf_fit_report *report,
+                                hnbrdf_error *error);
+
+/* alone.c: of the materials [count] of a hybrid as desc has it, gives those that are worse than
+ * `ggx` [count] its parameters and the code that turns the network off. Fills options.worth and the
+ * counts of the report. */
+hnbrdf_result hnbrdf_fit_leave_alone(trainer *t, const hnbrdf_model_desc *desc,
+                                     const hnbrdf_material *ggx, hnbrdf_material *materials,
+                                     hnbrdf_fit_report *report, hnbrdf_error *error);
 
 #endif
