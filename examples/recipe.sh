@@ -22,8 +22,13 @@ options() {
     loss-log) echo "--steps $steps --loss log" ;;
     schedule-linear) echo "--steps $steps --schedule linear" ;;
     schedule-constant) echo "--steps $steps --schedule constant" ;;
-    uniform-share-0) echo "--steps $steps --uniform-share 0" ;;
-    uniform-share-1) echo "--steps $steps --uniform-share 1" ;;
+    uniform-share-*) echo "--steps $steps --uniform-share ${1#uniform-share-}" ;;
+    bright-share-*) echo "--steps $steps --bright-share ${1#bright-share-}" ;;
+    lift-*) echo "--steps $steps --lift ${1#lift-}" ;;
+    before) echo "--steps $steps --bright-share 0 --lift 0 --uniform-share 0.5" ;;
+    neural) echo "--steps $steps --kind neural" ;;
+    neural-before) echo "--steps $steps --kind neural --bright-share 0 --uniform-share 0.5" ;;
+    latent-*) echo "--steps $steps --latent ${1#latent-}" ;;
     batch-8192) echo "--steps $((steps / 4)) --batch 8192" ;;
     batch-1024) echo "--steps $((steps * 2)) --batch 1024" ;;
     rate-*) echo "--steps $steps --rate ${1#rate-}" ;;
@@ -33,7 +38,7 @@ options() {
     *) echo "recipe.sh: no change is called $1" >&2 && exit 2 ;;
     esac
 }
-changes=${CHANGES:-loss-smape loss-log schedule-linear schedule-constant uniform-share-0 uniform-share-1 batch-1024
+changes=${CHANGES:-before bright-share-0 lift-0 loss-smape loss-log schedule-linear schedule-constant uniform-share-0 uniform-share-1 batch-1024
     batch-8192 rate-0.01 rate-0.03 rate-0.1 floor-0 joint angles angles-directed}
 
 # mean_of FILE: the error in the last row of a CSV of `compare`, named mean.
@@ -50,7 +55,7 @@ measure() {
         $hnbrdf compare "$work/m.safetensors" $2 --sampler uniform --pairs "$pairs" --csv "$work/uniform.csv"
         $hnbrdf sheet "$work/m.safetensors" $2 --size "$size" -o "$work/sheet.png"
     } > "$work/log"
-    psnr=$(awk '/PSNR/ { reading = 1; next } reading && NF >= 5 && $NF + 0 > 0 { sum += $NF; n++ }
+    psnr=$(awk '/PSNR/ { reading = 1; next } reading && NF >= 3 && $NF + 0 > 0 { sum += $NF; n++ }
                 END { print sum / n }' "$work/log")
     echo "$(mean_of "$work/grid.csv") $(mean_of "$work/uniform.csv") $psnr $(mean_of "$work/grid.csv" 3)"
 }
