@@ -74,9 +74,10 @@ _fit_times = _structure("hnbrdf_fit_times", *((name, _D) for name in (
     "drawing", "ggx", "encoding", "network", "update", "exchange", "waiting")))
 _fit_report = _structure(
     "hnbrdf_fit_report", ("final_loss", _D), ("seconds", _D), ("pairs_per_s", _D),
-    ("steps", c.c_long), ("stopped", _I), ("pairs", _D), ("flops", _D), ("times", _fit_times),
-    ("threads", _I), ("instructions", _S), ("set_backs", _I), ("rate", _D), ("best_step", c.c_long),
-    ("ggx_alone", _I), ("left_alone", _I), ("worse", _I), ("best_loss", _D), ("ggx_loss", _D))
+    ("steps", c.c_long), ("stopped", _I), ("pairs", _D), ("ranks", _I), ("flops", _D),
+    ("times", _fit_times), ("threads", _I), ("instructions", _S), ("set_backs", _I), ("rate", _D),
+    ("best_step", c.c_long), ("ggx_alone", _I), ("left_alone", _I), ("worse", _I), ("best_loss", _D),
+    ("ggx_loss", _D))
 _comparison = _structure("hnbrdf_comparison", ("smape", _D), ("smape_analytic", _D), ("mae", _D),
                          ("mse", _D), ("pairs", _Z))
 
