@@ -120,7 +120,7 @@ static void styles_and_kinds_equal_c(void **state)
     case GL_DIALECT_ES_300: /* mediump */
         holds(&UNEVEN, &(hnbrdf_glsl_options){.precision = HNBRDF_GLSL_HALF});
         break;
-    default:
+    default: /* smaller than the hybrids, as ES 320 is GL 450 with other words */
         holds(&NEURAL, &(hnbrdf_glsl_options){0});
     }
 }
@@ -155,6 +155,8 @@ static void load(gl_verifier *verifier, const hnbrdf_model *model,
 static void weights_are_exchanged_in_a_program(void **state)
 {
     (void)state;
+    if (context.dialect == GL_DIALECT_ES_320) /* what GL 450 and ES 300 have between them */
+        skip();
     const hnbrdf_glsl_options options = {.weights = HNBRDF_GLSL_UNIFORM, .standalone = 1};
     hnbrdf_model *model = scene_model(&UNEVEN), *other = NULL;
     hnbrdf_model_desc desc;
