@@ -7,6 +7,9 @@ add_test(NAME test_doxygen COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/test_doxygen.s
   ${PROJECT_SOURCE_DIR})
 set_tests_properties(test_doxygen PROPERTIES SKIP_RETURN_CODE 77)
 
+add_test(NAME test_first_use COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/first_use.sh --smoke)
+set_tests_properties(test_first_use PROPERTIES SKIP_RETURN_CODE 77)
+
 add_test(NAME test_shipped_model COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/test_shipped_model.sh
   ${PROJECT_SOURCE_DIR}/examples/models/rgl_32x2.safetensors)
 

@@ -41,4 +41,15 @@ hnbrdf_cli_test(test_sheet_cli)
 # Some examples write OpenEXR and draw meshes.
 if(HNBRDF_WITH_OPENEXR AND HNBRDF_WITH_EMBREE)
   hnbrdf_cli_test(test_help_examples ${PROJECT_SOURCE_DIR})
+hnbrdf_cli_test(test_pages ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR} ${CMAKE_C_COMPILER})
+endif()
+# The path tracer of examples/path-tracer.md against ours.
+if(HNBRDF_BUILD_EXAMPLES)
+  hnbrdf_program(picture_noise picture_noise.c)
+  target_link_libraries(hnbrdf_picture_noise PRIVATE hnbrdf_image)
+  add_test(NAME test_path_tracer COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/test_path_tracer.sh
+    ${PROJECT_SOURCE_DIR} $<TARGET_FILE:hnbrdf_cli>
+    $<TARGET_FILE_DIR:hnbrdf_example_path_tracer> $<TARGET_FILE:hnbrdf_picture_noise>
+    ${CMAKE_CURRENT_BINARY_DIR}/path_tracer)
+  set_tests_properties(test_path_tracer PROPERTIES SKIP_RETURN_CODE 77)
 endif()
