@@ -41,6 +41,9 @@ mkdir -p build "$out"
 }
 hnbrdf=build/hnbrdf
 
+say "A first picture, of a material of the shipped model"
+run $hnbrdf render examples/models/rgl_32x2.safetensors --material vch_silk_blue --size 256 --spp 32 -o $out/first.png
+
 say "Fitting: GGX alone, then a hybrid with one 32x2 network for all materials"
 run $hnbrdf fit "$@" --kind ggx -o $out/ggx.safetensors
 run $hnbrdf fit "$@" --net 32x2 --latent 4 --encoding half-difference --seconds "$seconds" -o $out/hybrid.safetensors
@@ -83,6 +86,7 @@ sed -n 's/.*"name": "\([^"]*\)".*/\1/p; s/.*"ns_per_evaluation": \([0-9.]*\).*/ 
 cat << END
 
 Done in $(($(date +%s) - start)) s. To look at, in $out/:
+  first.png           a material of the shipped model
   sheet.png           every material: measurement, GGX alone, hybrid
   $first.png, .exr
   scene.glsl          the network and the materials, to include after shaders/hybrid_brdf.glsl

@@ -29,7 +29,7 @@ timed() { # NAME COMMAND...
 try_c() {
     { snippet c 1 | grep '^#'; echo 'int main(void) {'; snippet c 1 | grep -v '^#'; echo 'return 0; }'; } > /tmp/use.c
     # shellcheck disable=SC2046 # words
-    cmake --install build && gcc /tmp/use.c $(pkg-config --cflags --libs hnbrdf) -Wl,-rpath,/usr/local/lib -o /tmp/use && /tmp/use
+    cmake --install build && ldconfig && gcc /tmp/use.c $(pkg-config --cflags --libs hnbrdf) -o /tmp/use && /tmp/use
 }
 try_glsl() {
     build/hnbrdf export examples/models/rgl_32x2.safetensors --materials vch_silk_blue -o /tmp/scene.glsl
