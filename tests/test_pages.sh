@@ -62,20 +62,29 @@ END
     [ "$how" = -fsyntax-only ] || (cd "$SOURCES" && "$SCRATCH/whole") >out 2>err || fail "$at: does not run"
 }
 
-# Statements go into main(), beside what a shader has.
+# Statements go into main(), beside what a shader has; uniforms stay outside.
 try_glsl() {
     command -v glslangValidator >/dev/null || { skipped=$((skipped + 1)) && return; }
+    [ -f here/scene.glsl ] && ! grep -q hnbrdf_material_unpack "$1" ||
+        (cd here && hnbrdf export examples/models/rgl_32x2.safetensors --pack half -o scene.glsl) >out 2>err || fail "$at: export"
+    grep '^#include' "$1" >includes || printf '#include "hybrid_brdf.glsl"\n#include "scene.glsl"\n' >includes
     {
         printf '#version 450\n#extension GL_GOOGLE_include_directive : require\n'
-        grep '^#' "$1" || printf '#include "hybrid_brdf.glsl"\n#include "scene.glsl"\n'
-        printf 'layout(location = 0) out vec4 colour;\nlayout(location = 0) in vec3 l;\nlayout(location = 1) in vec3 v;\n'
-        printf 'layout(location = 2) in vec3 t;\nlayout(location = 3) in vec3 b;\nlayout(location = 4) in vec3 n;\n'
-        printf 'layout(location = 5) in vec3 wi;\nlayout(location = 6) in vec3 wo;\nlayout(location = 7) in vec3 light;\n'
-        printf 'void main() {\n'
-        grep -v '^#' "$1"
-        printf '}\n'
+        cat includes
+        grep '^uniform' "$1"
+        printf 'layout(location = 0) out vec4 colour;\nlayout(location = 0) in vec2 uv;\n'
+        k=1
+        for name in l v t b n wi wo light to_light to_viewer; do
+            echo "layout(location = $k) in vec3 $name;"
+            k=$((k + 1))
+        done
+        echo 'void main() {'
+        ! grep -q scene.glsl includes || echo 'hnbrdf_material m = hnbrdf_scene_material(0);'
+        echo '{'
+        grep -v '^#\|^uniform' "$1"
+        printf '}\n}\n'
     } >shader.frag
-    glslangValidator -V -I"$SOURCES/shaders" -Ihere -o shader.spv shader.frag >out 2>err || fail "$at: does not compile"
+    glslangValidator -V --auto-map-bindings -o shader.spv -I"$SOURCES/shaders" -Ihere shader.frag >out 2>err || fail "$at: does not compile"
 }
 
 try_hlsl() {
@@ -103,8 +112,8 @@ begin_page() {
     rm here/examples
     mkdir here/examples
     cp -r "$SOURCES/examples/models" "$SOURCES"/examples/*.scene here/examples
-    (cd here && for name in gold silk; do hnbrdf export model.safetensors --prefix $name -o $name.glsl || exit; done &&
-        hnbrdf export examples/models/rgl_32x2.safetensors -o scene.glsl) >out 2>err || fail "the files that pages name"
+    (cd here && for name in gold silk; do hnbrdf export model.safetensors --prefix $name -o $name.glsl || exit; done) \
+        >out 2>err || fail "the files that pages name"
 }
 
 seen=0 left=0 skipped=0 page=

@@ -59,8 +59,8 @@ def _open(part: str) -> c.CDLL:
     chosen = _folder or os.environ.get("HNBRDF_LIBRARY_PATH")
     here = pathlib.Path(__file__).resolve().parent
     folders = [pathlib.Path(chosen)] if chosen else [here, here / "../../../build"]
-    name = {"darwin": f"lib{part}.0.2.dylib", "win32": f"lib{part}.dll"}.get(
-        sys.platform, f"lib{part}.so.0.2")
+    name = {"darwin": f"lib{part}.{INTERFACE}.dylib", "win32": f"lib{part}.dll"}.get(
+        sys.platform, f"lib{part}.so.{INTERFACE}")
     for folder in folders:
         if (folder / name).exists():
             return c.CDLL(str(folder / name))
