@@ -11,6 +11,7 @@ sh tests/run.sh*|-|runs this test
 sh examples/bench.sh*|-|minutes; test_bench runs the command
 *sh examples/room.sh*|-|minutes; test_scene_cli renders the room
 build/examples/path_tracer*|-|minutes of this size; test_path_tracer runs it
+my_engine *|-|the program of the reader
 npm *|-|needs the network; test_web* run the pages
 fit *--kind ggx*|--pool 64|training takes a minute
 fit *--seconds*|-|trains for as long as it says

@@ -9,6 +9,7 @@ SOURCES=$3 BUILD=$4 CC=$5
 
 # LANGUAGE|REASON
 cat >untried <<'END'
+cmake|lines of a project that has the package installed; test_install and test_guest build such projects
 cpp|MSL; no compiler for Metal is here, test_language_run runs such a text as C++
 js|WGSL and pages; test_web* show them in a browser
 ts|likewise
@@ -65,6 +66,8 @@ END
 # Statements go into main(), beside what a shader has; uniforms stay outside.
 try_glsl() {
     command -v glslangValidator >/dev/null || { skipped=$((skipped + 1)) && return; }
+    # A whole one, which reads what `verify --hand-out` writes: the tests of that option run such a shader.
+    ! grep -q '^#version' "$1" || { left=$((left + 1)) && return; }
     [ -f here/scene.glsl ] && ! grep -q hnbrdf_material_unpack "$1" ||
         (cd here && hnbrdf export examples/models/rgl_32x2.safetensors --pack half -o scene.glsl) >out 2>err || fail "$at: export"
     grep '^#include' "$1" >includes || printf '#include "hybrid_brdf.glsl"\n#include "scene.glsl"\n' >includes
