@@ -23,13 +23,14 @@ hnbrdf_room(model check_name.c choose_kernel.c create.c)
 hnbrdf_room(file
   decode.c load.c numbers.c safetensors.c save.c)
 hnbrdf_room(import
-  brdf_network.c brdf_parameters.c brdf_text.c import_brdf.c published_name.c)
+  brdf_heading.c brdf_network.c brdf_parameters.c brdf_text.c import_brdf.c published_name.c)
 hnbrdf_room(glsl
-  export_evaluate.c export_filter.c export_glsl.c export_input.c export_language.c export_library.c
-  export_loops.c export_material.c export_network.c export_scene.c export_unpack.c export_weights.c
-  half.c macro_names.c names.c vector.c)
+  export_brdf.c export_evaluate.c export_filter.c export_glsl.c export_input.c export_language.c
+  export_library.c export_loops.c export_material.c export_network.c export_scene.c
+  export_unpack.c export_weights.c half.c macro_names.c names.c published.c vector.c)
 hnbrdf_room(language
-  builtin.c c_like.c condition.c hlsl.c macro.c msl.c parse.c parse_expression.c parse_statement.c
+  builtin.c c_like.c condition.c glsl_plain.c hlsl.c macro.c msl.c parse.c parse_expression.c
+  parse_statement.c
   parse_tokens.c preprocess.c print.c print_expression.c print_statement.c token.c translate.c
   translation.c type.c wgsl.c wgsl_expression.c wgsl_statement.c)
 hnbrdf_room(lobes

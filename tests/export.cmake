@@ -7,8 +7,8 @@ add_test(NAME test_glsl_prefix_texts COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/test
   $<TARGET_FILE:hnbrdf_cli> $<TARGET_FILE:hnbrdf_glsl_scenes> ${PROJECT_SOURCE_DIR}/shaders)
 set_tests_properties(test_glsl_prefix_texts PROPERTIES SKIP_RETURN_CODE 77)
 if(HNBRDF_WITH_VULKAN)
-  foreach(name unpack sample strip prefix world)
-    hnbrdf_test(test_glsl_${name} test_glsl_${name}.c gpu_run.c gpu_support.c)
+  foreach(name brdf unpack sample strip prefix world)
+    hnbrdf_test(test_glsl_${name} test_glsl_${name}.c core_support.c gpu_run.c gpu_support.c)
     target_link_libraries(hnbrdf_test_glsl_${name} PRIVATE hnbrdf_gpu ${CMAKE_DL_LIBS})
   endforeach()
   hnbrdf_test(test_glsl_sampling_density test_glsl_sampling_density.c sampling_statistics.c

@@ -1,5 +1,6 @@
 # GLSL export and the Vulkan harness.
 hnbrdf_test(test_glsl_export test_glsl_export.c gpu_support.c)
+hnbrdf_test(test_export_brdf test_export_brdf.c core_support.c gpu_support.c)
 hnbrdf_test(test_macro_names test_macro_names.c core_support.c)
 
 hnbrdf_program(glsl_scenes glsl_scenes.c gpu_support.c)

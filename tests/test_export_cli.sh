@@ -80,4 +80,26 @@ status 2 "$hnbrdf" export "$model" --exact -o "$work/z.glsl"
 status 2 "$hnbrdf" export "$model" --library -o "$work/z.glsl"
 status 2 "$hnbrdf" export "$model" --language cg -o "$work/z.glsl"
 [ -e "$work/z.glsl" ] && fail "a refused export leaves a file"
+
+# --language brdf: read back, the same values; and GLSL as programs for such files put it together, with every
+# line gone that begins with '#'.
+status 0 "$hnbrdf" export "$shipped" -m vch_silk_blue --language brdf -o "$work/vch_silk_blue.brdf"
+status 0 "$hnbrdf" import "$work/vch_silk_blue.brdf" -o "$work/again.safetensors"
+printf '%s\n' 0.3,0.1,0.9,-0.2,0.3,0.8 0,0,1,0.6,0,0.8 >"$work/pairs"
+"$hnbrdf" eval "$shipped" -m vch_silk_blue -i "$work/pairs" -o "$work/f" >/dev/null
+"$hnbrdf" eval "$work/again.safetensors" -i "$work/pairs" -o "$work/f_again" >/dev/null
+cmp -s "$work/f" "$work/f_again" || fail "a written .brdf file has other values"
+status 1 "$hnbrdf" export "$shipped" --language brdf -o "$work/z.glsl"
+grep -q "expected one: a .brdf file holds one" "$work/err" || fail "several materials in a .brdf file"
+if command -v glslangValidator >/dev/null; then
+    for version in 410 '300 es'; do
+        {
+            printf '#version %s\nprecision highp float;\nin vec3 L;\nin vec3 V;\nout vec4 colour;\n' "$version"
+            sed -n 's/^float \([a-z_0-9]*\) .*/uniform float \1;/p' "$work/vch_silk_blue.brdf"
+            sed -n '/^::begin shader/,/^::end shader/p' "$work/vch_silk_blue.brdf" | grep -v -e '^ *#' -e '^::'
+            echo 'void main() { colour = vec4(BRDF(L, V, vec3(0, 0, 1), vec3(1, 0, 0), vec3(0, 1, 0)), 1); }'
+        } >"$work/x.frag"
+        glslangValidator "$work/x.frag" >"$work/out" || { cat "$work/out"; fail "$version: a .brdf file does not compile"; }
+    done
+fi
 echo ok

@@ -71,10 +71,15 @@ typedef enum hnbrdf_shading_language {
     /* WebGPU. A function of several forms has a name for each: the first form its own, others end
      * in the types in which they differ */
     HNBRDF_LANGUAGE_WGSL,
-    HNBRDF_LANGUAGE_SLANG
+    HNBRDF_LANGUAGE_SLANG,
+    /* one material as a .brdf file of BRDF Explorer, whose sliders edit it, without a line that
+     * begins with '#': such programs pass those over. hnbrdf_model_import_brdf() gives the same
+     * model back. Single precision, and none of fixed, packing, energy, library */
+    HNBRDF_LANGUAGE_BRDF
 } hnbrdf_shading_language;
 
-/* "glsl", "hlsl", "msl", "wgsl", "slang": also the ending of files; NULL for any other value. */
+/* "glsl", "hlsl", "msl", "wgsl", "slang", "brdf": also the ending of files; NULL for any other
+ * value. */
 HNBRDF_EXPERIMENTAL const char *hnbrdf_shading_language_name(hnbrdf_shading_language language);
 /* The way back: 1 and *language, or 0 for any other name, and then it is untouched. */
 HNBRDF_EXPERIMENTAL int hnbrdf_shading_language_from_name(const char *name,

@@ -332,7 +332,9 @@ typedef struct hnbrdf_import_options {
  * the same network, which is checked. names[i] becomes the material's name. 1 to
  * HNBRDF_MAX_MATERIALS texts of any size; memory depends on their number alone. options may be
  * NULL. A diffuse colour or an alpha above 1 by at most 0.01 becomes 1, an alpha below
- * HNBRDF_MIN_ALPHA becomes that, an eta of 1 the next float above. */
+ * HNBRDF_MIN_ALPHA becomes that, an eta of 1 the next float above. Files that hnbrdf wrote
+ * (HNBRDF_LANGUAGE_BRDF in glsl.h) say in their heading what the published ones all are: the kind,
+ * the encoding, s, m, b, what the material was fitted with, its lobes. */
 HNBRDF_API hnbrdf_result hnbrdf_model_import_brdf(const char *const *texts, const size_t *sizes,
                                                   const char *const *names, int count,
                                                   const hnbrdf_import_options *options,

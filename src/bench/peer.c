@@ -3,6 +3,8 @@
  * out as they stand. */
 #include "bench/bench.h"
 #include "base/text_buffer.h"
+#include "core/model.h"
+#include "glsl/published.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -84,144 +86,78 @@ static hnbrdf_material rounded_material(const hnbrdf_material *m)
     return made;
 }
 
-static void put_thousandths(hnbrdf_text_buffer *text, float value)
-{
-    long thousandths = lround(1000.0 * (double)value);
-    hnbrdf_text_buffer_print(text, "%s%ld.%03ld", thousandths < 0 ? "-" : "",
-                             labs(thousandths) / 1000, labs(thousandths) % 1000);
-}
+/* ---- The text -------------------------------------------------------------------------------- */
 
-static void put_numbers(hnbrdf_text_buffer *text, const char *type, const float *values, int count,
-                        int given)
-{
-    hnbrdf_text_buffer_print(text, "%s(", type);
-    for (int k = 0; k < count; k++) {
-        hnbrdf_text_buffer_print(text, "%s", k ? ", " : "");
-        put_thousandths(text, k < given ? values[k] : 0.0f);
-    }
-    hnbrdf_text_buffer_print(text, ")");
-}
-
-/* ---- The network ----------------------------------------------------------------------------- */
-
-static int inputs_of(const hnbrdf_model_desc *desc, int layer)
-{
-    return layer == 0 ? 6 + desc->latent : desc->hidden;
-}
-
-static int outputs_of(const hnbrdf_model_desc *desc, int layer)
-{
-    return layer == desc->layers ? 6 : desc->hidden;
-}
-
-/* mat4(...) * fL_B: `rows` rows from `row` on, four columns or what is left of them; column by
- * column. */
-static void put_product(hnbrdf_text_buffer *text, const hnbrdf_model_desc *desc, int layer, int row,
-                        int rows, int block)
-{
-    int inputs = inputs_of(desc, layer), columns = inputs - 4 * block;
-    columns = columns < 4 ? columns : 4;
-    if (columns == 1)
-        hnbrdf_text_buffer_print(text, "vec%d(", rows);
-    else if (columns == 4 && rows == 4)
-        hnbrdf_text_buffer_print(text, "mat4(");
-    else
-        hnbrdf_text_buffer_print(text, "mat%dx%d(", columns, rows);
-    for (int k = 0; k < rows * columns; k++) {
-        hnbrdf_text_buffer_print(text, "%s", k ? ", " : "");
-        put_thousandths(text,
-                        desc->weights[layer][(row + k % rows) * inputs + 4 * block + k / rows]);
-    }
-    hnbrdf_text_buffer_print(text, ") * f%d_%d + ", layer, block);
-}
-
-static void put_rows(hnbrdf_text_buffer *text, const hnbrdf_model_desc *desc, int layer, int row,
-                     int rows)
-{
-    int hidden = layer < desc->layers;
-    char type[8];
-    snprintf(type, sizeof type, "vec%d", rows);
-    hnbrdf_text_buffer_print(text, "    %s f%d_%d = %s", type, layer + 1, row / 4,
-                             hidden ? "hardGeLU(" : "");
-    for (int block = 0; 4 * block < inputs_of(desc, layer); block++)
-        put_product(text, desc, layer, row, rows, block);
-    put_numbers(text, type, desc->biases[layer] + row, rows, rows);
-    hnbrdf_text_buffer_print(text, "%s", hidden ? ");\n" : ";\n");
-}
-
-/* The inputs in blocks of four: wi, wo, then the latent code. */
-static void put_inputs(hnbrdf_text_buffer *text, const hnbrdf_model_desc *desc)
+/* wi, wo, then the latent code. */
+static void put_input(hnbrdf_printer *out, const hnbrdf_model_desc *desc, int i)
 {
     static const char *const directions[] = {"wi.x", "wi.y", "wi.z", "wo.x", "wo.y", "wo.z"};
-    int count = inputs_of(desc, 0);
-    for (int k = 0; k < count; k++) {
-        int left = count - k < 4 ? count - k : 4;
-        if (k % 4 == 0 && left > 1)
-            hnbrdf_text_buffer_print(text, "    vec%d f0_%d = vec%d(", left, k / 4, left);
-        else if (k % 4 == 0)
-            hnbrdf_text_buffer_print(text, "    float f0_%d = (", k / 4);
-        if (k < 6)
-            hnbrdf_text_buffer_print(text, "%s", directions[k]);
-        else
-            hnbrdf_text_buffer_print(text, "m.latent%d.%c", (k - 6) / 4, "xyzw"[(k - 6) % 4]);
-        hnbrdf_text_buffer_print(text, "%s", k % 4 == 3 || k + 1 == count ? ");\n" : ", ");
-    }
+    (void)desc;
+    if (i < HNBRDF_ENCODING_SIZE)
+        hnbrdf_put(out, "%s", directions[i]);
+    else
+        hnbrdf_put(out, "m.latent%d.%c", (i - 6) / 4, "xyzw"[(i - 6) % 4]);
 }
 
-static void put_network(hnbrdf_text_buffer *text, const hnbrdf_model_desc *desc)
+static void put_network(hnbrdf_printer *out, const hnbrdf_model_desc *desc)
 {
     int last = desc->layers + 1;
-    hnbrdf_text_buffer_print(
-        text, "void hnbrdf_network(hnbrdf_material m, vec3 wi, vec3 wo, out vec3 c, out vec3 "
-              "g)\n{\n");
-    put_inputs(text, desc);
-    for (int layer = 0; layer <= desc->layers; layer++)
-        for (int row = 0; row < outputs_of(desc, layer); row += 4)
-            put_rows(text, desc, layer, row, outputs_of(desc, layer) - row < 4 ? 2 : 4);
-    hnbrdf_text_buffer_print(text, "    c = f%d_0.xyz;\n    g = vec3(f%d_0.w, f%d_1);\n}\n\n", last,
-                             last, last);
+    hnbrdf_put(out, "void hnbrdf_network(hnbrdf_material m, vec3 wi, vec3 wo, out vec3 c, out vec3 "
+                    "g)\n{\n");
+    hnbrdf_put_published_network(out, desc, put_input);
+    hnbrdf_put(out, "    c = f%d_0.xyz;\n    g = vec3(f%d_0.w, f%d_1);\n}\n\n", last, last, last);
 }
 
-/* ---- The whole ------------------------------------------------------------------------------- */
-
-static void put_materials(hnbrdf_text_buffer *text, const hnbrdf_model_desc *desc, int materials)
+static void put_materials(hnbrdf_printer *out, const hnbrdf_model_desc *desc, int materials)
 {
     int vectors = (desc->latent + 3) / 4;
-    hnbrdf_text_buffer_print(text, "struct hnbrdf_material { vec3 kd; vec3 eta; float alpha;");
+    hnbrdf_put(out, "struct hnbrdf_material { vec3 kd; vec3 eta; float alpha;");
     for (int v = 0; v < vectors; v++)
-        hnbrdf_text_buffer_print(text, " vec4 latent%d;", v);
-    hnbrdf_text_buffer_print(text, " };\n\nhnbrdf_material hnbrdf_scene_material(int index)\n{\n");
+        hnbrdf_put(out, " vec4 latent%d;", v);
+    hnbrdf_put(out, " };\n\nhnbrdf_material hnbrdf_scene_material(int index)\n{\n");
     for (int k = 0; k < materials; k++) {
-        const hnbrdf_material m = rounded_material(&desc->materials[k]);
+        const hnbrdf_material *m = &desc->materials[k];
         if (k + 1 < materials)
-            hnbrdf_text_buffer_print(text, "    if (index == %d)\n    ", k);
-        hnbrdf_text_buffer_print(text, "    return hnbrdf_material(");
-        put_numbers(text, "vec3", m.kd, 3, 3);
-        put_numbers(text, ", vec3", m.eta, 3, 3);
-        put_numbers(text, ", float", m.alpha, 1, 1);
-        for (int v = 0; v < vectors; v++)
-            put_numbers(text, ", vec4", m.latent + 4 * v, 4, desc->latent - 4 * v);
-        hnbrdf_text_buffer_print(text, ");\n");
+            hnbrdf_put(out, "    if (index == %d)\n    ", k);
+        hnbrdf_put(out, "    return hnbrdf_material(");
+        hnbrdf_put_vector(out, 3, m->kd, 3);
+        hnbrdf_put(out, ", ");
+        hnbrdf_put_vector(out, 3, m->eta, 3);
+        hnbrdf_put(out, ", ");
+        hnbrdf_put_float(out, m->alpha[0]);
+        for (int v = 0; v < vectors; v++) {
+            hnbrdf_put(out, ", ");
+            hnbrdf_put_vector(out, 4, m->latent + 4 * v, desc->latent - 4 * v);
+        }
+        hnbrdf_put(out, ");\n");
     }
-    hnbrdf_text_buffer_print(text, "}\n\n");
+    hnbrdf_put(out, "}\n\n");
 }
 
 char *bench_peer_shader(const hnbrdf_model_desc *desc, int materials)
 {
     hnbrdf_text_buffer text = {0};
-    hnbrdf_text_buffer_print(&text, "#define HNBRDF_SCENE_HYBRID\n");
-    put_materials(&text, desc, materials);
-    hnbrdf_text_buffer_append(&text, formulas, strlen(formulas));
-    put_network(&text, desc);
-    hnbrdf_text_buffer_append(&text, evaluation, strlen(evaluation));
-    hnbrdf_text_buffer_print(&text, "    neural_output = exp(");
-    put_thousandths(&text, desc->scale);
-    hnbrdf_text_buffer_print(&text, " * neural_output + ");
-    put_thousandths(&text, desc->shift);
-    hnbrdf_text_buffer_print(
-        &text, ");\n    return neural_output + microfacet(m, wi, wo) / (1.0 + exp(-gate));\n}\n");
+    hnbrdf_printer out = {.write = hnbrdf_text_buffer_append, .user = &text};
+    hnbrdf_model *peer = bench_peer_model(desc);
+    if (!peer)
+        return NULL;
+    hnbrdf_put(&out, "#define HNBRDF_SCENE_HYBRID\n");
+    put_materials(&out, &peer->desc, materials);
+    hnbrdf_put_bytes(&out, formulas, strlen(formulas));
+    put_network(&out, &peer->desc);
+    hnbrdf_put_bytes(&out, evaluation, strlen(evaluation));
+    hnbrdf_put(&out, "    neural_output = exp(");
+    hnbrdf_put_float(&out, peer->desc.scale);
+    hnbrdf_put(&out, " * neural_output + ");
+    hnbrdf_put_float(&out, peer->desc.shift);
+    hnbrdf_put(&out,
+               ");\n    return neural_output + microfacet(m, wi, wo) / (1.0 + exp(-gate));\n}\n");
+    hnbrdf_put_flush(&out);
+    hnbrdf_model_free(peer);
     return hnbrdf_text_buffer_take(&text);
 }
+
+/* ---- The numbers ----------------------------------------------------------------------------- */
 
 static float *round_all(const float *values, size_t count)
 {
@@ -245,8 +181,8 @@ hnbrdf_model *bench_peer_model(const hnbrdf_model_desc *desc)
     for (int k = 0; materials && k < desc->material_count; k++)
         materials[k] = rounded_material(&desc->materials[k]);
     for (int k = 0; k <= desc->layers; k++) {
-        size_t rows = (size_t)outputs_of(desc, k);
-        made.weights[k] = round_all(desc->weights[k], rows * (size_t)inputs_of(desc, k));
+        size_t rows = (size_t)hnbrdf_layer_outputs(desc, k);
+        made.weights[k] = round_all(desc->weights[k], rows * (size_t)hnbrdf_layer_inputs(desc, k));
         made.biases[k] = round_all(desc->biases[k], rows);
         complete = complete && made.weights[k] && made.biases[k];
     }

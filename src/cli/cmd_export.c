@@ -43,6 +43,10 @@ static const cli_command command = {
     "same names,\n"
     "order and comments. What is not --standalone needs the text of --library in that language "
     "before it.\n"
+    "--language brdf writes one material as a file for BRDF Explorer and its like, where kd, eta, "
+    "alpha "
+    "and the\n"
+    "latent code are sliders; `hnbrdf import` reads it back as the same model.\n"
     "--exact: exp and log of exact operations, and `precise` where the language has it.\n"
     "\n"
     "--weights constants is the fastest, one shader a network; columns are the same constants in "
@@ -84,6 +88,7 @@ static const cli_command command = {
     "hnbrdf export model.safetensors --language hlsl --standalone -o scene.hlsl\n"
     "hnbrdf export --library --language hlsl -o hybrid_brdf.hlsl\n"
     "hnbrdf export model.safetensors --prefix dust --standalone -o dust.glsl\n"
+    "hnbrdf export model.safetensors --materials moon-dust --language brdf -o moon-dust.brdf\n"
     "hnbrdf export model.safetensors --pack half --texels materials.bin -o scene.glsl",
 };
 
@@ -335,7 +340,7 @@ int cmd_export(int argc, char **argv)
          "kd, eta, alpha that the shader changes carry the network's part along"},
         {"standalone", 0, CLI_FLAG, &set.standalone, 0, 0, NULL,
          "put the text of hybrid_brdf.glsl first"},
-        {"language", 'l', CLI_WORD, &set.language, 0, 0, "glsl|hlsl|msl|wgsl|slang",
+        {"language", 'l', CLI_WORD, &set.language, 0, 0, "glsl|hlsl|msl|wgsl|slang|brdf",
          "what to write (default glsl)"},
         {"exact", 0, CLI_FLAG, &set.exact, 0, 0, NULL,
          "the bits of C, on devices that round + - * / sqrt correctly"},

@@ -297,6 +297,9 @@ int cmd_verify(int argc, char **argv)
                          count);
     if (set.hand_out && set.hand_in)
         return cli_usage(&command, "--hand-out and --hand-in: one after the other");
+    if (set.language.value == HNBRDF_LANGUAGE_BRDF)
+        return cli_usage(&command, "--language brdf: a file of one material for viewers, expected "
+                                   "another language");
     if (set.language.value != HNBRDF_LANGUAGE_GLSL && !set.hand_out)
         return cli_usage(&command, "--language without --hand-out: devices are tried in glsl");
     if (set.hand_out && (set.csv || set.json))

@@ -2,6 +2,7 @@
  * What the scene does not need is not written: anisotropy, rotation, what the kind does not use. */
 #include "base/error.h"
 #include "base/memory.h"
+#include "glsl/export_brdf.h"
 #include "glsl/export_evaluate.h"
 #include "glsl/export_filter.h"
 #include "glsl/export_language.h"
@@ -232,6 +233,9 @@ static hnbrdf_result check_language(const hnbrdf_glsl_options *options, hnbrdf_e
         return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT,
                            "export: in GLSL an exact build is chosen in hybrid_brdf.glsl: expected "
                            "a standalone text, or HNBRDF_EXACT 1 before the include");
+    if (options->library && options->language == HNBRDF_LANGUAGE_BRDF)
+        return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT,
+                           "export: a .brdf file is whole, expected no shared part of its own");
     return HNBRDF_OK;
 }
 
@@ -250,9 +254,13 @@ hnbrdf_result hnbrdf_export_shader(const hnbrdf_model *model, const hnbrdf_glsl_
         result = hnbrdf_scene_make(model, options, &s, error);
     if (result)
         return result;
-    result = options && options->language != HNBRDF_LANGUAGE_GLSL
-                 ? write_translated(&s, options, &memory, write, user, error)
-                 : write_glsl(&s, options, write, user, error);
+    const hnbrdf_shading_language language = options ? options->language : HNBRDF_LANGUAGE_GLSL;
+    if (language == HNBRDF_LANGUAGE_GLSL)
+        result = write_glsl(&s, options, write, user, error);
+    else if (language == HNBRDF_LANGUAGE_BRDF)
+        result = hnbrdf_write_brdf(&s, options, &memory, write, user, error);
+    else
+        result = write_translated(&s, options, &memory, write, user, error);
     hnbrdf_release(&memory, s.names);
     return result;
 }

@@ -73,6 +73,8 @@ static language language_of(hnbrdf_shading_language which)
         return (language){&hnbrdf_slang, SLANG};
     case HNBRDF_LANGUAGE_WGSL:
         return (language){&hnbrdf_wgsl, WGSL};
+    case HNBRDF_LANGUAGE_BRDF:
+        return (language){&hnbrdf_glsl_plain, ""};
     default:
         return (language){0};
     }

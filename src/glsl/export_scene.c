@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "glsl/export_filter.h"
 
+#include <stdio.h>
 #include <string.h>
 
 int hnbrdf_scene_index(const hnbrdf_scene *s, int k)
@@ -14,6 +15,13 @@ int hnbrdf_scene_index(const hnbrdf_scene *s, int k)
 const hnbrdf_material *hnbrdf_scene_material(const hnbrdf_scene *s, int k)
 {
     return &s->desc->materials[hnbrdf_scene_index(s, k)];
+}
+
+void hnbrdf_scene_encoding(const hnbrdf_scene *s, char *name, size_t size)
+{
+    snprintf(name, size, "%s", hnbrdf_encoding_name(s->desc->encoding));
+    for (char *c = name; *c; c++)
+        *c = *c == '-' ? '_' : *c;
 }
 
 int hnbrdf_scene_has_analytic(const hnbrdf_scene *s)

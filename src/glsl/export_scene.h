@@ -37,6 +37,9 @@ hnbrdf_result hnbrdf_scene_make(const hnbrdf_model *model, const hnbrdf_glsl_opt
 int hnbrdf_scene_index(const hnbrdf_scene *s, int k);
 const hnbrdf_material *hnbrdf_scene_material(const hnbrdf_scene *s, int k);
 
+/* What is behind hnbrdf_encode_ in the name of its encoding's function. */
+void hnbrdf_scene_encoding(const hnbrdf_scene *s, char *name, size_t size);
+
 int hnbrdf_scene_has_analytic(const hnbrdf_scene *s);
 int hnbrdf_scene_has_network(const hnbrdf_scene *s);
 int hnbrdf_scene_has_sampling(const hnbrdf_scene *s);

@@ -15,7 +15,7 @@ static const char *const precision_names[] = {
 static const char *const language_names[] = {
     [HNBRDF_LANGUAGE_GLSL] = "glsl",   [HNBRDF_LANGUAGE_HLSL] = "hlsl",
     [HNBRDF_LANGUAGE_MSL] = "msl",     [HNBRDF_LANGUAGE_WGSL] = "wgsl",
-    [HNBRDF_LANGUAGE_SLANG] = "slang",
+    [HNBRDF_LANGUAGE_SLANG] = "slang", [HNBRDF_LANGUAGE_BRDF] = "brdf",
 };
 
 enum {
@@ -73,5 +73,7 @@ int hnbrdf_shading_language_from_name(const char *name, hnbrdf_shading_language 
 
 hnbrdf_glsl_weights hnbrdf_shading_language_weights(hnbrdf_shading_language language)
 {
-    return language == HNBRDF_LANGUAGE_GLSL ? HNBRDF_GLSL_CONSTANTS : HNBRDF_GLSL_COLUMNS;
+    return language == HNBRDF_LANGUAGE_GLSL || language == HNBRDF_LANGUAGE_BRDF
+               ? HNBRDF_GLSL_CONSTANTS
+               : HNBRDF_GLSL_COLUMNS;
 }

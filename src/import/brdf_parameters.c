@@ -7,10 +7,22 @@
 
 #include <string.h>
 
-enum { DIFFUSE_R, DIFFUSE_G, DIFFUSE_B, ETA_R, ETA_G, ETA_B, ALPHA_X, ALPHA_Y, ALPHA, LATENT };
-static const char *const PARAMETERS[LATENT] = {"diffuse_r", "diffuse_g", "diffuse_b",
-                                               "eta_r",     "eta_g",     "eta_b",
-                                               "alpha_x",   "alpha_y",   "alpha"};
+enum {
+    DIFFUSE_R,
+    DIFFUSE_G,
+    DIFFUSE_B,
+    ETA_R,
+    ETA_G,
+    ETA_B,
+    ALPHA_X,
+    ALPHA_Y,
+    ALPHA,
+    ROTATION,
+    LATENT
+};
+static const char *const PARAMETERS[LATENT] = {"diffuse_r", "diffuse_g", "diffuse_b", "eta_r",
+                                               "eta_g",     "eta_b",     "alpha_x",   "alpha_y",
+                                               "alpha",     "rotation"};
 
 /* The index of latent_N behind the underscore, or -1. */
 static int latent_index(const hnbrdf_words *name)
@@ -29,9 +41,9 @@ static int latent_index(const hnbrdf_words *name)
 }
 
 /* PARAMETERS index, LATENT + N, or -1 for a parameter of no interest here. */
-static int parameter_index(const hnbrdf_words *name)
+static int parameter_index(const hnbrdf_words *name, int has_rotation)
 {
-    for (int i = 0; i < LATENT; ++i)
+    for (int i = 0; i < (has_rotation ? LATENT : ROTATION); ++i)
         if (hnbrdf_words_at(name, PARAMETERS[i]))
             return i;
     const int latent = latent_index(name);
@@ -51,7 +63,7 @@ static const float LEAST_ETA = 1.00000012f;
 static float within_range(int parameter, float value, const char **what)
 {
     *what = NULL;
-    if (parameter < ETA_R || (parameter >= ALPHA_X && parameter < LATENT)) {
+    if (parameter < ETA_R || (parameter >= ALPHA_X && parameter <= ALPHA)) {
         if (value > 1 && value <= ABOVE) {
             *what = "the largest there is";
             return 1;
@@ -71,6 +83,8 @@ static void set_parameter(hnbrdf_material *material, int parameter, float value)
 {
     if (parameter >= LATENT) {
         material->latent[parameter - LATENT] = value;
+    } else if (parameter == ROTATION) {
+        material->rotation = value;
     } else if (parameter >= ALPHA_X) {
         material->alpha[0] = parameter == ALPHA_Y ? material->alpha[0] : value;
         material->alpha[1] = parameter == ALPHA_X ? material->alpha[1] : value;
@@ -98,7 +112,8 @@ hnbrdf_result hnbrdf_brdf_read_parameter(hnbrdf_words *words, hnbrdf_brdf_parame
     hnbrdf_words ahead = *words;
     float low, high, value;
     const char *what;
-    const int parameter = ahead.kind == HNBRDF_WORD_NAME ? parameter_index(&ahead) : -1;
+    const int parameter =
+        ahead.kind == HNBRDF_WORD_NAME ? parameter_index(&ahead, p->has_rotation) : -1;
     if (parameter < 0)
         return HNBRDF_OK;
     hnbrdf_words_next(&ahead);
@@ -136,15 +151,16 @@ hnbrdf_result hnbrdf_brdf_check_parameters(const char *file, const hnbrdf_brdf_p
     const unsigned long seen = p->seen;
     const unsigned long alphas = seen >> ALPHA_X & 7;
     int count = 0;
+    const int analytic = p->kind != HNBRDF_KIND_NEURAL;
     for (int i = DIFFUSE_R; i < ALPHA_X; ++i) {
-        if (!(seen >> i & 1)) {
+        if (analytic && !(seen >> i & 1)) {
             return hnbrdf_fail(
                 error, HNBRDF_ERROR_FORMAT,
                 "%s: has no parameter line for %s, expected \"float %s MIN MAX DEFAULT\"", file,
                 PARAMETERS[i], PARAMETERS[i]);
         }
     }
-    if (alphas != 3 && alphas != 4) {
+    if (analytic && alphas != 3 && alphas != 4) {
         return hnbrdf_fail(
             error, HNBRDF_ERROR_FORMAT,
             "%s: has parameter lines for%s%s%s%s, expected alpha, or alpha_x and alpha_y", file,

@@ -2,6 +2,7 @@
  * Each holds one material as parameter lines and, written out in GLSL, the network of all. */
 #include "base/error.h"
 #include "base/foreign.h"
+#include "import/brdf_heading.h"
 #include "import/brdf_network.h"
 #include "import/brdf_parameters.h"
 #include "import/brdf_text.h"
@@ -13,6 +14,7 @@
 /* What one file holds. */
 typedef struct published {
     hnbrdf_brdf_network network;
+    hnbrdf_brdf_heading heading;
     float scale, shift; /* exp(scale c + shift) */
     int has_exponent;
     int latent;
@@ -97,7 +99,9 @@ static int take_exponent(hnbrdf_words *words)
 static hnbrdf_result check_network(const char *file, const published *p, hnbrdf_error *error)
 {
     const hnbrdf_brdf_network *n = &p->network;
-    const int last = n->layers - 1;
+    const int last = n->layers - 1, outputs = p->heading.kind == HNBRDF_KIND_NEURAL ? 3 : 6;
+    if (p->heading.kind == HNBRDF_KIND_GGX && last < 0)
+        return HNBRDF_OK;
     if (last < 0) {
         return hnbrdf_fail(error, HNBRDF_ERROR_FORMAT, "%s: has no function mlp_eval, expected one",
                            file);
@@ -107,12 +111,13 @@ static hnbrdf_result check_network(const char *file, const published *p, hnbrdf_
             error, HNBRDF_ERROR_FORMAT,
             "%s: has no line neural_output = exp(S*(neural_output) + M), expected one", file);
     }
-    if (last < 1 || n->outputs[last] != 6) {
-        return hnbrdf_fail(
-            error, HNBRDF_ERROR_UNSUPPORTED,
-            "%s: mlp_eval has %d layers and %d outputs, expected at least 2 layers and 6 "
-            "outputs, correction and gate",
-            file, n->layers, n->outputs[last]);
+    if (last < 1 || n->outputs[last] != outputs || p->heading.kind == HNBRDF_KIND_GGX) {
+        return hnbrdf_fail(error, HNBRDF_ERROR_UNSUPPORTED,
+                           "%s: mlp_eval has %d layers and %d outputs, expected %s", file,
+                           n->layers, n->outputs[last],
+                           p->heading.kind == HNBRDF_KIND_GGX ? "none of a ggx material"
+                           : outputs == 3                     ? "at least 2 layers and 3 outputs"
+                                          : "at least 2 layers and 6 outputs, correction and gate");
     }
     for (int k = 1; k < last; ++k) {
         if (n->outputs[k] != n->outputs[0]) {
@@ -178,13 +183,22 @@ static hnbrdf_result read_file(const char *file, const char *text, size_t size, 
     hnbrdf_result result = check_kind(file, text, size, error);
     memset(p, 0, sizeof *p);
     hnbrdf_material_init(parameters->material);
-    if (result)
+    if (result || (result = hnbrdf_brdf_read_heading(file, text, size, &p->heading, error)))
         return result;
+    p->scale = p->heading.present ? p->heading.scale : 0;
+    p->shift = p->heading.shift;
+    p->has_exponent = p->heading.present;
+    parameters->kind = p->heading.kind;
+    parameters->has_rotation = p->heading.present;
     hnbrdf_words_begin(&words, file, text, size);
     if ((result = read_words(&words, p, parameters, error)) ||
         (result = hnbrdf_brdf_check_parameters(file, parameters, &p->latent, error)) ||
         (result = check_network(file, p, error)))
         return result;
+    if (p->heading.has_fitted)
+        parameters->material->fitted = p->heading.fitted;
+    if (p->heading.has_lobes)
+        parameters->material->lobes = p->heading.lobes;
     if ((result = hnbrdf_material_check(parameters->material, &inner)))
         return hnbrdf_fail(error, HNBRDF_ERROR_FORMAT, "%s: %s", file, inner.text);
     return HNBRDF_OK;
@@ -237,12 +251,27 @@ static hnbrdf_result compare_numbers(const float *a, const float *b, int count, 
     return HNBRDF_OK;
 }
 
+static hnbrdf_result compare_headings(const hnbrdf_brdf_heading *a, const hnbrdf_brdf_heading *b,
+                                      const char *file, const char *first, hnbrdf_error *error)
+{
+    if (a->kind == b->kind && a->encoding == b->encoding && a->floor == b->floor)
+        return HNBRDF_OK;
+    return hnbrdf_fail(error, HNBRDF_ERROR_FORMAT,
+                       "%s: is %s, encoding %s, floor %s, expected %s, %s, %s as in %s", file,
+                       hnbrdf_kind_name(b->kind), hnbrdf_encoding_name(b->encoding),
+                       print(b->floor).text, hnbrdf_kind_name(a->kind),
+                       hnbrdf_encoding_name(a->encoding), print(a->floor).text, first);
+}
+
 /* All files of a dataset carry one network. */
 static hnbrdf_result compare(const importing *all, const char *file, const char *first,
                              hnbrdf_error *error)
 {
     const hnbrdf_brdf_network *a = &all->first.network, *b = &all->current.network;
-    hnbrdf_result result = HNBRDF_OK;
+    hnbrdf_result result =
+        compare_headings(&all->first.heading, &all->current.heading, file, first, error);
+    if (result)
+        return result;
     if (a->layers != b->layers || a->outputs[0] != b->outputs[0] || a->inputs[0] != b->inputs[0]) {
         return hnbrdf_fail(error, HNBRDF_ERROR_FORMAT,
                            "%s: mlp_eval is %dx%d with %d inputs, expected %dx%d with %d as in %s",
@@ -288,13 +317,16 @@ static hnbrdf_result make_model(const importing *all, const char *const *names, 
                                 hnbrdf_model **model, hnbrdf_error *error)
 {
     const hnbrdf_brdf_network *n = &all->first.network;
-    hnbrdf_model_desc desc = {.kind = HNBRDF_KIND_HYBRID,
-                              .encoding = HNBRDF_ENCODING_DIRECTIONS,
-                              .hidden = n->outputs[0],
-                              .layers = n->layers - 1,
+    const hnbrdf_brdf_heading *heading = &all->first.heading;
+    const int has_network = heading->kind != HNBRDF_KIND_GGX;
+    hnbrdf_model_desc desc = {.kind = heading->kind,
+                              .encoding = heading->encoding,
+                              .hidden = has_network ? n->outputs[0] : 0,
+                              .layers = has_network ? n->layers - 1 : 0,
                               .latent = all->first.latent,
                               .scale = all->first.scale,
                               .shift = all->first.shift,
+                              .floor = heading->floor,
                               .material_count = count,
                               .materials = all->materials,
                               .names = names};

@@ -25,6 +25,7 @@ typedef struct hnbrdf_source {
 } hnbrdf_source;
 
 extern const hnbrdf_dialect hnbrdf_hlsl, hnbrdf_msl, hnbrdf_wgsl, hnbrdf_slang;
+extern const hnbrdf_dialect hnbrdf_glsl_plain; /* without directives */
 
 /* "hlsl": also the ending of its files. */
 const char *hnbrdf_dialect_name(const hnbrdf_dialect *dialect);

@@ -1,5 +1,6 @@
-/* generate_brdf.c: published BRDF-Explorer shaders: parameter lines, then GLSL with the network
- * written out in matrices and vectors; sometimes two of one data set, with a NUL between. */
+/* generate_brdf.c: published BRDF-Explorer shaders, or those that hnbrdf writes, with a heading:
+ * parameter lines, then GLSL with the network written out in matrices and vectors; sometimes two of
+ * one data set, with a NUL between. */
 #include "generate.h"
 
 #include <stdio.h>
@@ -8,6 +9,7 @@ typedef struct writer {
     fuzz_choices *c;
     fuzz_bytes *out;
     int latent;
+    int outputs; /* of the network; 0: none */
 } writer;
 
 static void put_space(writer *w)
@@ -25,6 +27,33 @@ static void put_word(writer *w, const char *word)
 {
     put_space(w);
     fuzz_put_text(w->out, fuzz_word(w->c, word));
+}
+
+/* ---- Headings of files that hnbrdf wrote ----------------------------------------------------- */
+
+static void put_heading(writer *w)
+{
+    static const char *const kinds[3] = {"ggx", "neural", "hybrid"};
+    static const char *const keys[6] = {"kind", "encoding", "scale", "shift", "fitted", "lobes"};
+    static const int counts[6] = {0, 0, 1, 1, 8, 10};
+    for (int k = 0; k < 6; k++) {
+        if (k == 4 && fuzz_below(w->c, 2))
+            continue;
+        fuzz_put_text(w->out, "# hnbrdf/1 ");
+        fuzz_put_text(w->out, fuzz_word(w->c, keys[k]));
+        fuzz_put_text(w->out, " ");
+        if (k == 0)
+            fuzz_put_text(w->out, fuzz_word(w->c, kinds[w->outputs / 3]));
+        if (k == 1)
+            fuzz_put_text(w->out, fuzz_word(w->c, FUZZ_PICK(w->c, char *, "angles", "directions",
+                                                            "half-difference")));
+        for (int i = fuzz_odd(w->c) ? 1 : 0; i < counts[k]; i++) {
+            fuzz_put_number(w->out, w->c, k == 4 && i > 2 && i < 6 ? 1.5 : k == 2 ? 0.75 : 0.2);
+            fuzz_put_text(w->out, " ");
+        }
+        fuzz_put_text(w->out, fuzz_odd(w->c) ? "floor" : fuzz_below(w->c, 4) ? "\n" : "\r\n");
+    }
+    fuzz_put_text(w->out, "# hnbrdf/1 floor 0.003\n");
 }
 
 /* ---- Parameters ------------------------------------------------------------------------------ */
@@ -45,7 +74,12 @@ static void put_parameters(writer *w)
 {
     static const char *const names[6] = {"diffuse_r", "diffuse_g", "diffuse_b",
                                          "eta_r",     "eta_g",     "eta_b"};
-    fuzz_put_text(w->out, "analytic\n# made\n::begin parameters\n");
+    fuzz_put_text(w->out, "analytic\n# made\n");
+    if (w->outputs != 6 || fuzz_below(w->c, 4) == 0)
+        put_heading(w);
+    fuzz_put_text(w->out, "::begin parameters\n");
+    if (fuzz_below(w->c, 8) == 0)
+        put_parameter(w, "rotation", -3.0, 3.0);
     for (int k = 0; k < 6; k++)
         put_parameter(w, names[k], k < 3 ? 0.01 : 1.1, k < 3 ? 1.0 : 4.0);
     const unsigned two = fuzz_below(w->c, 2);
@@ -171,7 +205,7 @@ static void put_network(writer *w)
     fuzz_put_text(w->out, "(vec3 wi, vec3 wo, out vec3 c, out vec3 g)\n{\n");
     fuzz_put_text(w->out, "    vec4 f0_0 = vec4(wi.x, wi.y, wi.z, wo.x);\n");
     for (int k = 0; k <= layers; k++) {
-        int outputs = k < layers ? hidden : 6;
+        int outputs = k < layers ? hidden : w->outputs;
         if (fuzz_odd(w->c))
             outputs = FUZZ_PICK(w->c, int, 2, 3, 5, 64, 65, 68);
         for (int g = 0; 4 * g < outputs; g++)
@@ -186,12 +220,14 @@ static void put_shader(writer *w)
 {
     put_parameters(w);
     fuzz_put_text(w->out, "void mlp_eval(vec3 wi, vec3 wo, out vec3 c, out vec3 g);\n");
-    for (int times = fuzz_odd(w->c) ? 2 * (int)fuzz_below(w->c, 2) : 1; times > 0; times--)
+    const int networks = w->outputs ? 1 : 0, exponents = w->outputs == 6 ? 1 : 0;
+    for (int times = fuzz_odd(w->c) ? 2 * (int)fuzz_below(w->c, 2) : networks; times > 0; times--)
         put_network(w);
     fuzz_put_text(
         w->out,
         "vec3 BRDF(vec3 L, vec3 V, vec3 N, vec3 X, vec3 Y)\n{\n    vec3 neural_output, gate;\n");
-    for (int times = fuzz_odd(w->c) ? 2 * (int)fuzz_below(w->c, 2) : 1; times > 0; times--) {
+    for (int times = fuzz_odd(w->c) ? 2 * (int)fuzz_below(w->c, 2) : exponents; times > 0;
+         times--) {
         fuzz_put_text(w->out, "    neural_output ");
         put_word(w, "= exp(");
         fuzz_put_number(w->out, w->c, fuzz_odd(w->c) ? 0.0 : 0.75);
@@ -205,7 +241,7 @@ static void put_shader(writer *w)
 
 static void generate(fuzz_choices *c, fuzz_bytes *out)
 {
-    writer w = {c, out, fuzz_between(c, 0, 4)};
+    writer w = {c, out, fuzz_between(c, 0, 4), fuzz_below(c, 4) ? 6 : FUZZ_PICK(c, int, 0, 3)};
     const uint64_t start = c->state;
     put_shader(&w);
     if (fuzz_below(c, 3) == 0) { /* the same network, one place of it odd */
