@@ -44,9 +44,9 @@ hnbrdf_room(hdf5
 hnbrdf_room(metrics
   compare.c image.c physics.c)
 hnbrdf_room(fit
-  kernel_avx2.c kernel_avx512.c adam.c alone.c bright.c checkpoint.c fit.c ggx.c gradient.c hold.c
-  judge.c kernel.c kernel_double.c options.c pool.c ranks.c result.c schedule.c share.c stage.c
-  supply.c switch.c train.c worth.c)
+  kernel_avx2.c kernel_avx512.c adam.c agree.c alone.c bright.c checkpoint.c fit.c ggx.c gradient.c
+  hold.c judge.c kernel.c kernel_double.c options.c pool.c ranks.c result.c schedule.c share.c
+  stage.c supply.c switch.c traffic.c train.c worth.c)
 hnbrdf_room(check
   backends.c bounds.c bounds_draw.c bounds_edit.c cases.c compare.c comparison.c exchange_in.c
   exchange_out.c half.c maps.c oracle.c pairs.c parity.c probe.c reference.c rounding.c rules.c
@@ -75,19 +75,19 @@ hnbrdf_room(gl
 hnbrdf_room(edit
   fields.c materials.c mix_fit.c mix_goal.c mix_pairs.c mix_path.c)
 hnbrdf_room(bake
-  bake.c ggx.c half.c options.c report.c rows.c search.c sizes.c teacher.c tell.c wave.c)
+  bake.c ggx.c half.c options.c ranks.c report.c rows.c search.c sizes.c teacher.c tell.c wave.c)
 hnbrdf_room(report
   bake_plot.c bake_tables.c compare.c compare_images.c editing_edits.c editing_figures.c
   editing_fit.c editing_measure.c editing_mix.c editing_plot.c editing_sheet.c
   editing_tables.c fit_log.c gallery_choose.c
   gallery_pages.c gallery_strips.c grid.c grid_columns.c grid_figures.c grid_fit.c grid_ggx.c
-  grid_image_tables.c grid_images.c grid_plot.c grid_rows.c grid_tables.c info.c
+  grid_image_tables.c grid_images.c grid_plot.c grid_ranks.c grid_rows.c grid_tables.c info.c
   info_physics.c lobes_table.c loss_plot.c output.c picture.c same_picture.c
   sampling_measure.c sampling_strips.c sampling_write.c scene_compare.c sheet.c
   spheres.c stability_plot.c stability_report.c still.c texels.c verify_report.c)
 hnbrdf_room(bench
-  measure.c models.c peak.c peer.c plot.c quality.c rows.c rows_cpu.c rows_gpu.c speed.c tables.c
-  watch.c)
+  measure.c models.c peak.c peer.c plot.c quality.c rows.c rows_cpu.c rows_gpu.c scaling.c speed.c
+  tables.c watch.c)
 hnbrdf_room(cli
   cli.c cmd_bake.c cmd_bench.c cmd_compare.c cmd_edit.c cmd_eval.c cmd_export.c
   cmd_fit.c cmd_gallery.c cmd_import.c cmd_info.c cmd_lobes.c cmd_mix.c cmd_render.c

@@ -23,5 +23,5 @@ add_test(NAME test_fit_hostile_cli
   COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/test_fit_hostile_cli.sh $<TARGET_FILE:hnbrdf_cli>)
 
 # Baking: the search of the smallest network.
-hnbrdf_test(test_bake test_bake.c)
+hnbrdf_test(test_bake test_bake.c ranks_support.c)
 target_link_libraries(hnbrdf_test_bake PRIVATE hnbrdf_bake_static)

@@ -1,7 +1,9 @@
-/* test_bake.c: hnbrdf_bake() gives what was wished for, the same on any number of threads, says
- * what it tried, stops when it is told to, and refuses bad options in one clear line. */
+/* test_bake.c: hnbrdf_bake() gives what was wished for, the same on any number of threads and
+ * ranks, says what it tried, stops when it is told to, and refuses bad options in one clear line.
+ */
 #include "hnbrdf/bake.h"
 #include "hnbrdf/fit.h"
+#include "ranks_support.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -224,6 +226,56 @@ static int append(void *user, const void *bytes, size_t size)
     return 0;
 }
 
+/* What several processes make of a bake, here threads. */
+typedef struct shared_bake {
+    hnbrdf_bake_options options;
+    hnbrdf_model *baked[2];
+    hnbrdf_bake_report report[2];
+} shared_bake;
+
+static void bake_rank(void *context, const hnbrdf_communicator *ranks)
+{
+    shared_bake *s = context;
+    hnbrdf_bake_options o = s->options;
+    o.ranks = ranks;
+    hnbrdf_bake(model, &o, &s->baked[ranks->rank], &s->report[ranks->rank], NULL);
+}
+
+static char *file_of(const hnbrdf_model *baked)
+{
+    size_t start = sizeof start;
+    char *file = calloc(1, 1 << 16);
+    assert_non_null(file);
+    memcpy(file, &start, sizeof start);
+    assert_int_equal(hnbrdf_model_write(baked, append, file, NULL), HNBRDF_OK);
+    return file;
+}
+
+static void several_ranks_give_the_same_bits(void **state)
+{
+    (void)state;
+    shared_bake s = {.options = small(HNBRDF_BAKE_SIZE)};
+    hnbrdf_bake_report r;
+    s.options.max_multiplications = 100;
+    s.options.analytic = HNBRDF_BAKE_ANALYTIC_FIT;
+    hnbrdf_model *alone = bake(&s.options, &r);
+    char *wanted = file_of(alone);
+    assert_true(test_ranks_run(2, bake_rank, &s));
+    assert_true(s.report[0].model.ns == s.report[1].model.ns); /* one clock decides */
+    for (int k = 0; k < 2; k++) {
+        assert_non_null(s.baked[k]);
+        char *found = file_of(s.baked[k]);
+        assert_memory_equal(found, wanted, 1 << 16);
+        assert_int_equal(s.report[k].row_count, r.row_count);
+        for (int i = 0; i < r.row_count; i++)
+            assert_true(s.report[k].rows[i].smape == r.rows[i].smape);
+        free(found);
+        end(s.baked[k], &s.report[k]);
+    }
+    free(wanted);
+    end(alone, &r);
+}
+
 static void the_same_bits_on_any_number_of_threads(void **state)
 {
     (void)state;
@@ -234,10 +286,7 @@ static void the_same_bits_on_any_number_of_threads(void **state)
         o.max_multiplications = 100;
         o.threads = k + 1;
         hnbrdf_model *baked = bake(&o, &r);
-        size_t start = sizeof start;
-        files[k] = calloc(1, 1 << 16);
-        memcpy(files[k], &start, sizeof start);
-        assert_int_equal(hnbrdf_model_write(baked, append, files[k], NULL), HNBRDF_OK);
+        files[k] = file_of(baked);
         end(baked, &r);
     }
     assert_memory_equal(files[0], files[1], 1 << 16);
@@ -389,6 +438,7 @@ int main(void)
         cmocka_unit_test(the_balance_of_error_and_time),
         cmocka_unit_test(a_given_network_learned_from_the_model),
         cmocka_unit_test(the_same_bits_on_any_number_of_threads),
+        cmocka_unit_test(several_ranks_give_the_same_bits),
         cmocka_unit_test(progress_can_stop_it),
         cmocka_unit_test(bad_options_are_refused),
     };

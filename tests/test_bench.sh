@@ -21,6 +21,13 @@ expect_failure "a place that cannot be written" "no/such/place.csv"
 run "$HNBRDF" bench --quick --csv - --json -
 expect_usage "two on standard output" "only one"
 
+# ---- many processes, on paper
+run "$HNBRDF" bench --scaling --nets 8x2
+expect_ok "bench --scaling"
+[ "$(grep -c '^8x2,' out)" = 8 ] || fail "bench --scaling: a row for each batch and number of processes"
+awk -F, '/^8x2,/ { if ($4 > $3 || $5 * $4 < $2) exit 1; if ($3 > 1 && $8 <= 0) exit 1 }' out ||
+    fail "bench --scaling: ranks that work, and pairs of them"
+
 # ---- a model of ours and one with the published encoding ---------------------------------------------
 materials="builtin:glossy-plastic-green builtin:gold-two-lobe"
 data=$(echo $materials | tr ' ' ,)

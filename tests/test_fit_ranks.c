@@ -212,6 +212,65 @@ static void a_frozen_network_gives_the_same_bits(void **state)
     hnbrdf_model_free(known);
 }
 
+/* ---- Memory ---------------------------------------------------------------------------------- */
+
+/* Of no material, or of the first one, there is room for all pairs. */
+static void pairs_that_are_drawn_again_give_the_same_bits(void **state)
+{
+    (void)state;
+    static const int two[] = {2};
+    hnbrdf_fit_report report, again;
+    hnbrdf_fit_options o = tiny();
+    o.analytic = HNBRDF_FIT_JOINT;
+    hnbrdf_model *wanted = fit_alone(&o, &report);
+    assert_int_equal(report.redrawn, 0);
+    assert_true(report.kept == 72.0 * o.pool * COUNT);
+    o.memory = (size_t)(1.5 * 72.0 * o.pool);
+    hnbrdf_model *found = fit_alone(&o, &again);
+    assert_same_model(found, wanted);
+    assert_int_equal(again.redrawn, COUNT - 1);
+    assert_true(again.kept == 72.0 * o.pool);
+    hnbrdf_model_free(found);
+    o = (hnbrdf_fit_options){.steps = 20, .pool = 320, .threads = 1, .seed = 5, .hidden = 5};
+    hnbrdf_model_free(wanted);
+    wanted = fit_alone(&o, &report);
+    job j = {.options = o, .data = data};
+    j.options.memory = 1;
+    expect_model(&j, 2, wanted, &report);
+    o.freeze = wanted; /* starts from codes that the first pairs choose */
+    o.memory = 1;
+    hnbrdf_model *frozen = fit_alone(&o, &report);
+    o.memory = 0;
+    expect_same_bits(&o, two, 1);
+    found = fit_alone(&o, &again);
+    assert_same_model(found, frozen);
+    hnbrdf_model_free(found);
+    hnbrdf_model_free(frozen);
+    hnbrdf_model_free(wanted);
+}
+
+static int stop_at_100(void *user, const hnbrdf_fit_progress *p);
+
+/* The tiles that come next are not the first ones. */
+static void a_fit_goes_on_with_less_memory(void **state)
+{
+    (void)state;
+    hnbrdf_fit_report report;
+    hnbrdf_fit_options o = tiny();
+    hnbrdf_model *wanted = fit_alone(&o, &report);
+    o.checkpoint = checkpoint;
+    o.progress = stop_at_100;
+    hnbrdf_model_free(fit_alone(&o, &report));
+    assert_true(report.stopped);
+    o.progress = NULL;
+    o.resume = 1;
+    o.memory = 1;
+    hnbrdf_model *found = fit_alone(&o, &report);
+    assert_same_model(found, wanted);
+    hnbrdf_model_free(found);
+    hnbrdf_model_free(wanted);
+}
+
 /* ---- What is written for the caller ---------------------------------------------------------- */
 
 typedef struct findings {
@@ -404,6 +463,8 @@ int main(void)
         cmocka_unit_test(more_threads_than_chunks_give_the_same_bits),
         cmocka_unit_test(every_kind_of_fit_gives_the_same_bits),
         cmocka_unit_test(a_frozen_network_gives_the_same_bits),
+        cmocka_unit_test(pairs_that_are_drawn_again_give_the_same_bits),
+        cmocka_unit_test(a_fit_goes_on_with_less_memory),
         cmocka_unit_test(every_rank_hears_what_was_found_in_all_data),
         cmocka_unit_test(a_checkpoint_goes_on_with_any_number_of_ranks),
         cmocka_unit_test(all_ranks_say_what_is_wrong_with_one),

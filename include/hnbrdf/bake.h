@@ -10,6 +10,7 @@
 #ifndef HNBRDF_BAKE_H
 #define HNBRDF_BAKE_H
 
+#include "hnbrdf/fit.h"
 #include "hnbrdf/metrics.h"
 
 #ifdef __cplusplus
@@ -160,6 +161,10 @@ typedef struct hnbrdf_bake_options {
     int threads;            /* at most 256; 0: one a processor */
     hnbrdf_bake_progress_fn progress;
     void *progress_user;
+    /* Share the fits with other processes, all of which call this with the same options and have
+     * the model and all data; NULL: alone. All get the same result; a clock or a callback of rank 0
+     * or any other decides for all. `threads` and the callback may differ. */
+    const hnbrdf_communicator *ranks;
 } hnbrdf_bake_options;
 
 /* Bake the chosen materials of `model`, which stays as it is and need not outlive *baked. HNBRDF_OK

@@ -105,6 +105,12 @@ typedef struct hnbrdf_communicator {
     void *user;
 } hnbrdf_communicator;
 
+/* By all ranks: the result and the message of the first that failed, on all of them; else OK. *flag
+ * becomes the bitwise or of all; it may be NULL. ranks may be NULL: there is one. */
+HNBRDF_EXPERIMENTAL hnbrdf_result hnbrdf_ranks_agree(const hnbrdf_communicator *ranks,
+                                                     hnbrdf_result mine, int *flag,
+                                                     hnbrdf_error *error);
+
 /* A fitted material with the network and without it, over the training pairs and in a small picture
  * of a sphere under an even light and a sun of 3 degrees: of three suns the one under which the
  * network does worst. */
@@ -140,7 +146,11 @@ typedef struct hnbrdf_fit_options {
     long steps;     /* network steps; 0 stands for 32000 */
     double seconds; /* time budget for the network stage instead of steps */
     int batch;      /* pairs a step; 0 stands for 2048; rounded up to a multiple of 1024 */
-    int pool;       /* pairs drawn per material before training; 0: 131072 */
+    /* pairs drawn per material before training; 0: 131072, or what makes 1.25e9 bytes of all */
+    int pool;
+    /* bytes of pairs, 72 each, that this process keeps; those of further materials are drawn again
+     * whenever they are wanted: the same model, later. 0: no limit */
+    size_t memory;
     /* Adam's peak rate; 0 stands for 6e-2 min(1, 64/(HN)), HxN the network */
     float learning_rate;
     hnbrdf_fit_loss loss;
@@ -176,9 +186,9 @@ typedef struct hnbrdf_fit_options {
     /* Fit with other processes; NULL: alone. data[m] may be NULL where another rank has it: its
      * pairs, GGX fit and lobes are made there (where several have it, by one of them). `search` and
      * `drawn` are complete on all ranks; `checkpoint` is read and written by rank 0, and good for
-     * any number of ranks. A callback that stops the fit stops it on all ranks. `threads` and the
-     * callback may differ between ranks, nothing else. A rank that fails alone before it can tell
-     * the others, as without memory, must be ended together with them by the caller. */
+     * any number of ranks. A callback that stops the fit stops it on all ranks. `threads`, `memory`
+     * and the callback may differ between ranks, nothing else. A rank that fails alone before it
+     * can tell the others, as without memory, must be ended together with them by the caller. */
     const hnbrdf_communicator *ranks;
 } hnbrdf_fit_options;
 
@@ -209,6 +219,8 @@ typedef struct hnbrdf_fit_report {
                      multiply-add, none for padding */
     hnbrdf_fit_times times;
     int threads;              /* that it ran on */
+    double kept;              /* bytes of pairs that this process kept */
+    int redrawn;              /* its materials whose pairs were drawn again, for want of `memory` */
     const char *instructions; /* of the kernels: "plain", "avx2" or "avx512" */
     /* Of a network: how the training went, see "Divergence" above. Losses are means over a sample
      * of the training pairs, SMAPE unless HNBRDF_FIT_LOG is minimised. */
@@ -233,6 +245,26 @@ typedef struct hnbrdf_fit_report {
 HNBRDF_API hnbrdf_result hnbrdf_fit(const hnbrdf_measured *const *data, int count,
                                     const hnbrdf_fit_options *options, hnbrdf_model **model,
                                     hnbrdf_fit_report *report, hnbrdf_error *error);
+
+/* What a step of training by several ranks takes, by the sizes of messages alone; of the rank with
+ * the most to do. */
+typedef struct hnbrdf_fit_traffic {
+    /* ranks that have pairs to work on: a step has so many tiles of 64 pairs, and where there are
+     * more than 16 tiles a rank, 16 chunks */
+    int working;
+    double pairs;          /* that it works on */
+    double flops;          /* floating-point operations on its pairs, as in hnbrdf_fit_report */
+    double shared, own;    /* numbers that every rank updates: of the network, of all materials */
+    double pair_bytes;     /* of pairs that come from the ranks that hold them, on average */
+    double gradient_bytes; /* of gradients that it sends to those that add them up */
+    double sum_bytes;      /* of sums that it hears from all others */
+} hnbrdf_fit_traffic;
+
+/* Of hnbrdf_fit() with these options, count materials and so many ranks. options may be NULL. */
+HNBRDF_EXPERIMENTAL hnbrdf_result hnbrdf_fit_traffic_of(const hnbrdf_fit_options *options,
+                                                        int count, int ranks,
+                                                        hnbrdf_fit_traffic *traffic,
+                                                        hnbrdf_error *error);
 
 #ifdef __cplusplus
 }

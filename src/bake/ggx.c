@@ -24,6 +24,7 @@ static hnbrdf_result fit_ggx(bake_task *b, hnbrdf_error *error)
                                   .pool = b->options.pool ? b->options.pool : POOL,
                                   .seed = b->options.seed,
                                   .threads = b->options.threads,
+                                  .ranks = b->options.ranks,
                                   .progress = show,
                                   .progress_user = b};
     hnbrdf_result result = hnbrdf_fit(b->reference, b->count, &options, &model, NULL, error);

@@ -85,10 +85,16 @@ static double left(const bake_task *b)
 static int is_over(bake_task *b)
 {
     hnbrdf_bake_end *end = &b->report.end;
-    if (hnbrdf_bake_is_stopped(b))
+    int stopped = hnbrdf_bake_is_stopped(b);
+    if (!b->lost) /* one that is stopped stops all */
+        b->lost = hnbrdf_ranks_agree(b->options.ranks, HNBRDF_OK, &stopped, &b->lost_error);
+    if (stopped || b->lost) {
+        atomic_store(&b->stopped, 1);
         *end = HNBRDF_BAKE_STOPPED;
-    else if (*end == HNBRDF_BAKE_COMPLETE && left(b) < LEAST_SECONDS)
+    } else if (*end == HNBRDF_BAKE_COMPLETE && left(b) < LEAST_SECONDS)
         *end = HNBRDF_BAKE_OUT_OF_TIME;
+    if (!b->lost) /* and one clock decides */
+        b->lost = hnbrdf_bake_spread(b, 0, end, sizeof *end, &b->lost_error);
     return *end != HNBRDF_BAKE_COMPLETE;
 }
 
@@ -281,6 +287,8 @@ hnbrdf_result hnbrdf_bake_search(bake_task *b, hnbrdf_error *error)
     if (result)
         return result;
     is_over(b);
+    if (b->lost)
+        return hnbrdf_fail(error, b->lost, "%s", b->lost_error.text);
     pick(b);
     b->report.reason = reason(b);
     return HNBRDF_OK;

@@ -182,5 +182,11 @@ hnbrdf_result hnbrdf_bake_make_candidates(bake_task *b, hnbrdf_error *error)
     for (int k = 0; k < NETS && b->options.wish != HNBRDF_BAKE_NET; k++)
         add_latents(b, nets[k][0], nets[k][1]);
     qsort(b->candidates, (size_t)b->candidate_count, sizeof *b->candidates, by_mults);
-    return time_all(b, error);
+    hnbrdf_result result = hnbrdf_ranks_agree(b->options.ranks, time_all(b, error), NULL, error);
+    /* the times of one machine decide */
+    if (!result)
+        result = hnbrdf_bake_spread(b, 0, b->candidates,
+                                    (size_t)b->candidate_count * sizeof *b->candidates, error);
+    return result ? result
+                  : hnbrdf_bake_spread(b, 0, &b->report.model, sizeof b->report.model, error);
 }

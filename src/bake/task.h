@@ -23,7 +23,9 @@ typedef struct bake_task {
     hnbrdf_bake_report report;
     hnbrdf_model **models; /* [report.row_count] */
     atomic_int stopped;    /* 1: the callback said so */
-    atomic_flag telling;   /* set while a thread is in the callback */
+    hnbrdf_result lost;    /* not OK: another rank is */
+    hnbrdf_error lost_error;
+    atomic_flag telling; /* set while a thread is in the callback */
 } bake_task;
 
 /* All functions that return an hnbrdf_result leave a message in *error when it is not HNBRDF_OK. */
@@ -93,6 +95,18 @@ int hnbrdf_bake_width(const bake_task *b, int full);
  * for each fit, 0: by steps. What was stopped too early gives no row. */
 hnbrdf_result hnbrdf_bake_wave(bake_task *b, const bake_job *jobs, int count, double seconds,
                                hnbrdf_error *error);
+
+/* ---- ranks.c: by all ranks at the same time -------------------------------------------------- */
+
+/* 0 of 1 where the bake is alone. */
+int hnbrdf_bake_rank(const bake_task *b);
+int hnbrdf_bake_rank_count(const bake_task *b);
+/* What rank `from` has, to all. */
+hnbrdf_result hnbrdf_bake_spread(const bake_task *b, int from, void *data, size_t bytes,
+                                 hnbrdf_error *error);
+/* The same of a model; the others get one of their own. */
+hnbrdf_result hnbrdf_bake_spread_model(const bake_task *b, int from, hnbrdf_model **model,
+                                       hnbrdf_error *error);
 
 /* ---- search.c -------------------------------------------------------------------------------- */
 

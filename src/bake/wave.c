@@ -121,10 +121,26 @@ static hnbrdf_result fit(const bake_task *b, task *t)
     return result;
 }
 
+/* Tasks are dealt to ranks in turn. */
+static int owner_of(const wave *w, int index)
+{
+    return index % hnbrdf_bake_rank_count(w->b);
+}
+
+static int count_own(const wave *w)
+{
+    int own = 0;
+    for (int k = 0; k < w->count; k++)
+        own += owner_of(w, k) == hnbrdf_bake_rank(w->b);
+    return own;
+}
+
 static void run_task(void *context, int index, int worker)
 {
     wave *w = context;
     task *t = &w->tasks[index];
+    if (owner_of(w, index) != hnbrdf_bake_rank(w->b))
+        return;
     (void)worker;
     t->result = hnbrdf_bake_is_stopped(w->b) ? HNBRDF_ERROR_CANCELLED : fit(w->b, t);
     atomic_store(&t->done, WHOLE);
@@ -138,6 +154,39 @@ static void drop(task *t)
     hnbrdf_model_free(t->model);
     t->row.errors = NULL;
     t->model = NULL;
+}
+
+/* ---- Among ranks ----------------------------------------------------------------------------- */
+
+/* What came of a task, from the rank that did it to all. */
+static hnbrdf_result spread_task(wave *w, int index, hnbrdf_error *error)
+{
+    const bake_task *b = w->b;
+    task *t = &w->tasks[index];
+    const int from = owner_of(w, index), mine = from == hnbrdf_bake_rank(b);
+    hnbrdf_comparison *errors = t->row.errors;
+    hnbrdf_result result = hnbrdf_bake_spread(b, from, &t->result, sizeof t->result, error);
+    if (!result)
+        result = hnbrdf_bake_spread(b, from, &t->error, sizeof t->error, error);
+    if (result || t->result)
+        return result;
+    if (!mine && !(errors = calloc((size_t)b->count, sizeof *errors)))
+        result = hnbrdf_fail(error, HNBRDF_ERROR_MEMORY, "out of memory");
+    result = hnbrdf_ranks_agree(b->options.ranks, result, NULL, error);
+    if (!result)
+        result = hnbrdf_bake_spread(b, from, &t->row, sizeof t->row, error);
+    t->row.errors = errors; /* not that of another process */
+    if (!result)
+        result = hnbrdf_bake_spread(b, from, errors, (size_t)b->count * sizeof *errors, error);
+    return result ? result : hnbrdf_bake_spread_model(b, from, &t->model, error);
+}
+
+static hnbrdf_result spread_tasks(wave *w, hnbrdf_error *error)
+{
+    hnbrdf_result result = HNBRDF_OK;
+    for (int k = 0; k < w->count && !result && hnbrdf_bake_rank_count(w->b) > 1; k++)
+        result = spread_task(w, k, error);
+    return result;
 }
 
 /* A row for each candidate, the best of its seeds. */
@@ -175,14 +224,22 @@ static hnbrdf_result collect(wave *w, hnbrdf_error *error)
 hnbrdf_result hnbrdf_bake_wave(bake_task *b, const bake_job *jobs, int count, double seconds,
                                hnbrdf_error *error)
 {
-    int width = hnbrdf_bake_width(b, jobs[0].full);
-    wave w = {.b = b, .count = count, .seconds = seconds, .width = width < count ? width : count};
+    const int width = hnbrdf_bake_width(b, jobs[0].full);
+    wave w = {.b = b, .count = count, .seconds = seconds};
+    const int own = count_own(&w);
+    w.width = width < own ? width : own > 0 ? own : 1;
     w.tasks = calloc((size_t)count, sizeof *w.tasks);
     hnbrdf_threads *threads = hnbrdf_threads_start(w.width);
-    if (!w.tasks || !threads) {
+    hnbrdf_result result = HNBRDF_OK;
+    if (!w.tasks || !threads)
+        result = hnbrdf_fail(error, HNBRDF_ERROR_MEMORY, "out of memory");
+    result = hnbrdf_ranks_agree(b->options.ranks, result, NULL, error);
+    if (!result)
+        result = hnbrdf_bake_spread(b, 0, &w.seconds, sizeof w.seconds, error);
+    if (result) {
         free(w.tasks);
         hnbrdf_threads_stop(threads);
-        return hnbrdf_fail(error, HNBRDF_ERROR_MEMORY, "out of memory");
+        return result;
     }
     for (int k = 0; k < count; k++) {
         w.tasks[k].of = &w;
@@ -190,7 +247,11 @@ hnbrdf_result hnbrdf_bake_wave(bake_task *b, const bake_job *jobs, int count, do
     }
     hnbrdf_threads_run(threads, count, run_task, &w);
     hnbrdf_threads_stop(threads);
-    hnbrdf_result result = collect(&w, error);
+    result = spread_tasks(&w, error);
+    if (!result)
+        result = collect(&w, error);
+    for (int k = 0; k < count; k++)
+        drop(&w.tasks[k]);
     free(w.tasks);
     return result;
 }

@@ -2,6 +2,7 @@
  * scene. */
 #include "base/interrupt.h"
 #include "cli/cli.h"
+#include "cli/ranks.h"
 #include "cli/words.h"
 #include "report/bake.h"
 
@@ -29,7 +30,8 @@ static const cli_command command = {
     "included, and are fitted anew to measurements; --analytic decides otherwise. The network\n"
     "never takes them over.\n"
     "The exit code is 0 only if what is saved is what was asked for. Otherwise, after Ctrl-C\n"
-    "too, the best of what was tried is saved, if a network was.",
+    "too, the best of what was tried is saved, if a network was. `mpirun -n N hnbrdf bake ...`\n"
+    "shares the fits among N processes; each reads MODEL and all data.",
     "hnbrdf bake rgl.safetensors -m vch_silk_blue --max-error 0.15 -o scene.safetensors\n"
     "hnbrdf bake rgl.safetensors -m vch_silk_blue --max-ns 60 --data rgl/ -o s.safetensors\n"
     "hnbrdf bake merl.safetensors --net auto --seconds 120 --plot b.svg -o s.safetensors\n"
@@ -100,7 +102,7 @@ static int bake(const hnbrdf_model *model, hnbrdf_bake_options *options, const c
         return cli_fail("%s; %s is as it was", error.text, o->model);
     if (result)
         return cli_fail("%s", error.text);
-    int code = save(baked, &report, options->seconds, o);
+    int code = cli_rank() == 0 ? save(baked, &report, options->seconds, o) : CLI_OK;
     hnbrdf_bake_report_free(&report);
     hnbrdf_model_free(baked);
     return code;
@@ -116,7 +118,9 @@ static int run(const char *path, const char *list, char *const *data_arguments, 
         code = cli_choose_materials(model, list, &chosen, &options->material_count);
     if (code == CLI_OK && data_count > 0)
         code = cli_open_data(data_arguments, data_count, &data);
+    code = cli_ranks_agree(code);
     if (code == CLI_OK) {
+        options->ranks = cli_ranks();
         options->materials = chosen;
         options->data = (const hnbrdf_measured *const *)data.items;
         options->data_count = data.count;

@@ -1,6 +1,7 @@
 /* cmd_bench.c: `hnbrdf bench`: run time beside error, for models, backends and styles of one
  * run. */
 #include "bench/bench.h"
+#include "bench/scaling.h"
 #include "cli/cli.h"
 #include "cli/report.h"
 #include "cli/words.h"
@@ -45,7 +46,7 @@ typedef struct settings {
     const char *data, *nets, *device, *csv, *json, *plot;
     double seconds;
     long steps, pool;
-    int quick, without_peer;
+    int quick, without_peer, scaling;
     double sample_ms;
     bench_gpu_options gpu;
 } settings;
@@ -117,6 +118,24 @@ static int open_data(const char *list, cli_data *data)
     int code = copy ? cli_open_data(arguments, count, data) : cli_fail("out of memory");
     free(copy);
     return code;
+}
+
+/* What many processes would exchange, as CSV. */
+static int print_scaling(const settings *set)
+{
+    int nets[16][2], count = 0;
+    hnbrdf_error error;
+    cli_output output;
+    for (const char *at = set->nets; *at; at += *at == ',') {
+        at = count < 16 ? cli_parse_net(at, nets[count++]) : NULL;
+        if (!at || (*at != ',' && *at != '\0'))
+            return cli_usage(&command, "--nets: '%s' is not up to 16 of HxN,HxN,...", set->nets);
+    }
+    int code = cli_output_open(set->csv ? set->csv : "-", &output);
+    if (code != CLI_OK)
+        return code;
+    code = cli_code(bench_scaling_print((const int(*)[2])nets, count, output.file, &error), &error);
+    return cli_output_close(&output) || code ? CLI_FAILURE : CLI_OK;
 }
 
 /* ---- Output ---------------------------------------------------------------------------------- */
@@ -219,6 +238,8 @@ int cmd_bench(int argc, char **argv)
          "how often every row is sampled, 20 ms each (default 12)"},
         {"without-peer", 0, CLI_FLAG, &set.without_peer, 0, 0, NULL,
          "leave out the rows in the published style"},
+        {"scaling", 0, CLI_FLAG, &set.scaling, 0, 0, NULL,
+         "instead: what a fit by 10, 100 and 1000 processes would exchange, on paper, as CSV"},
         {"quick", 0, CLI_FLAG, &set.quick, 0, 0, NULL,
          "a try: one small network, two rounds of 1 ms; times mean little"},
         CLI_READING_OPTIONS,
@@ -229,7 +250,7 @@ int cmd_bench(int argc, char **argv)
     b->sampler = (hnbrdf_sampler)sampler.value;
     if (code < 0) {
         setenv("MESA_SHADER_CACHE_DISABLE", "true", 0); /* the first dispatch is timed */
-        code = run(b, &set, argv + 1, count);
+        code = set.scaling ? print_scaling(&set) : run(b, &set, argv + 1, count);
     }
     free(line);
     free(b);

@@ -99,6 +99,10 @@ static void summarise(const job *j, const hnbrdf_model *model, const hnbrdf_fit_
     if (desc.kind != HNBRDF_KIND_GGX)
         fprintf(words, ", %ld steps, loss %.4f", report->steps, report->final_loss);
     fprintf(words, ", %.1f s\n", report->seconds);
+    if (report->redrawn > 0)
+        fprintf(words, "memory: %.3g GB of pairs were kept, those of %d material%s drawn again%s\n",
+                1e-9 * report->kept, report->redrawn, report->redrawn == 1 ? "" : "s",
+                report->ranks > 1 ? ", in the first process" : "");
     cli_print_reading();
     if (report->stopped)
         fprintf(
@@ -281,7 +285,7 @@ int cmd_fit(int argc, char **argv)
     double uniform_share = 0.667, bright_share = 0.25, lift = 1.0;
     int net[2] = {0, 0};
     long latent = 0, steps = 0, seed = 1, threads = 0, batch = 0, pool = 0;
-    double seconds = 0.0, floor = 0.003, rate = 0.0;
+    double seconds = 0.0, floor = 0.003, rate = 0.0, memory = 0.0;
     const cli_option options[] = {
         {"output", 'o', CLI_WRITE_MODEL, &output, 0, 0, "FILE",
          "the model file to write (required)"},
@@ -303,6 +307,9 @@ int cmd_fit(int argc, char **argv)
         {"batch", 0, CLI_INT, &batch, 1, 1 << 24, "N", "direction pairs a step (default 2048)"},
         {"pool", 0, CLI_INT, &pool, 64, 1 << 26, "N",
          "direction pairs drawn a material (default 131072)"},
+        {"memory", 0, CLI_REAL, &memory, 1e-6, 1e9, "GB",
+         "keep so much of pairs, 72 bytes each, in a process; the others are drawn again when they "
+         "are wanted: the same model, later (default: keep all, 1.25 GB unless --pool is given)"},
         {"rate", 0, CLI_REAL, &rate, 1e-7, 10, "R",
          "peak learning rate of Adam (default 0.06; beyond 64 hidden units in all, in inverse "
          "proportion to them)"},
@@ -363,6 +370,7 @@ int cmd_fit(int argc, char **argv)
     j.fit.seconds = seconds;
     j.fit.batch = (int)batch;
     j.fit.pool = (int)pool;
+    j.fit.memory = (size_t)(1e9 * memory);
     j.fit.learning_rate = (float)rate;
     j.fit.loss = (hnbrdf_fit_loss)loss.value;
     j.fit.schedule = (hnbrdf_fit_schedule)schedule.value;

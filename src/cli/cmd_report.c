@@ -1,5 +1,6 @@
 /* cmd_report.c: `hnbrdf report accuracy`: the error of a grid of networks and baselines, as
  * tables and plots. */
+#include "cli/ranks.h"
 #include "cli/report.h"
 #include "cli/words.h"
 
@@ -27,7 +28,10 @@ static const cli_command command = {
     "the other reports.\n"
     "Everything is written anew after each model: what an interrupted run has done stays, and "
     "--resume\n"
-    "goes on with it. A model made with other settings is not reused.",
+    "goes on with it. A model made with other settings is not reused.\n"
+    "`mpirun -n N hnbrdf report accuracy ...` shares the models among N processes that see the "
+    "same\n"
+    "DIR; each reads all data.",
     "hnbrdf report accuracy builtin --quick -o quick\n"
     "hnbrdf report accuracy rgl/ --seconds 300 --sampler uniform -o rgl-report\n"
     "hnbrdf report accuracy merl/ --seconds 600 --latents 4 --nets 16x2,32x2 --resume -o "
@@ -64,9 +68,14 @@ static int run(report *r, char **arguments, int count)
     cli_data data = {0};
     cli_progress progress;
     hnbrdf_error error;
-    int code = cli_open_data(arguments, count, &data);
-    if (code != CLI_OK)
+    const int own = cli_open_data(arguments, count, &data);
+    int code = cli_ranks_agree(own);
+    if (code != CLI_OK) {
+        if (own == CLI_OK)
+            cli_close_data(&data);
         return code;
+    }
+    r->ranks = cli_ranks();
     r->data = (report_data){data.items, data.count};
     r->watch = cli_watch(&progress);
     r->error = &error;
@@ -105,6 +114,9 @@ static void fill_defaults(report *r, int quick, const char **nets, const char **
 
 int cmd_report(int argc, char **argv)
 {
+    if (argc > 1 && strcmp(argv[1], "accuracy") != 0 && cli_ranks())
+        return cli_fail("report %s is done by one process, but was started in %d", argv[1],
+                        cli_rank_count());
     if (argc > 1 && strcmp(argv[1], "images") == 0)
         return cmd_report_images(argc, argv);
     if (argc > 1 && strcmp(argv[1], "sampling") == 0)

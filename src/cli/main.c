@@ -79,7 +79,7 @@ static int show_help(int argc, char **argv)
 /* Whether several processes share the work of a command. */
 static int runs_on_ranks(const char *name)
 {
-    static const char *const shared[] = {"fit"};
+    static const char *const shared[] = {"fit", "bake", "report"};
     for (size_t k = 0; k < sizeof shared / sizeof shared[0]; k++)
         if (strcmp(name, shared[k]) == 0)
             return 1;

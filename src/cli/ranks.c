@@ -80,23 +80,12 @@ int cli_ranks_agree(int code)
 {
     if (communicator.size == 1)
         return code;
-    const size_t size = (size_t)communicator.size;
-    int *codes = calloc(size, sizeof *codes), first = 0;
-    size_t *bytes = calloc(size, sizeof *bytes);
-    for (size_t r = 0; bytes && r < size; r++)
-        bytes[r] = sizeof *codes;
-    if (!codes || !bytes)
-        code = cli_fail("out of memory");
-    else if (communicator.gather(communicator.user, &code, codes, bytes))
-        code = cli_fail("another of %d ranks has ended or cannot be reached", communicator.size);
-    else
-        for (; first < communicator.size; first++)
-            if ((code = codes[first]))
-                break;
-    if (code && first == communicator.rank)
-        print_kept();
-    free(codes);
-    free(bytes);
+    hnbrdf_error error;
+    snprintf(error.text, sizeof error.text, "%s", cli_last_message());
+    const int before = code;
+    const hnbrdf_result result = code ? HNBRDF_ERROR_ARGUMENT : HNBRDF_OK;
+    if (hnbrdf_ranks_agree(&communicator, result, &code, &error) && !before)
+        cli_fail("%s", error.text); /* of another rank */
     return code;
 }
 

@@ -11,36 +11,50 @@
 #include "cli/cli.h"
 
 #include <limits.h>
+#include <math.h>
 #include <mpi.h>
 #include <sched.h>
 #include <stdlib.h>
+#include <string.h>
 
-#define GIVE_UP 0.4    /* seconds after a signal */
-enum { AWAKE = 2000 }; /* looks before others get the processor */
+#define GIVE_UP 0.4 /* seconds after a signal */
+enum {
+    AWAKE = 2000, /* looks before others get the processor */
+    FEW = 16      /* ranks that tell each other one by one */
+};
 
-static int *counts[4]; /* [ranks] numbers and places of what is sent and received */
-static int lost;       /* 1: a rank did not come */
+static int *counts[4]; /* [ranks] numbers and places of what is sent, and of what is received */
+static MPI_Request *requests; /* [2 ranks] */
+static int lost;              /* 1: a rank did not come */
 
-/* Until the request is done; non-zero where it will not be. */
-static int wait_for(MPI_Request *request, double patience)
+/* Is it in vain to wait on? A look may take long where others have the processor: the clock is
+ * asked at each of them once there is a reason. */
+static int in_vain(double started, double patience)
 {
-    double signalled = 0.0;
+    static double signalled;
+    if (!hnbrdf_interrupted() && patience < 0.0)
+        return 0;
+    const double now = hnbrdf_seconds();
+    if (hnbrdf_interrupted() && signalled == 0.0)
+        signalled = now;
+    return (signalled > 0.0 && now - fmax(signalled, started) > GIVE_UP) ||
+           (patience >= 0.0 && now - started > patience);
+}
+
+/* Until all requests are done; non-zero where they will not be. */
+static int wait_for(MPI_Request *pending, int count, double patience)
+{
     const double started = hnbrdf_seconds();
     for (long looks = 1;; looks++) {
         int done = 0;
-        if (MPI_Test(request, &done, MPI_STATUS_IGNORE) != MPI_SUCCESS)
+        if (MPI_Testall(count, pending, &done, MPI_STATUSES_IGNORE) != MPI_SUCCESS)
             return lost = 1;
         if (done)
             return 0;
-        if (looks % AWAKE)
-            continue;
-        sched_yield();
-        const double now = hnbrdf_seconds();
-        if (hnbrdf_interrupted() && signalled == 0.0)
-            signalled = now;
-        if ((signalled > 0.0 && now - signalled > GIVE_UP) ||
-            (patience >= 0.0 && now - started > patience))
+        if (in_vain(started, patience))
             return lost = 1;
+        if (looks % AWAKE == 0)
+            sched_yield();
     }
 }
 
@@ -56,35 +70,59 @@ static int place(const size_t *bytes, int size, int *numbers, int *places)
     return at <= INT_MAX;
 }
 
+/* One message to each rank that gets something and from each that sends something, as the counts
+ * say: sooner under way than a call for all of MPI. */
+static int pass(const hnbrdf_communicator *ranks, const char *send, char *received)
+{
+    const int me = ranks->rank;
+    int count = 0;
+    memcpy(received + counts[3][me], send + counts[1][me], (size_t)counts[0][me]);
+    for (int r = 0; r < ranks->size; r++)
+        if (r != me && counts[2][r] > 0 &&
+            MPI_Irecv(received + counts[3][r], counts[2][r], MPI_BYTE, r, 0, MPI_COMM_WORLD,
+                      &requests[count++]) != MPI_SUCCESS)
+            return lost = 1;
+    for (int k = 1; k < ranks->size; k++) {
+        const int r = (me + k) % ranks->size; /* not all to the same one at first */
+        if (counts[0][r] > 0 && MPI_Isend(send + counts[1][r], counts[0][r], MPI_BYTE, r, 0,
+                                          MPI_COMM_WORLD, &requests[count++]) != MPI_SUCCESS)
+            return lost = 1;
+    }
+    return wait_for(requests, count, -1.0);
+}
+
 static int gather(void *user, const void *mine, void *all, const size_t *bytes)
 {
     const hnbrdf_communicator *ranks = user;
-    MPI_Request request;
-    return lost || !place(bytes, ranks->size, counts[0], counts[1]) ||
-           MPI_Iallgatherv(mine, counts[0][ranks->rank], MPI_BYTE, all, counts[0], counts[1],
-                           MPI_BYTE, MPI_COMM_WORLD, &request) != MPI_SUCCESS ||
-           wait_for(&request, -1.0);
+    const int size = ranks->size;
+    if (lost || !place(bytes, size, counts[2], counts[3]))
+        return 1;
+    if (size <= FEW) {
+        for (int r = 0; r < size; r++) {
+            counts[0][r] = counts[2][ranks->rank];
+            counts[1][r] = 0;
+        }
+        return pass(ranks, mine, all);
+    }
+    return MPI_Iallgatherv(mine, counts[2][ranks->rank], MPI_BYTE, all, counts[2], counts[3],
+                           MPI_BYTE, MPI_COMM_WORLD, requests) != MPI_SUCCESS ||
+           wait_for(requests, 1, -1.0);
 }
 
 static int exchange(void *user, const void *send, const size_t *send_bytes, void *received,
                     const size_t *received_bytes)
 {
     const hnbrdf_communicator *ranks = user;
-    MPI_Request request;
     return lost || !place(send_bytes, ranks->size, counts[0], counts[1]) ||
-           !place(received_bytes, ranks->size, counts[2], counts[3]) ||
-           MPI_Ialltoallv(send, counts[0], counts[1], MPI_BYTE, received, counts[2], counts[3],
-                          MPI_BYTE, MPI_COMM_WORLD, &request) != MPI_SUCCESS ||
-           wait_for(&request, -1.0);
+           !place(received_bytes, ranks->size, counts[2], counts[3]) || pass(ranks, send, received);
 }
 
 static int broadcast(void *user, void *data, size_t bytes, int root)
 {
-    MPI_Request request;
     (void)user;
     return lost || bytes > INT_MAX ||
-           MPI_Ibcast(data, (int)bytes, MPI_BYTE, root, MPI_COMM_WORLD, &request) != MPI_SUCCESS ||
-           wait_for(&request, -1.0);
+           MPI_Ibcast(data, (int)bytes, MPI_BYTE, root, MPI_COMM_WORLD, requests) != MPI_SUCCESS ||
+           wait_for(requests, 1, -1.0);
 }
 
 int cli_mpi_begin(int launched, hnbrdf_communicator *ranks)
@@ -99,6 +137,9 @@ int cli_mpi_begin(int launched, hnbrdf_communicator *ranks)
     for (int k = 0; k < 4; k++)
         if (!(counts[k] = calloc((size_t)size, sizeof(int))))
             return cli_fail("out of memory");
+    requests = calloc(2 * (size_t)size, sizeof *requests);
+    if (!requests)
+        return cli_fail("out of memory");
     if (size > 1)
         *ranks = (hnbrdf_communicator){rank, size, gather, exchange, broadcast, ranks};
     else
@@ -110,11 +151,12 @@ int cli_mpi_end(double patience)
 {
     MPI_Request request;
     if (lost || MPI_Ibarrier(MPI_COMM_WORLD, &request) != MPI_SUCCESS ||
-        wait_for(&request, patience))
+        wait_for(&request, 1, patience))
         return 0;
     MPI_Finalize();
     for (int k = 0; k < 4; k++)
         free(counts[k]);
+    free(requests);
     return 1;
 }
 

@@ -3,13 +3,12 @@
 
 #include <math.h>
 
-void hnbrdf_fit_adam(float *parameters, const float *gradient, float *moments, size_t count,
+void hnbrdf_fit_adam(float *parameters, const float *gradient, float *m, float *v, size_t count,
                      long step, double rate)
 {
     const float b1 = (float)FIT_ADAM_BETA1, b2 = (float)FIT_ADAM_BETA2;
     const float correct1 = (float)(rate / (1.0 - pow(FIT_ADAM_BETA1, (double)step)));
     const float correct2 = (float)(1.0 / (1.0 - pow(FIT_ADAM_BETA2, (double)step)));
-    float *m = moments, *v = moments + count;
     for (size_t i = 0; i < count; i++) {
         float g = gradient[i];
         if (!(fabsf(g) <= 1e18f))

@@ -7,10 +7,10 @@
 #define FIT_ADAM_BETA1 0.9
 #define FIT_ADAM_BETA2 0.99
 
-/* One step: parameters -= rate * m^ / (sqrt(v^) + 1e-8). moments is [2][count], zero before the
+/* One step: parameters -= rate * m^ / (sqrt(v^) + 1e-8). m and v are [count], zero before the
  * first step; step counts from 1. A gradient that is not finite leaves its parameter and moments
  * alone. */
-void hnbrdf_fit_adam(float *parameters, const float *gradient, float *moments, size_t count,
+void hnbrdf_fit_adam(float *parameters, const float *gradient, float *m, float *v, size_t count,
                      long step, double rate);
 
 #endif

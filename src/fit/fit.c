@@ -90,12 +90,17 @@ static hnbrdf_result spread_found(trainer *t, hnbrdf_error *error)
 
 /* ---- Memory ---------------------------------------------------------------------------------- */
 
-/* The materials that this rank has, and the pairs of those that are kept. */
+/* The materials that this rank has, and the pairs of those that are kept; for the others there is
+ * a place for each thread. */
 static int allocate_pool(trainer *t)
 {
+    const size_t threads = (size_t)hnbrdf_threads_count(t->workers);
     fit_pool *pool = &t->pool;
     const size_t held = (size_t)t->held_count + 1;
-    pool->kept = t->held_count;
+    pool->kept = hnbrdf_fit_pool_keeps(t->held_count, pool->tiles,
+                                       t->options.memory ? (double)t->options.memory : INFINITY);
+    if (pool->kept < t->held_count)
+        t->room = malloc(sizeof(float) * threads * FIT_GGX_TILES * FIT_POOL_TILE);
     pool->sources = calloc(held, sizeof *pool->sources);
     pool->data =
         malloc(sizeof(float) * (size_t)pool->kept * (size_t)pool->tiles * FIT_POOL_TILE + 1);
@@ -103,7 +108,7 @@ static int allocate_pool(trainer *t)
     for (int k = 0; k < t->held_count && pool->sources; k++)
         pool->sources[k] =
             (fit_source){.measured = t->data[t->held[k]], .sequence = (uint64_t)t->held[k]};
-    return pool->data && pool->sources && t->encoded;
+    return pool->data && pool->sources && t->encoded && (t->room || pool->kept == t->held_count);
 }
 
 /* Every array of the trainer; NULL where one failed shows in the return value. */
@@ -294,8 +299,8 @@ static hnbrdf_result set_up(trainer *t, hnbrdf_error *error)
     if (!allocate(t))
         result = hnbrdf_fail(
             error, HNBRDF_ERROR_MEMORY,
-            "out of memory: %d materials of %d pairs need about %.0f MB", t->held_count, o->pool,
-            (double)t->held_count * t->pool.tiles * FIT_POOL_TILE * sizeof(float) * 1e-6);
+            "out of memory: %d materials of %d pairs need about %.0f MB", t->pool.kept, o->pool,
+            (double)t->pool.kept * t->pool.tiles * FIT_POOL_TILE * sizeof(float) * 1e-6);
     return hnbrdf_fit_agree(t, result, error);
 }
 
@@ -307,6 +312,8 @@ static void time_all(const trainer *t, double seconds, hnbrdf_fit_report *report
     report->instructions = t->kernel ? t->kernel->name : NULL;
     report->threads = hnbrdf_threads_count(t->workers);
     report->ranks = t->ranks.size;
+    report->kept = (double)t->pool.kept * t->pool.tiles * FIT_POOL_TILE * sizeof(float);
+    report->redrawn = t->held_count - t->pool.kept;
     times->exchange = t->exchange;
     times->waiting =
         fmax(0.0, report->threads * seconds - times->drawing - times->ggx - times->encoding -

@@ -96,7 +96,8 @@ static double descend(const fit_kernel *kernel, const fit_pool *pool, int materi
                 0.5f * (gradient[FIT_ALPHA] + gradient[FIT_ALPHA + 1]);
             gradient[FIT_ROTATION] = 0.0f;
         }
-        hnbrdf_fit_adam(p, gradient, moments, FIT_ANALYTIC, step, rate * (1.02 - fmin(1.0, share)));
+        hnbrdf_fit_adam(p, gradient, moments, moments + FIT_ANALYTIC, FIT_ANALYTIC, step,
+                        rate * (1.02 - fmin(1.0, share)));
         hnbrdf_fit_ggx_project(p, isotropic);
     }
     memcpy(p, best, sizeof best);

@@ -29,7 +29,7 @@ struct fit_sums {
 
 static int tiles_of(const trainer *t, int rank)
 {
-    return hnbrdf_fit_share_first(&t->shares, rank + 1) - hnbrdf_fit_share_first(&t->shares, rank);
+    return hnbrdf_fit_share_tiles(&t->shares, rank);
 }
 
 /* ---- Memory ---------------------------------------------------------------------------------- */
@@ -39,21 +39,45 @@ static size_t segment_size(const struct fit_sums *s, int rank)
     return s->segment[rank + 1] - s->segment[rank];
 }
 
+/* Where the segment of a rank starts; one past all ranks: where the last one ends. */
+static size_t segment_start(const fit_layout *l, int frozen, int ranks, int rank)
+{
+    /* a gradient by the network that is nothing need not be added up */
+    const size_t rows = frozen ? 0 : l->network_count / FIT_LANES;
+    return rows * (size_t)rank / (size_t)ranks * FIT_LANES;
+}
+
+static size_t own_size(const fit_layout *l)
+{
+    return (size_t)l->latent_size + (l->train_analytic ? FIT_ANALYTIC : 0);
+}
+
+size_t hnbrdf_fit_sums_sent(const fit_share *s, const fit_layout *l, int frozen, int from, int to)
+{
+    const size_t units = (size_t)(hnbrdf_fit_share_tiles(s, from) / s->unit_tiles);
+    return units * sizeof(float) *
+           (segment_start(l, frozen, s->ranks, to + 1) - segment_start(l, frozen, s->ranks, to));
+}
+
+size_t hnbrdf_fit_sums_gathered(const fit_share *s, const fit_layout *l, int frozen, int from)
+{
+    const size_t tiles = (size_t)hnbrdf_fit_share_tiles(s, from);
+    const size_t segment =
+        segment_start(l, frozen, s->ranks, from + 1) - segment_start(l, frozen, s->ranks, from);
+    return sizeof(word) + tiles * sizeof(double) + (segment + tiles * own_size(l)) * sizeof(float);
+}
+
 /* Sizes of all messages: they are the same in every step. */
 static void measure(const trainer *t, struct fit_sums *s)
 {
-    const int ranks = t->ranks.size, unit = t->shares.unit_tiles;
-    /* whose gradient by the network is nothing, it need not be added up */
-    const size_t rows = t->options.freeze ? 0 : t->layout.network_count / FIT_LANES;
+    const fit_share *shares = &t->shares;
+    const int ranks = shares->ranks, me = shares->rank, frozen = t->options.freeze != NULL;
     for (int r = 0; r <= ranks; r++)
-        s->segment[r] = rows * (size_t)r / (size_t)ranks * FIT_LANES;
+        s->segment[r] = segment_start(&t->layout, frozen, ranks, r);
     for (int r = 0; r < ranks; r++) {
-        const size_t tiles = (size_t)tiles_of(t, r), units = tiles / (size_t)unit;
-        const size_t mine = (size_t)(tiles_of(t, t->ranks.rank) / unit);
-        s->send_bytes[r] = mine * segment_size(s, r) * sizeof(float);
-        s->received_bytes[r] = units * segment_size(s, t->ranks.rank) * sizeof(float);
-        s->mine_bytes[r] = sizeof(word) + tiles * sizeof(double) +
-                           (segment_size(s, r) + tiles * s->own_size) * sizeof(float);
+        s->send_bytes[r] = hnbrdf_fit_sums_sent(shares, &t->layout, frozen, me, r);
+        s->received_bytes[r] = hnbrdf_fit_sums_sent(shares, &t->layout, frozen, r, me);
+        s->mine_bytes[r] = hnbrdf_fit_sums_gathered(shares, &t->layout, frozen, r);
     }
 }
 
@@ -72,7 +96,7 @@ int hnbrdf_fit_sums_make(trainer *t)
     const size_t ranks = (size_t)t->ranks.size, tiles = (size_t)shares->tiles;
     if (!s)
         return 0;
-    s->own_size = (size_t)t->layout.latent_size + (t->layout.train_analytic ? FIT_ANALYTIC : 0);
+    s->own_size = own_size(&t->layout);
     const size_t pieces = (size_t)((shares->end - shares->first) / shares->piece_tiles);
     s->pieces = calloc(pieces * t->layout.network_count + 1, sizeof(float));
     s->own = calloc(tiles * s->own_size + 1, sizeof(float));
@@ -279,7 +303,8 @@ static double add_up_tiles(trainer *t)
     const fit_layout *l = &t->layout;
     const int each = t->shares.chunk_tiles;
     double loss = 0.0;
-    memset(t->gradient + l->network_count, 0, (l->count - l->network_count) * sizeof(float));
+    memset(t->gradient + l->network_count, 0,
+           (hnbrdf_fit_trained(l) - l->network_count) * sizeof(float));
     for (int first = 0; first < t->shares.tiles; first += each) {
         double chunk = 0.0;
         for (int k = first; k < first + each; k++) {
@@ -307,7 +332,7 @@ double hnbrdf_fit_step_gradient(trainer *t)
     else if (!tell_all(t))
         return 0.0;
     const double loss = add_up_tiles(t);
-    for (size_t i = 0; i < l->count; i++)
+    for (size_t i = 0; i < hnbrdf_fit_trained(l); i++)
         t->gradient[i] *= (float)scale;
     if (t->options.freeze) /* a gradient of zero moves nothing */
         memset(t->gradient, 0, sizeof(float) * l->network_count);

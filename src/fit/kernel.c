@@ -52,6 +52,11 @@ void hnbrdf_fit_layout_make(fit_layout *layout, hnbrdf_kind kind, int hidden, in
     *layout = l;
 }
 
+size_t hnbrdf_fit_trained(const fit_layout *l)
+{
+    return l->train_analytic ? l->count : l->analytic;
+}
+
 void hnbrdf_fit_layer_size(const fit_layout *l, int k, int *outputs, int *inputs)
 {
     *outputs = k < l->layers ? l->hidden_size : l->outputs;

@@ -43,6 +43,9 @@ typedef struct fit_layout {
 void hnbrdf_fit_layout_make(fit_layout *layout, hnbrdf_kind kind, int hidden, int layers,
                             int latent, int materials, int train_analytic, float floor);
 
+/* The numbers that training changes: the analytic part, at the end, only where it is trained. */
+size_t hnbrdf_fit_trained(const fit_layout *layout);
+
 /* Where the weight from `input` to `output` of layer k lies, both counted as in a model: the
  * inputs of layer 0 are the six encoded directions, then the latent code, whose rows follow on. */
 size_t hnbrdf_fit_weight_at(const fit_layout *layout, int k, int output, int input);

@@ -54,52 +54,14 @@ hnbrdf_result hnbrdf_fit_fail_lost(const trainer *t, hnbrdf_error *error)
                        t->ranks.rank, t->ranks.size, t->step);
 }
 
-/* What one rank came to. */
-typedef struct verdict {
-    int32_t result, asked;
-} verdict;
-
-/* The message of rank `from` to all. */
-static hnbrdf_result spread_error(trainer *t, int from, hnbrdf_result result, hnbrdf_error *error)
-{
-    hnbrdf_error text = {""};
-    if (from == t->ranks.rank && error)
-        text = *error;
-    const double started = hnbrdf_seconds();
-    if (!done(t, started, t->ranks.broadcast(t->ranks.user, &text, sizeof text, from)))
-        return hnbrdf_fit_fail_lost(t, error);
-    return hnbrdf_fail(error, result, "%s", text.text);
-}
-
 hnbrdf_result hnbrdf_fit_agree(trainer *t, hnbrdf_result mine, hnbrdf_error *error)
 {
-    if (hnbrdf_fit_is_alone(t)) {
-        t->stopped |= t->asked;
-        return mine;
-    }
-    const verdict own = {(int32_t)mine, t->asked};
-    const size_t size = (size_t)t->ranks.size;
-    verdict *all = calloc(size, sizeof *all);
-    size_t *bytes = calloc(size, sizeof *bytes);
-    hnbrdf_result result = HNBRDF_OK;
-    int failed = -1;
-    for (size_t r = 0; bytes && r < size; r++)
-        bytes[r] = sizeof *all;
-    if (!all || !bytes) {
-        result =
-            hnbrdf_fail(error, HNBRDF_ERROR_MEMORY, "out of memory for %d ranks", t->ranks.size);
-    } else if (!hnbrdf_fit_gather(t, &own, all, bytes)) {
-        result = hnbrdf_fit_fail_lost(t, error);
-    } else {
-        for (int r = t->ranks.size - 1; r >= 0; r--) {
-            t->stopped |= all[r].asked;
-            failed = all[r].result ? r : failed;
-        }
-        if (failed >= 0)
-            result = spread_error(t, failed, (hnbrdf_result)all[failed].result, error);
-    }
-    free(all);
-    free(bytes);
+    const double started = hnbrdf_seconds();
+    int asked = t->asked;
+    hnbrdf_result result = hnbrdf_ranks_agree(&t->ranks, mine, &asked, error);
+    if (!hnbrdf_fit_is_alone(t))
+        t->exchange += hnbrdf_seconds() - started;
+    t->stopped |= asked;
     return result;
 }
 

@@ -7,6 +7,11 @@ int hnbrdf_fit_share_first(const fit_share *s, int rank)
     return (int)(units * rank / s->ranks) * s->unit_tiles;
 }
 
+int hnbrdf_fit_share_tiles(const fit_share *s, int rank)
+{
+    return hnbrdf_fit_share_first(s, rank + 1) - hnbrdf_fit_share_first(s, rank);
+}
+
 int hnbrdf_fit_share_rank(const fit_share *s, int tile)
 {
     const long long units = s->tiles / s->unit_tiles, unit = tile / s->unit_tiles;

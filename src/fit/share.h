@@ -22,6 +22,7 @@ typedef struct fit_share {
 fit_share hnbrdf_fit_share_make(int tiles, int rank, int ranks, int threads);
 /* The first tile of a rank; the first one past all for rank == ranks. */
 int hnbrdf_fit_share_first(const fit_share *share, int rank);
+int hnbrdf_fit_share_tiles(const fit_share *share, int rank);
 /* Which rank works on a tile. */
 int hnbrdf_fit_share_rank(const fit_share *share, int tile);
 

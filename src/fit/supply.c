@@ -12,10 +12,15 @@
 
 enum { WINDOW_TILES = 512 }; /* of a window, unless a step has more */
 
+size_t hnbrdf_fit_supply_tile_bytes(const fit_layout *layout)
+{
+    return sizeof(float) * (size_t)(layout->train_analytic ? FIT_POOL_TILE : FIT_POOL_WI);
+}
+
 /* Floats of a tile that training sees, and that are sent: the directions only where they matter. */
 static size_t tile_floats(const trainer *t)
 {
-    return t->layout.train_analytic ? FIT_POOL_TILE : FIT_POOL_WI;
+    return hnbrdf_fit_supply_tile_bytes(&t->layout) / sizeof(float);
 }
 
 static int is_mine(const trainer *t, int material)

@@ -167,12 +167,12 @@ static float mix_now(const trainer *t)
  * moments are floats. */
 static void advance(trainer *t, double loss)
 {
-    hnbrdf_fit_adam(t->parameters, t->gradient, t->moments, t->layout.count, t->step - t->since,
-                    rate_now(t));
+    hnbrdf_fit_adam(t->parameters, t->gradient, t->moments, t->moments + t->layout.count,
+                    hnbrdf_fit_trained(&t->layout), t->step - t->since, rate_now(t));
     if (t->layout.train_analytic)
         settle_analytic(t);
     t->running = isfinite(t->running) ? 0.98 * t->running + 0.02 * loss : loss;
-    if (!isfinite(loss) || !all_finite(t->parameters, t->layout.count))
+    if (!isfinite(loss) || !all_finite(t->parameters, hnbrdf_fit_trained(&t->layout)))
         hnbrdf_fit_set_back(t);
     else
         hnbrdf_fit_judge(t);
@@ -202,8 +202,7 @@ static hnbrdf_result start(trainer *t, hnbrdf_error *error)
     return result;
 }
 
-/* Floating-point operations of both passes over one pair; see hnbrdf_fit_report. */
-static double flops_a_pair(const fit_layout *l)
+double hnbrdf_fit_pair_flops(const fit_layout *l)
 {
     double h = l->hidden_size, hidden = (l->layers - 1) * h * h;
     double forward = FIT_INPUTS * h + hidden + h * l->outputs;
@@ -286,7 +285,7 @@ hnbrdf_result hnbrdf_fit_train(trainer *t, hnbrdf_fit_report *report, hnbrdf_err
     report->pairs_per_s = elapsed > 0.0 ? pairs / elapsed : 0.0;
     report->steps = t->step;
     report->pairs = pairs;
-    report->flops = pairs * flops_a_pair(&t->layout);
+    report->flops = pairs * hnbrdf_fit_pair_flops(&t->layout);
     report->times.drawing += t->redrawing;
     report->times.network = hnbrdf_threads_busy(t->workers) - busy_before - t->redrawing;
     /* of this thread; it waits for others awake */

@@ -120,6 +120,8 @@ int hnbrdf_fit_supply_step(trainer *t);
 /* The next step is that of t->schedule. */
 void hnbrdf_fit_supply_restart(trainer *t);
 /* The tiles of round r of the sample that judge.c sees, the first ones of all materials. */
+/* Bytes of a tile on its way. */
+size_t hnbrdf_fit_supply_tile_bytes(const fit_layout *layout);
 int hnbrdf_fit_supply_rounds(const trainer *t);
 void hnbrdf_fit_supply_round(trainer *t, int r);
 
@@ -127,6 +129,12 @@ void hnbrdf_fit_supply_round(trainer *t, int r);
 
 int hnbrdf_fit_sums_make(trainer *t);
 void hnbrdf_fit_sums_free(trainer *t);
+/* Bytes of a step: of gradients from one rank to another that adds them up, and of what a rank
+ * tells all. */
+size_t hnbrdf_fit_sums_sent(const fit_share *share, const fit_layout *layout, int frozen, int from,
+                            int to);
+size_t hnbrdf_fit_sums_gathered(const fit_share *share, const fit_layout *layout, int frozen,
+                                int from);
 /* Loss and gradient of the mean over the pairs of the step's tiles. Where a rank is lost, neither.
  */
 double hnbrdf_fit_step_gradient(trainer *t);
@@ -141,6 +149,8 @@ void hnbrdf_fit_judge_end(trainer *t, hnbrdf_fit_report *report);
 
 /* ---- train.c, checkpoint.c, result.c --------------------------------------------------------- */
 
+/* Floating-point operations of both passes over one pair; see hnbrdf_fit_report. */
+double hnbrdf_fit_pair_flops(const fit_layout *layout);
 /* The network stage, from a fresh start or from a checkpoint. Fills steps, rate and loss of the
  * report. */
 hnbrdf_result hnbrdf_fit_train(trainer *t, hnbrdf_fit_report *report, hnbrdf_error *error);

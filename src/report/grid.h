@@ -86,6 +86,7 @@ typedef struct report {
     const char *given; /* the file of the only model beside GGX alone; NULL: a grid */
     long rows;         /* materials whose spheres are shown */
     int resume;
+    const hnbrdf_communicator *ranks; /* processes that share the entries; NULL: this one alone */
 } report;
 
 /* ---- Files of the report's folder --------------------------------------------------------------
@@ -124,8 +125,8 @@ const hnbrdf_material *report_material(const report *r, const hnbrdf_model *mode
 
 /* ---- grid_fit.c ------------------------------------------------------------------------------ */
 
-/* Fits or reuses, saves and measures all entries; calls `finished` after each one and stops when it
- * fails. A watch that says stop ends it after the step. */
+/* Fits or reuses, saves and measures all entries; calls `finished` after each one, by rank 0 alone,
+ * and stops when it fails. A watch that says stop ends it after the step. */
 hnbrdf_result report_run(report *r,
                          hnbrdf_result (*finished)(const report *r, const report_entry *e));
 /* The error of a watch that says stop. */
@@ -134,6 +135,16 @@ hnbrdf_result report_interrupted(const report *r);
 hnbrdf_result report_load_model(const report *r, const char *path, hnbrdf_model **model);
 /* Fits, reuses or takes all models and measures nothing; models is [entries]. */
 hnbrdf_result report_make_models(report *r, hnbrdf_model **models);
+
+/* ---- grid_ranks.c: by all ranks at the same time -------------------------------------------- */
+
+/* 0 of 1 where the report is made by one process. */
+int report_rank(const report *r);
+int report_rank_count(const report *r);
+/* The failure of any is one of all; *flag becomes the or of all. */
+hnbrdf_result report_agree(const report *r, hnbrdf_result mine, int *flag);
+/* The figures of an entry, of the rank that made it, to all. */
+hnbrdf_result report_spread_entry(const report *r, int from, report_entry *e);
 
 /* ---- grid_images.c: spheres, each rendered twice with half of the samples and a seed of its own,
  * so that what noise does is known ------------------------------------------------------------- */

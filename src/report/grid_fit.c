@@ -197,6 +197,12 @@ static hnbrdf_result save(const report *r, const hnbrdf_model *model, const repo
                                : hnbrdf_fail(r->error, result, "%s: %s", e->name, error.text);
 }
 
+/* The first entry is made by all ranks together, and saved by one. */
+static int is_shared(const report_entry *e)
+{
+    return e->form == REPORT_GGX;
+}
+
 /* Fits and saves; goes on from a checkpoint that --resume finds. */
 static hnbrdf_result fit_entry(const report *r, report_entry *e, watch *w, hnbrdf_model **model)
 {
@@ -210,6 +216,7 @@ static hnbrdf_result fit_entry(const report *r, report_entry *e, watch *w, hnbrd
         forget(r, e, "txt");
         set_options(r, e, &options);
         options.search = e->form == REPORT_GGX ? r->search : NULL;
+        options.ranks = is_shared(e) ? r->ranks : NULL;
         options.progress = show;
         options.progress_user = w;
         if (e->form != REPORT_GGX) {
@@ -222,7 +229,8 @@ static hnbrdf_result fit_entry(const report *r, report_entry *e, watch *w, hnbrd
         e->steps = made.steps;
         e->seconds = made.seconds;
         e->pairs_per_s = made.pairs_per_s;
-        result = save(r, fitted, e, path);
+        if (!is_shared(e) || report_rank(r) == 0)
+            result = save(r, fitted, e, path);
     }
     if (result == HNBRDF_OK) {
         remove(checkpoint);
@@ -329,8 +337,14 @@ static hnbrdf_result finish_entry(report *r, report_entry *e, const hnbrdf_model
 static hnbrdf_result run_entry(report *r, report_entry *e, watch *w)
 {
     hnbrdf_model *model = reuse(r, e);
+    int missing = model == NULL;
+    hnbrdf_result result = is_shared(e) ? report_agree(r, HNBRDF_OK, &missing) : HNBRDF_OK;
     watch_entry(w, e);
-    hnbrdf_result result = model ? HNBRDF_OK : fit_entry(r, e, w, &model);
+    if (missing) { /* of a shared one, by any */
+        hnbrdf_model_free(model);
+        model = NULL;
+        result = result == HNBRDF_OK ? fit_entry(r, e, w, &model) : result;
+    }
     if (result == HNBRDF_OK)
         result = finish_entry(r, e, model);
     if (result == HNBRDF_OK)
@@ -346,16 +360,32 @@ static watch begin_watch(const report *r)
         .r = r, .started = hnbrdf_seconds(), .before = 0.3 * r->data.count, .work_second = 2e6};
 }
 
+/* Rank 0 hears of what rank `from` has done, and writes. */
+static hnbrdf_result finish_with(const report *r, int from, report_entry *e,
+                                 hnbrdf_result (*finished)(const report *r, const report_entry *e))
+{
+    hnbrdf_result result = report_spread_entry(r, from, e);
+    if (result == HNBRDF_OK && report_rank(r) == 0)
+        result = finished(r, e);
+    return report_agree(r, result, NULL);
+}
+
 hnbrdf_result report_run(report *r,
                          hnbrdf_result (*finished)(const report *r, const report_entry *e))
 {
     watch w = begin_watch(r);
     hnbrdf_result result = HNBRDF_OK;
-    for (int k = 0; k < r->count && result == HNBRDF_OK; k++) {
-        result = run_entry(r, &r->entries[k], &w);
-        if (result == HNBRDF_OK)
-            result = finished(r, &r->entries[k]);
-        if (result == HNBRDF_OK && k + 1 < r->count && report_stop(&r->watch))
+    for (int k = 0, n; k < r->count && result == HNBRDF_OK; k += n) {
+        n = k == 0 ? 1 : report_rank_count(r); /* the first entry: all together */
+        n = n < r->count - k ? n : r->count - k;
+        const int own = k == 0 ? 0 : k + report_rank(r);
+        result = own < k + n ? run_entry(r, &r->entries[own], &w) : HNBRDF_OK;
+        result = report_agree(r, result, NULL);
+        for (int i = 0; i < n && result == HNBRDF_OK; i++)
+            result = finish_with(r, i, &r->entries[k + i], finished);
+        int stop = k + n < r->count && report_stop(&r->watch);
+        result = report_agree(r, result, &stop);
+        if (result == HNBRDF_OK && stop)
             result = report_interrupted(r);
     }
     report_images_end(r);

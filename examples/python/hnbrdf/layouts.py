@@ -65,19 +65,20 @@ _fit_options = _structure(
     "hnbrdf_fit_options", ("kind", _I), ("hidden", _I), ("layers", _I), ("latent", _I),
     ("latent_none", _I), ("encoding", _S), ("floor", _F), ("floor_none", _I), ("analytic", _I),
     ("materials", _P), ("search", _P), ("drawn", _P), ("worth", _P), ("steps", c.c_long),
-    ("seconds", _D), ("batch", _I), ("pool", _I), ("learning_rate", _F), ("loss", _I),
-    ("schedule", _I), ("bright_share", _F), ("bright_none", _I), ("uniform_share", _F),
-    ("uniform_none", _I), ("lift", _F), ("lift_none", _I), ("seed", c.c_uint64), ("threads", _I),
-    ("progress", _fit_fn), ("progress_user", _P), ("freeze", _P), ("checkpoint", _S),
+    ("seconds", _D), ("batch", _I), ("pool", _I), ("memory", _Z), ("learning_rate", _F),
+    ("loss", _I), ("schedule", _I), ("bright_share", _F), ("bright_none", _I),
+    ("uniform_share", _F), ("uniform_none", _I), ("lift", _F), ("lift_none", _I),
+    ("seed", c.c_uint64), ("threads", _I), ("progress", _fit_fn), ("progress_user", _P),
+    ("freeze", _P), ("checkpoint", _S),
     ("resume", _I), ("ranks", _P))
 _fit_times = _structure("hnbrdf_fit_times", *((name, _D) for name in (
     "drawing", "ggx", "encoding", "network", "update", "exchange", "waiting")))
 _fit_report = _structure(
     "hnbrdf_fit_report", ("final_loss", _D), ("seconds", _D), ("pairs_per_s", _D),
     ("steps", c.c_long), ("stopped", _I), ("pairs", _D), ("ranks", _I), ("flops", _D),
-    ("times", _fit_times), ("threads", _I), ("instructions", _S), ("set_backs", _I), ("rate", _D),
-    ("best_step", c.c_long), ("ggx_alone", _I), ("left_alone", _I), ("worse", _I), ("best_loss", _D),
-    ("ggx_loss", _D))
+    ("times", _fit_times), ("threads", _I), ("kept", _D), ("redrawn", _I), ("instructions", _S),
+    ("set_backs", _I), ("rate", _D), ("best_step", c.c_long), ("ggx_alone", _I),
+    ("left_alone", _I), ("worse", _I), ("best_loss", _D), ("ggx_loss", _D))
 _comparison = _structure("hnbrdf_comparison", ("smape", _D), ("smape_analytic", _D), ("mae", _D),
                          ("mse", _D), ("pairs", _Z))
 
