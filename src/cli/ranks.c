@@ -84,8 +84,11 @@ int cli_ranks_agree(int code)
     snprintf(error.text, sizeof error.text, "%s", cli_last_message());
     const int before = code;
     const hnbrdf_result result = code ? HNBRDF_ERROR_ARGUMENT : HNBRDF_OK;
-    if (hnbrdf_ranks_agree(&communicator, result, &code, &error) && !before)
+    if (hnbrdf_ranks_agree(&communicator, result, &code, &error) == HNBRDF_OK)
+        return CLI_OK;
+    if (!before)
         cli_fail("%s", error.text); /* of another rank */
+    code = code ? code : CLI_FAILURE;
     return code;
 }
 
