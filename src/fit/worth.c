@@ -16,23 +16,31 @@ static double smape(const float f[3], const float target[3])
     return sum / 3.0;
 }
 
+/* Adds pair b of a tile, one of `pairs`. */
+static void add_pair(const fit_sides *sides, const float *tile, size_t b, int pairs,
+                     hnbrdf_fit_worth *worth)
+{
+    float wi[3], wo[3], target[3], f[3];
+    for (size_t c = 0; c < 3; c++) {
+        wi[c] = tile[FIT_POOL_WI + c * FIT_TILE + b];
+        wo[c] = tile[FIT_POOL_WO + c * FIT_TILE + b];
+        target[c] = tile[FIT_POOL_TARGET + c * FIT_TILE + b];
+    }
+    hnbrdf_prepared_eval(sides->hybrid, wi, wo, f);
+    worth->smape += smape(f, target) / pairs;
+    hnbrdf_prepared_eval(sides->ggx, wi, wo, f);
+    worth->ggx_smape += smape(f, target) / pairs;
+}
+
 void hnbrdf_fit_worth_smape(const fit_sides *sides, const fit_pool *pool, int at, int tiles,
                             float *room, hnbrdf_fit_worth *worth)
 {
     const int count = tiles < pool->tiles ? tiles : pool->tiles;
     worth->smape = worth->ggx_smape = 0.0;
-    for (int k = 0; k < count * FIT_TILE; k++) {
-        const float *tile = hnbrdf_fit_pool_fetch(pool, at, k / FIT_TILE, room) + k % FIT_TILE;
-        float wi[3], wo[3], target[3], f[3];
-        for (size_t c = 0; c < 3; c++) {
-            wi[c] = tile[FIT_POOL_WI + c * FIT_TILE];
-            wo[c] = tile[FIT_POOL_WO + c * FIT_TILE];
-            target[c] = tile[FIT_POOL_TARGET + c * FIT_TILE];
-        }
-        hnbrdf_prepared_eval(sides->hybrid, wi, wo, f);
-        worth->smape += smape(f, target) / (count * FIT_TILE);
-        hnbrdf_prepared_eval(sides->ggx, wi, wo, f);
-        worth->ggx_smape += smape(f, target) / (count * FIT_TILE);
+    for (int t = 0; t < count; t++) {
+        const float *tile = hnbrdf_fit_pool_fetch(pool, at, t, room);
+        for (size_t b = 0; b < FIT_TILE; b++)
+            add_pair(sides, tile, b, count * FIT_TILE, worth);
     }
 }
 
