@@ -11,7 +11,7 @@ add_test(NAME test_language_run COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/test_lang
 set_tests_properties(test_language_run PROPERTIES SKIP_RETURN_CODE 77)
 if(HNBRDF_WITH_VULKAN)
   hnbrdf_program(spirv_case spirv_case.c)
-  target_link_libraries(hnbrdf_spirv_case PRIVATE hnbrdf_gpu)
+  target_link_libraries(hnbrdf_spirv_case PRIVATE hnbrdf_gpu ${CMAKE_DL_LIBS})
   add_test(NAME test_language_gpu COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/test_language_gpu.sh
     $<TARGET_FILE:hnbrdf_cli> $<TARGET_FILE:hnbrdf_glsl_scenes> $<TARGET_FILE:hnbrdf_spirv_case>
     ${PROJECT_SOURCE_DIR}/examples/models/rgl_32x2.safetensors)

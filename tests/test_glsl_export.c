@@ -261,22 +261,26 @@ static void bad_indices_are_refused_before_anything_is_written(void **state)
 
 static void languages_have_names_and_what_is_none_is_refused(void **state)
 {
-    static const char *const names[] = {"glsl", "hlsl", "msl", "wgsl", "slang"};
+    static const char *const names[] = {"glsl", "hlsl", "msl", "wgsl", "slang", "brdf"};
+    enum { COUNT = sizeof names / sizeof *names };
     hnbrdf_shading_language language = HNBRDF_LANGUAGE_SLANG;
     hnbrdf_model *model = scene_model(&PLAIN);
     (void)state;
-    for (int k = 0; k < 5; k++) {
+    for (int k = 0; k < COUNT; k++) {
         assert_string_equal(hnbrdf_shading_language_name((hnbrdf_shading_language)k), names[k]);
         assert_int_equal(hnbrdf_shading_language_from_name(names[k], &language), 1);
         assert_int_equal(language, k);
         assert_int_equal(hnbrdf_shading_language_weights(language),
-                         k == 0 ? HNBRDF_GLSL_CONSTANTS : HNBRDF_GLSL_COLUMNS);
+                         k == HNBRDF_LANGUAGE_GLSL || k == HNBRDF_LANGUAGE_BRDF
+                             ? HNBRDF_GLSL_CONSTANTS
+                             : HNBRDF_GLSL_COLUMNS);
     }
-    assert_null(hnbrdf_shading_language_name((hnbrdf_shading_language)5));
+    assert_null(hnbrdf_shading_language_name((hnbrdf_shading_language)COUNT));
     assert_null(hnbrdf_shading_language_name((hnbrdf_shading_language)-1));
     assert_int_equal(hnbrdf_shading_language_from_name("GLSL", &language), 0);
-    assert_int_equal(language, HNBRDF_LANGUAGE_SLANG);
-    const hnbrdf_glsl_options wrong[] = {{.language = (hnbrdf_shading_language)5}, {.exact = 1}};
+    assert_int_equal(language, HNBRDF_LANGUAGE_BRDF);
+    const hnbrdf_glsl_options wrong[] = {{.language = (hnbrdf_shading_language)COUNT},
+                                         {.exact = 1}};
     for (int k = 0; k < 2; k++) {
         limited nothing = {0};
         assert_int_equal(hnbrdf_export_shader(model, &wrong[k], write_limited, &nothing, NULL),

@@ -108,7 +108,7 @@ static void assert_follows(int k, const float *in, const float *r)
 {
     const double n_length = sqrt(dot(in, in)), t_length = sqrt(dot(in + 3, in + 3));
     const double most = 24.0 * 0x1p-24;
-    if (!(n_length > 0.0) || !(t_length < INFINITY))
+    if (!(n_length > 0.0) || !(t_length > 0.0 && t_length < INFINITY))
         return;
     if (!(fabs(dot(in, r + Z_AXIS) / n_length - 1.0) <= most))
         fail_msg("case %d: the normal has moved", k);

@@ -66,7 +66,8 @@ static const double suns[SUNS][3] = {
 typedef struct pixel {
     double frame[3][3]; /* x, y and the normal */
     float wo[3];
-    double error[3], ggx_error[3]; /* of the radiance under one light, so far */
+    double truth[3];               /* the radiance under one light, so far */
+    double error[3], ggx_error[3]; /* of it */
 } pixel;
 
 static double dot(const double a[3], const double b[3])
@@ -96,6 +97,7 @@ static void light(const fit_sides *sides, const hnbrdf_measured *measured, pixel
     hnbrdf_prepared_eval(sides->ggx, wi, p->wo, ggx);
     for (int c = 0; c < 3; c++) {
         const double true_value = fmax((double)target[c], 0.0);
+        p->truth[c] += weight * true_value;
         p->error[c] += weight * ((double)f[c] - true_value);
         p->ggx_error[c] += weight * ((double)ggx[c] - true_value);
     }
@@ -144,9 +146,9 @@ static void light_evenly(const fit_sides *sides, const hnbrdf_measured *measured
     }
 }
 
-/* Squared errors of one light, summed over pixels and channels. */
+/* Squared errors of one light, summed over pixels and channels, and the largest radiance. */
 typedef struct squares {
-    double hybrid, ggx;
+    double hybrid, ggx, peak;
 } squares;
 
 /* One pixel under the even light with each sun in turn. */
@@ -160,6 +162,7 @@ static void add_pixel(const fit_sides *sides, const hnbrdf_measured *measured, p
         for (int c = 0; c < 3; c++) {
             sums[s].hybrid += lit.error[c] * lit.error[c];
             sums[s].ggx += lit.ggx_error[c] * lit.ggx_error[c];
+            sums[s].peak = fmax(sums[s].peak, lit.truth[c]);
         }
     }
 }
@@ -168,7 +171,7 @@ void hnbrdf_fit_worth_picture(const fit_sides *sides, const hnbrdf_measured *mea
                               hnbrdf_fit_worth *worth)
 {
     const int sharp = sides->ggx->alpha[0] < SHARP, side = sharp ? SHARP_SIDE : SIDE;
-    squares sums[SUNS] = {{0.0, 0.0}};
+    squares sums[SUNS] = {{0.0, 0.0, 0.0}};
     hnbrdf_rng rng;
     int pixels = 0, worst = 0;
     hnbrdf_rng_seed(&rng, 0, UINT64_C(5) << 40);
@@ -187,4 +190,6 @@ void hnbrdf_fit_worth_picture(const fit_sides *sides, const hnbrdf_measured *mea
             worst = s;
     worth->picture = sums[worst].hybrid / (3.0 * pixels);
     worth->ggx_picture = sums[worst].ggx / (3.0 * pixels);
+    const double half_step = sums[worst].peak / 510.0;
+    worth->unseen = half_step * half_step;
 }
