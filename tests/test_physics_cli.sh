@@ -22,7 +22,7 @@ grep -q '^paper_white: albedo 1' "$work/out" || fail "the scaled material is not
 grep -q '^vch_silk_blue' "$work/out" && fail "a material that needs no factor is told"
 factor=$(sed -n 's/^paper_white:.*times \([0-9.]*\)$/\1/p' "$work/out")
 grep -q "return hnbrdf_material(.*, $(echo "$factor" | cut -c 1-5)[0-9]*);" "$work/scene.glsl" || fail "the factor $factor"
-[ "$(grep -c 'return m.energy \*' "$work/scene.glsl")" = 2 ] || fail "value and analytic part are scaled"
+[ "$(grep -c 'energy_factor \*' "$work/scene.glsl")" = 2 ] || fail "value and analytic part are scaled"
 "$hnbrdf" export "$model" --materials paper_white -o "$work/plain.glsl" >/dev/null
 grep -q energy "$work/plain.glsl" && fail "a factor that nobody asked for"
 "$hnbrdf" export "$model" --conserve --pack half -o "$work/x.glsl" >/dev/null 2>&1 && fail "--pack with --conserve"
