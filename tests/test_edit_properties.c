@@ -174,8 +174,9 @@ static double albedo(const hnbrdf_model *model, const hnbrdf_material *material)
     return sum / SAMPLES;
 }
 
-/* Within an eighth (measured: a tenth) between half and one and a half times the roughness. Beyond, wide lobes reach below the horizon,
- * and light that would be scattered twice is lost, as with GGX alone. */
+/* Within an eighth (measured: a tenth) between half and one and a half times the roughness. Beyond,
+ * wide lobes reach below the horizon, and light that would be scattered twice is lost, as with GGX
+ * alone. */
 static void conductors_reflect_as_much_as_before(void **state)
 {
     static const char *const conductors[] = {"gold-two-lobe", "haze-aluminium",
