@@ -222,8 +222,8 @@ static void materials_that_gain_nothing_are_left_to_ggx(void **state)
             assert_true(worth[m].smape > 0.0 && worth[m].picture > 0.0);
             assert_true((worth[m].ggx_smape > 1e-6) == (m != EXACT));
             assert_int_equal(worth[m].worse, worth[m].alone);
-            const int unseen = worth[m].picture <= worth[m].unseen &&
-                               2.0 * worth[m].smape <= worth[m].ggx_smape;
+            const int unseen =
+                worth[m].picture <= worth[m].unseen && 2.0 * worth[m].smape <= worth[m].ggx_smape;
             assert_int_equal(worth[m].worse,
                              worth[m].smape > worth[m].ggx_smape ||
                                  (worth[m].picture > worth[m].ggx_picture && !unseen));

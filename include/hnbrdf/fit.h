@@ -117,12 +117,12 @@ HNBRDF_EXPERIMENTAL hnbrdf_result hnbrdf_ranks_agree(const hnbrdf_communicator *
 typedef struct hnbrdf_fit_worth {
     double smape, ggx_smape;     /* mean over up to 16384 of the pairs */
     double picture, ggx_picture; /* mean squared error of the radiance; the even light has 1 */
-    /* the largest that nobody sees: that of half a step of 8 bits, the largest radiance being 255 */
+    /* the largest that nobody sees: half a step of 8 bits, the largest radiance being 255 */
     double unseen;
     /* 1: worse with the network, in SMAPE or in that picture; what the picture loses does not count
      * where it is unseen and SMAPE is at most half */
     int worse;
-    int alone;                   /* 1: for that left to GGX alone; the figures are those before */
+    int alone; /* 1: for that left to GGX alone; the figures are those before */
 } hnbrdf_fit_worth;
 
 /* Zero-initialise for defaults: 0 is the default of every field. Where 0 itself is wanted, a flag
