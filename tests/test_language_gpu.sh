@@ -51,6 +51,7 @@ try() { # MODEL OPTIONS...
     run 4 8 inputs.f32 outputs.f32
     "$hnbrdf" verify "$of" --hand-in . > said || { cat said; fail "$of is not within the bounds"; }
     echo "ok: $(basename "$of") on $(cat device.txt)"
+    echo "parity: hlsl | Vulkan compute (glslang -D) | $(cat device.txt) | executed"
 }
 
 "$scenes" "$work" hlsl > /dev/null

@@ -38,3 +38,4 @@ try() {
 try "$model" --materials vch_silk_blue --weights columns
 try "$work/hybrid_8x4_rotated.safetensors" --weights uniform
 try "$work/edited.safetensors" --fixed
+echo "parity: msl | C++, not Apple's compiler | $compiler | executed"

@@ -93,6 +93,7 @@ direct3d d3dcompiler_47.dll ps_5_0 $fxc_files
 # shellcheck disable=SC2086
 direct3d dxcompiler.dll ps_6_0 $dxc_files
 four=$(sed -n 's/^ok ps_5_0 default\.4\.hlsl: \([0-9]*\) ms.*/\1/p' "$scratch/ps_5_0")
+echo "parity: hlsl | FXC 5.0 and DXC 6.0 | wine | compiled"
 [ "$four" -le 4000 ] || fail "FXC takes $four ms for four lights, at most 4000 expected"
 wineserver -k 2> /dev/null || true # it would go on writing there
 timeout 20 wineserver -w 2> /dev/null || true

@@ -48,6 +48,8 @@ node "$source/tests/web/parity.mjs" "$api" $(for name in $cases; do echo "$scrat
     exit $status
 }
 cat "$scratch/ran"
+sed -n 's/^shipped on \([^:]*\): \(.*\): [0-9]* shaders compiled.*/\1 | \2/p' "$scratch/ran" | # for parity_summary.sh
+    sed "s/^/parity: $(case $api in webgl) echo glsl ;; slang) echo slang ;; *) echo wgsl ;; esac) | /; s/\$/ | executed/"
 failed=0
 if [ -d "$scratch/reloaded" ] && ! grep -q '^reloaded .*: 0 shaders compiled' "$scratch/ran"; then
     echo "failed: other weights needed another shader"
