@@ -102,7 +102,7 @@ static void run(bench *b)
 {
     hnbrdf_error error = {""};
     gl_sheet sheet;
-    GLuint program;
+    GLuint program = 0;
     const hnbrdf_glsl_options options = {.standalone = 1, .packing = &b->packing};
     char *scene = styled_text(b->model, &options), *body = make_shader(b);
     const char *const texts[] = {"#define HNBRDF_EXACT 1\n", scene, body};
