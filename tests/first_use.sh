@@ -96,12 +96,12 @@ outside() {
     debootstrap --variant=minbase bookworm "$root" > "$1/debootstrap.log" || fail "debootstrap: see $1/debootstrap.log"
     cp /etc/resolv.conf "$root/etc/resolv.conf"
     for file in /etc/apt/apt.conf.d/*; do [ ! -f "$file" ] || cp "$file" "$root/etc/apt/apt.conf.d/"; done
-    mkdir "$root/root/hnbrdf"
-    git -C "$source" archive HEAD | tar -xf - -C "$root/root/hnbrdf"
+    mkdir "$root/srv/hnbrdf"
+    git -C "$source" archive HEAD | tar -xf - -C "$root/srv/hnbrdf"
     ! mount -t proc proc "$root/proc" 2> /dev/null || trap 'umount "$root/proc"' EXIT
     shift
     chroot "$root" /usr/bin/env -i HOME=/root PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin \
-        sh /root/hnbrdf/tests/first_use.sh --inside "$@"
+        sh /srv/hnbrdf/tests/first_use.sh --inside "$@"
 }
 case ${1:-} in
 --inside) shift && inside "$@" ;;
