@@ -9,13 +9,13 @@
 static const cli_command command = {
     "import",
     "FILE.brdf... -o MODEL.safetensors",
-    "Reads published BRDF-Explorer shaders of this method, or those that `hnbrdf export\n"
-    "--language brdf` wrote, of any kind and encoding, one material a file, all with the same\n"
-    "network, and writes them as one model. A material is named after its file; of the\n"
-    "published names Ours_ld4_32x2_NAME and Ours_ld4_32x2_NAME_rgb, whatever the numbers, only\n"
-    "NAME is left, so that compare finds the measurement of the same name. A diffuse colour or\n"
-    "an alpha above 1 by at most 0.01 becomes 1, an alpha below 0.0001 becomes that, with a\n"
-    "warning.",
+    "Reads published BRDF-Explorer shaders of this method, or those that\n"
+    "`hnbrdf export --language brdf` wrote, of any kind and encoding, one material a file, all\n"
+    "with the same network, and writes them as one model. A material is named after its file;\n"
+    "of the published names Ours_ld4_32x2_NAME and Ours_ld4_32x2_NAME_rgb, whatever the\n"
+    "numbers, only NAME is left, so that compare finds the measurement of the same name. A\n"
+    "diffuse colour or an alpha above 1 by at most 0.01 becomes 1, an alpha below 0.0001\n"
+    "becomes that, with a warning.",
     "hnbrdf import merl/*.brdf -o merl.safetensors\n"
     "hnbrdf compare merl.safetensors merl/",
 };
