@@ -42,7 +42,7 @@ hnbrdf_room(measured
 hnbrdf_room(hdf5
   image_driver.c nbrdf_hdf5.c)
 hnbrdf_room(metrics
-  compare.c image.c physics.c)
+  compare.c flip.c flip_colour.c flip_hdr.c image.c physics.c)
 hnbrdf_room(fit
   kernel_avx2.c kernel_avx512.c adam.c agree.c alone.c bright.c checkpoint.c fit.c ggx.c gradient.c
   hold.c judge.c kernel.c kernel_double.c options.c pool.c ranks.c result.c schedule.c share.c
@@ -79,7 +79,7 @@ hnbrdf_room(bake
 hnbrdf_room(report
   bake_plot.c bake_tables.c compare.c compare_images.c editing_edits.c editing_figures.c
   editing_fit.c editing_measure.c editing_mix.c editing_plot.c editing_sheet.c
-  editing_tables.c fit_log.c gallery_choose.c
+  editing_tables.c fit_log.c flip.c gallery_choose.c
   gallery_pages.c gallery_strips.c grid.c grid_columns.c grid_figures.c grid_fit.c grid_ggx.c
   grid_image_tables.c grid_images.c grid_plot.c grid_ranks.c grid_rows.c grid_tables.c info.c
   info_physics.c lobes_table.c loss_plot.c output.c picture.c same_picture.c

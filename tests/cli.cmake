@@ -1,5 +1,6 @@
 # The command line and the error figures.
 hnbrdf_test(test_metrics test_metrics.c)
+hnbrdf_test(test_flip test_flip.c)
 
 # hnbrdf_cli_test(NAME [arguments...]): NAME.sh run with the command, and the program that writes
 # what it reads.

@@ -16,7 +16,7 @@ printf '#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n'"$one" >small.hdr
 # ---- figures: |1 - 1|, |2 - 4|: MAE 1, MSE 2, PSNR 10 log10(16/2) -------------------------------------
 run "$HNBRDF" compare --images image.hdr reference.hdr --csv -
 expect_ok "compare --images"
-[ "$(sed -n 1p out)" = image,reference,mae,mse,psnr,pixels ] || fail "columns"
+[ "$(sed -n 1p out)" = image,reference,mae,mse,psnr,pixels,flip ] || fail "columns"
 sed 1d out | awk -F, '$1 == "image.hdr" && $2 == "reference.hdr" && $3 == 1 && $4 == 2 && $6 == 2 &&
     $5 > 9.0308 && $5 < 9.0310 { good = 1 } END { exit !good || NR != 1 }' || fail "figures"
 run "$HNBRDF" compare --images reference.hdr image.hdr reference.hdr --json -
@@ -30,6 +30,15 @@ assert t["reference"] == "reference.hdr" and same["name"] == "reference.hdr" and
 assert same["mae"] == 0 and same["psnr"] is None and other["mse"] == 2 and other["pixels"] == 2
 END
 fi
+# Both white where it is displayed with exposure 0, so that nobody sees a difference; black against white: 0.9674.
+run "$HNBRDF" compare --images image.hdr reference.hdr --exposure 0 --csv -
+awk -F, 'NR == 2 && $7 == 0 { good = 1 } END { exit !good }' out || fail "FLIP of white pictures: $(cat out)"
+run "$HNBRDF" compare --images black.hdr reference.hdr --exposure 0 --ppd 40 --csv -
+awk -F, 'NR == 2 && $7 > 0.9673 && $7 < 0.9675 { good = 1 } END { exit !good }' out || fail "black, white: $(cat out)"
+run "$HNBRDF" compare --images image.hdr reference.hdr --csv -
+awk -F, 'NR == 2 && $7 > 0.05 && $7 < 0.5 { good = 1 } END { exit !good }' out || fail "HDR-FLIP: $(cat out)"
+run "$HNBRDF" compare image.hdr reference.hdr --exposure 1
+expect_usage "--exposure without --images" "belong to --images"
 run "$HNBRDF" compare --images reference.hdr black.hdr
 expect_ok "a black reference"
 grep -q -- '-inf' out || fail "a black reference has a PSNR"

@@ -63,6 +63,58 @@ HNBRDF_API void hnbrdf_image_compare_twice(const float *const image[2],
                                            const float *const reference[2], size_t pixels,
                                            hnbrdf_image_error *error, hnbrdf_image_noise *noise);
 
+/* ---- FLIP ---------------------------------------------------------------------------------------
+ *
+ * FLIP (Andersson et al. 2020, "FLIP: A Difference Evaluator for Alternating Images") is how much
+ * a person sees of a difference who lets two pictures alternate on a display, a figure from 0 to 1
+ * for each pixel: 0 for none, 0.967 for black against white. This is an implementation of ours,
+ * from the paper, in double precision; it is not NVIDIA's program, whose float arithmetic differs
+ * in the fifth decimal.
+ *
+ * Colour: linear Rec. 709 as displayed, [0, 1]; opponent colours YyCxCz; the eye's sensitivity to
+ * contrast as Gaussians, transforms of a sqrt(pi/b) exp(-pi^2 x^2/b), x in degrees, cut at 3
+ * standard deviations of the widest: (a, b) = (1, 0.0047) achromatic, (1, 0.0053) red-green,
+ * (34.1, 0.04) and (13.5, 0.025) blue-yellow; back to RGB, clamped; L*a*b* (D65), a* and b* times
+ * 0.01 L* (Hunt); |dL| + |(da, db)| to the power of 0.7; 0.4 of the largest such difference, that
+ * of green and blue, maps to 0.95.
+ * Features: edges and points of Y, first and second derivatives of a Gaussian 0.082 degrees wide
+ * (a standard deviation of half of that); the larger difference of both, over sqrt(2), to the
+ * power of 0.5.
+ * FLIP = colour to the power of 1 - feature. Beyond its rim a picture goes on with the values
+ * there.
+ *
+ * pixels_per_degree: of the observer, 1 to 2000; 0 stands for 3840 pi/180 = 67.02, a display 0.7 m
+ * wide of 3840 pixels seen from 0.7 m. Pictures are [height][width][3], linear and finite; map is
+ * [height][width], written whole. Equal pictures give 0 everywhere, swapped ones the same (but for
+ * hnbrdf_flip_hdr(), whose exposures are those of the reference). The figure of a picture is the
+ * mean of its pixels. HNBRDF_ERROR_ARGUMENT, HNBRDF_ERROR_MEMORY. */
+
+/* Of pictures as they are displayed: values below 0 count as 0, above 1 as 1. */
+HNBRDF_API hnbrdf_result hnbrdf_flip(const float *image, const float *reference, int width,
+                                     int height, double pixels_per_degree, float *map,
+                                     hnbrdf_error *error);
+
+/* Exposures at which pictures without a fixed white are displayed, in stops. */
+typedef struct hnbrdf_flip_exposures {
+    double start, stop; /* values are displayed times 2 to the power of these and those between */
+    int count;          /* with equal steps from start to stop; 1 to 64 */
+} hnbrdf_flip_exposures;
+
+/* Those of HDR-FLIP (Andersson et al. 2021, "Visualizing and Communicating Errors in Rendered
+ * Images"), from the luminance of the reference: from where its largest is displayed as 0.85 to
+ * where its median is, as many as there are stops between, at least 2. Ours: a median 16 stops or
+ * more below the largest counts as that, and a black picture has the exposures 0 and 0. */
+HNBRDF_API hnbrdf_result hnbrdf_flip_exposures_of(const float *reference, size_t pixels,
+                                                  hnbrdf_flip_exposures *exposures,
+                                                  hnbrdf_error *error);
+
+/* HDR-FLIP: the largest FLIP of each pixel over the exposures, displayed through the curve of ACES
+ * (Narkowicz's fit, 0.6 before it). exposures: NULL for those of the whole reference. */
+HNBRDF_API hnbrdf_result hnbrdf_flip_hdr(const float *image, const float *reference, int width,
+                                         int height, double pixels_per_degree,
+                                         const hnbrdf_flip_exposures *exposures, float *map,
+                                         hnbrdf_error *error);
+
 /* What is physical about a material of a model, by evaluating it. All channels. */
 typedef struct hnbrdf_physics {
     /* Directional albedo: the share of light from everywhere that leaves towards wo, the integral

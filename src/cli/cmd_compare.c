@@ -4,6 +4,9 @@
 #include "report/compare.h"
 #include "report/compare_images.h"
 
+#include "base/interrupt.h"
+
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -32,15 +35,19 @@ static const cli_command command = {
     "largest value as its peak, as a rendering has no white. Pixels with alpha 0 in both are left "
     "out; "
     "values\n"
-    "with alpha are premultiplied and compared so. --difference draws where they differ. There is "
-    "no "
-    "FLIP: "
-    "no\n"
-    "library of it is packaged; NVIDIA's own `flip` reads the same files. Of an OpenEXR file the "
-    "plain\n"
-    "channels are read, or its only layer, converted to linear Rec. 709 and placed in the display "
-    "window.\n"
-    "CSV columns: image,reference,mae,mse,psnr,pixels.",
+    "with alpha are premultiplied and compared so. --difference draws where they differ. FLIP is "
+    "what "
+    "a\n"
+    "person sees of the difference, 0 nothing and 1 the most: our implementation of Andersson et "
+    "al. "
+    "(2020),\n"
+    "not NVIDIA's. As linear pictures have no white, it is the largest over exposures, displayed "
+    "through\n"
+    "the curve of ACES, as in HDR-FLIP (2021); with --exposure the pictures are displayed as PNG "
+    "writes\n"
+    "them. Of an OpenEXR file the plain channels are read, or its only layer, converted to linear\n"
+    "Rec. 709 and placed in the display window.\n"
+    "CSV columns: image,reference,mae,mse,psnr,pixels,flip.",
     "hnbrdf compare model.safetensors builtin\n"
     "hnbrdf compare rgl.safetensors measured/rgl --sampler uniform --pairs 1e6 --csv rgl.csv\n"
     "hnbrdf compare hybrid.safetensors builtin --against ggx.safetensors\n"
@@ -94,6 +101,19 @@ static int run(model_comparison *j, char **arguments, int count, int skip_missin
     return result;
 }
 
+static int run_images(compare_images_options *pictures)
+{
+    cli_progress progress;
+    hnbrdf_error error;
+    pictures->watch = cli_watch(&progress);
+    cli_progress_begin(&progress, "comparing");
+    hnbrdf_catch_interrupts(1);
+    const hnbrdf_result result = compare_images(pictures, &error);
+    hnbrdf_catch_interrupts(0);
+    cli_progress_end(&progress);
+    return cli_code(result, &error);
+}
+
 /* Returns -1 to go on, as cli_parse() does. */
 static int check_images(int images, const compare_images_options *pictures, int count,
                         int of_models)
@@ -102,6 +122,8 @@ static int check_images(int images, const compare_images_options *pictures, int 
         return cli_usage(&command, "--difference and --scale belong to --images");
     if (!images && (pictures->layer || pictures->repair))
         return cli_usage(&command, "--layer and --repair belong to --images");
+    if (!images && (!isnan(pictures->flip.exposure) || pictures->flip.pixels_per_degree > 0.0))
+        return cli_usage(&command, "--exposure and --ppd belong to --images");
     if (images && of_models)
         return cli_usage(&command, "--against and --skip-missing are for models, not for --images");
     if (images && count < 2)
@@ -120,7 +142,7 @@ int cmd_compare(int argc, char **argv)
     cli_word sampler = {HNBRDF_SAMPLER_GRID, cli_sampler_word};
     int skip_missing = 0, images = 0, count;
     long threads = 0;
-    compare_images_options pictures = {.notes = CLI_NOTES};
+    compare_images_options pictures = {.notes = CLI_NOTES, .flip = {.exposure = NAN}};
     const cli_option options[] = {
         {"sampler", 0, CLI_WORD, &sampler, 0, 0, "NAME", "uniform, cosine or grid (default grid)"},
         {"pairs", 'n', CLI_INT, &j.pairs, 1, 1e10, "N",
@@ -142,6 +164,9 @@ int cmd_compare(int argc, char **argv)
          "with --images: pixels that are not finite become the mean of those around them"},
         {"scale", 0, CLI_REAL, &pictures.top, 1e-30, 1e30, "X",
          "where its colours end (default: at most one pixel in a hundred is beyond)"},
+        {"exposure", 0, CLI_REAL, &pictures.flip.exposure, -64, 64, "EV",
+         "with --images: FLIP at this exposure, in stops (default: the largest over exposures)"},
+        CLI_PPD_OPTION(pictures.flip),
         {"csv", 0, CLI_WRITE_TEXT, &csv, 0, 0, "FILE",
          "write the table as CSV; - is standard output"},
         {"json", 0, CLI_WRITE_TEXT, &json, 0, 0, "FILE",
@@ -165,8 +190,7 @@ int cmd_compare(int argc, char **argv)
         pictures.csv = csv;
         pictures.json = json;
         pictures.table = cli_is_stdout(csv) || cli_is_stdout(json) ? NULL : stdout;
-        hnbrdf_error error;
-        return cli_code(compare_images(&pictures, &error), &error);
+        return run_images(&pictures);
     }
     j.path = argv[1];
     return run(&j, argv + 2, count - 1, skip_missing, (int)threads, csv, json);

@@ -21,8 +21,8 @@ static const cli_command command = {
     "a "
     "model),\n"
     "materials.csv (a row a material and model), ggx.csv and ggx.svg (how the fits of GGX went),\n"
-    "errors-NET.svg, and the models in models/. Beside SMAPE stands the PSNR of spheres under the\n"
-    "built-in sky.\n"
+    "errors-NET.svg, and the models in models/. Beside SMAPE stand PSNR and FLIP of spheres\n"
+    "under the built-in sky.\n"
     "`hnbrdf report images --help`, `report sampling --help` and `report editing --help` tell "
     "about\n"
     "the other reports.\n"
@@ -123,7 +123,10 @@ int cmd_report(int argc, char **argv)
         return cmd_report_sampling(argc, argv);
     if (argc > 1 && strcmp(argv[1], "editing") == 0)
         return cmd_report_editing(argc, argv);
-    report r = {.seed = 1, .image_size = 64, .light = PICTURE_DEFAULTS(REPORT_IMAGE_SAMPLES)};
+    report r = {.seed = 1,
+                .image_size = 64,
+                .light = PICTURE_DEFAULTS(REPORT_IMAGE_SAMPLES),
+                .flip = {.exposure = NAN}};
     const char *nets = NULL, *latents = NULL, *models = "hybrid,paper,neural";
     cli_word sampler = {HNBRDF_SAMPLER_GRID, cli_sampler_word};
     cli_word analytic = {HNBRDF_FIT_FAITHFUL, cli_analytic_word};

@@ -15,7 +15,8 @@ static const cli_command command = {
     "images DATA... -o DIR [options]",
     "Renders a sphere of every material, measured and of every model, under the same light with "
     "the\n"
-    "same random directions, and measures MAE, MSE and PSNR: the paper's table of image errors "
+    "same random directions, and measures MAE, MSE, PSNR and FLIP: the paper's table of image "
+    "errors "
     "for\n"
     "your data. DIR gets images.md, images.csv (a row a material and model), psnr-NET.svg, the\n"
     "models in models/, and picture rows: images-1.png and so on (EXR beside) with the spheres "
@@ -38,10 +39,10 @@ static const cli_command command = {
 
 static void print_models(const report *r)
 {
-    printf("%-20s  %9s  %16s\n", "model", "MAE", "PSNR, dB");
+    printf("%-20s  %9s  %7s  %16s\n", "model", "MAE", "FLIP", "PSNR, dB");
     for (int k = 0; k < r->count; k++)
-        printf("%-20s  %9.5f  %7.2f +- %5.2f\n", r->entries[k].name, r->entries[k].mean_mae,
-               r->entries[k].mean_psnr, r->entries[k].mean_psnr_error);
+        printf("%-20s  %9.5f  %7.4f  %7.2f +- %5.2f\n", r->entries[k].name, r->entries[k].mean_mae,
+               r->entries[k].mean_flip, r->entries[k].mean_psnr, r->entries[k].mean_psnr_error);
 }
 
 static hnbrdf_result measure_and_write(report *r, hnbrdf_model *const *models)
@@ -171,7 +172,10 @@ static int read_grid(report *r, int quick, const char *nets, const char *latents
 
 int cmd_report_images(int argc, char **argv)
 {
-    report r = {.sampler = HNBRDF_SAMPLER_GRID, .rows = 24, .light = PICTURE_DEFAULTS(0)};
+    report r = {.sampler = HNBRDF_SAMPLER_GRID,
+                .rows = 24,
+                .light = PICTURE_DEFAULTS(0),
+                .flip = {.exposure = NAN}};
     const char *nets = NULL, *latents = NULL, *models = NULL;
     int quick = 0, count;
     long fit_seed = 1;
@@ -204,6 +208,7 @@ int cmd_report_images(int argc, char **argv)
          "turn the light about the vertical, counter-clockwise from above"},
         {"exposure", 0, CLI_REAL, &r.light.exposure, -64, 64, "EV",
          "of the picture rows, stops; default: mean light as bright as that of the sky"},
+        CLI_PPD_OPTION(r.flip),
         {"seed", 0, CLI_INT, &r.light.seed, 0, 1000000000, "N",
          "of the spheres' random numbers (default 1)"},
         {"rows", 0, CLI_INT, &r.rows, 0, 100000, "N",

@@ -16,6 +16,13 @@ typedef report_light picture_options;
         .env = "sky", .exposure = NAN, .spp = (samples), .seed = 1, .notes = CLI_NOTES \
     }
 
+/* The row of a report_flip named f. */
+#define CLI_PPD_OPTION(f)                                                        \
+    {                                                                            \
+        "ppd", 0, CLI_REAL, &(f).pixels_per_degree, 1, 2000, "N",                \
+            "of FLIP: pixels that its observer sees in a degree (default 67.02)" \
+    }
+
 /* Rows of a cli_option table for a picture_options named p. */
 #define PICTURE_OPTIONS(p, samples)                                                               \
     {"env",                                                                                       \

@@ -1,5 +1,5 @@
-/* compare_images.c: `hnbrdf compare --images`: MAE, MSE and PSNR of pictures against a reference,
- * and where a picture differs, in false colours. */
+/* compare_images.c: `hnbrdf compare --images`: MAE, MSE, PSNR and FLIP of pictures against a
+ * reference, and where a picture differs, in false colours. */
 #include "report/compare_images.h"
 
 #include "base/error.h"
@@ -17,6 +17,7 @@ typedef struct picture {
     const char *path;
     render_image image;
     hnbrdf_image_error error;
+    double flip;
     size_t pixels; /* that count */
 } picture;
 
@@ -38,8 +39,9 @@ static hnbrdf_result read_picture(const job *j, picture *p, const char *path, hn
     return result == HNBRDF_OK ? render_image_check(&p->image, path, error) : result;
 }
 
-static hnbrdf_result measure(picture *p, const picture *reference, hnbrdf_error *error)
+static hnbrdf_result measure(const job *j, picture *p, hnbrdf_error *error)
 {
+    const picture *reference = &j->reference;
     const render_image *a = &p->image, *b = &reference->image;
     if (a->width != b->width || a->height != b->height)
         return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT,
@@ -51,7 +53,10 @@ static hnbrdf_result measure(picture *p, const picture *reference, hnbrdf_error 
         return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT,
                            "%s and %s: alpha is 0 everywhere in both, there is nothing to compare",
                            p->path, reference->path);
-    return report_picture_compare(a, b, &p->error, error);
+    const hnbrdf_result result = report_picture_compare(a, b, &p->error, error);
+    return result == HNBRDF_OK
+               ? report_flip_compare(a, b, &j->options->flip, &j->options->watch, &p->flip, error)
+               : result;
 }
 
 /* ---- Tables ---------------------------------------------------------------------------------- */
@@ -64,7 +69,8 @@ static void write_table(const job *j)
         int length = (int)strlen(j->pictures[k].path);
         width = length > width ? length : width;
     }
-    fprintf(file, "%-*s  %11s  %11s  %8s  %9s\n", width, "image", "MAE", "MSE", "PSNR", "pixels");
+    fprintf(file, "%-*s  %11s  %11s  %8s  %6s  %9s\n", width, "image", "MAE", "MSE", "PSNR", "FLIP",
+            "pixels");
     for (int k = 0; k < j->count; k++) {
         const picture *p = &j->pictures[k];
         fprintf(file, "%-*s  %11.5g  %11.5g  ", width, p->path, p->error.mae, p->error.mse);
@@ -72,9 +78,11 @@ static void write_table(const job *j)
             fprintf(file, "%8s", p->error.psnr > 0.0 ? "equal" : "-inf");
         else
             fprintf(file, "%8.2f", p->error.psnr);
-        fprintf(file, "  %9zu\n", p->pixels);
+        fprintf(file, "  %6.4f  %9zu\n", p->flip, p->pixels);
     }
-    fprintf(file, "\nagainst %s; PSNR in dB, its peak the reference's largest value\n",
+    fprintf(file,
+            "\nagainst %s; PSNR in dB, its peak the reference's largest value; FLIP (ours): 0 is "
+            "equal, 1 the worst\n",
             j->reference.path);
 }
 
@@ -88,7 +96,7 @@ static void write_number(FILE *file, const char *before, double value, const cha
 static void write_csv(const void *what, FILE *file)
 {
     const job *j = what;
-    fputs("image,reference,mae,mse,psnr,pixels\n", file);
+    fputs("image,reference,mae,mse,psnr,pixels,flip\n", file);
     for (int k = 0; k < j->count; k++) {
         const picture *p = &j->pictures[k];
         hnbrdf_write_csv_text(file, p->path);
@@ -97,7 +105,9 @@ static void write_csv(const void *what, FILE *file)
         write_number(file, ",", p->error.mae, "inf");
         write_number(file, ",", p->error.mse, "inf");
         write_number(file, ",", p->error.psnr, p->error.psnr > 0.0 ? "inf" : "-inf");
-        fprintf(file, ",%zu\n", p->pixels);
+        fprintf(file, ",%zu", p->pixels);
+        write_number(file, ",", p->flip, "nan");
+        putc('\n', file);
     }
 }
 
@@ -114,6 +124,7 @@ static void write_json(const void *what, FILE *file)
         write_number(file, ", \"mae\": ", p->error.mae, "null");
         write_number(file, ", \"mse\": ", p->error.mse, "null");
         write_number(file, ", \"psnr\": ", p->error.psnr, "null");
+        write_number(file, ", \"flip\": ", p->flip, "null");
         fprintf(file, ", \"pixels\": %zu}", p->pixels);
     }
     fputs("\n  ]\n}\n", file);
@@ -130,8 +141,8 @@ static hnbrdf_result draw_difference(const job *j, hnbrdf_error *error)
                                                   "|difference|, mean of R, G and B"};
     render_image page = {0};
     snprintf(what, sizeof what, "%.100s against %.100s", p->path, j->reference.path);
-    snprintf(figures, sizeof figures, "MAE %.4g, MSE %.4g, PSNR %.2f dB", p->error.mae,
-             p->error.mse, p->error.psnr);
+    snprintf(figures, sizeof figures, "MAE %.4g, MSE %.4g, PSNR %.2f dB, FLIP %.4f", p->error.mae,
+             p->error.mse, p->error.psnr, p->flip);
     hnbrdf_result result = render_difference_page(&p->image, &j->reference.image, j->options->top,
                                                   lines, &page, error);
     if (result != HNBRDF_OK)
@@ -151,7 +162,7 @@ static hnbrdf_result read_and_measure(job *j, hnbrdf_error *error)
     for (int k = 0; k < j->count && result == HNBRDF_OK; k++) {
         result = read_picture(j, &j->pictures[k], paths[k], error);
         if (result == HNBRDF_OK)
-            result = measure(&j->pictures[k], &j->reference, error);
+            result = measure(j, &j->pictures[k], error);
         if (result == HNBRDF_OK && !j->options->difference)
             render_image_free(&j->pictures[k].image);
     }

@@ -3,6 +3,7 @@
 #define HNBRDF_REPORT_COMPARE_IMAGES_H
 
 #include "hnbrdf/hnbrdf.h"
+#include "report/flip.h"
 
 #include <stdio.h>
 
@@ -14,8 +15,10 @@ typedef struct compare_images_options {
     double top;             /* of its scale; 0: chosen */
     const char *layer;      /* of OpenEXR pictures; NULL: the only or main one */
     int repair;             /* see render_read_options */
-    hnbrdf_notes notes;     /* told of what the files needed to be read */
-    FILE *table; /* gets the table for people and the names of the pictures; NULL: nowhere */
+    report_flip flip;
+    report_watch watch; /* of FLIP, which takes seconds */
+    hnbrdf_notes notes; /* told of what the files needed to be read */
+    FILE *table;        /* gets the table for people and the names of the pictures; NULL: nowhere */
 } compare_images_options;
 
 hnbrdf_result compare_images(const compare_images_options *options, hnbrdf_error *error);

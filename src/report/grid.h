@@ -4,6 +4,7 @@
 #define HNBRDF_REPORT_GRID_H
 
 #include "hnbrdf/fit.h"
+#include "report/flip.h"
 #include "report/picture.h"
 #include "report/watch.h"
 
@@ -24,6 +25,7 @@ enum { REPORT_IMAGE_SAMPLES = 32 };
 typedef struct report_picture {
     int done;
     double mae, mse, psnr, psnr_error, psnr_bias, peak_error; /* see hnbrdf_image_noise */
+    double flip; /* of the mean of both renderings, noise and all */
 } report_picture;
 
 typedef enum report_form {
@@ -51,6 +53,7 @@ typedef struct report_entry {
     report_picture *pictures;   /* [materials], if pictures are made */
     double mean_psnr, mean_mae; /* over the materials */
     double mean_psnr_error;     /* standard error by noise of mean_psnr, of the peaks too */
+    double mean_flip;
 } report_entry;
 
 typedef struct report_images report_images;
@@ -76,6 +79,7 @@ typedef struct report {
     long pairs, seed, steps, threads, pool;
     long image_size;       /* pixels a side of the spheres; 0: no pictures */
     report_light light;    /* of the spheres, and their samples a pixel */
+    report_flip flip;      /* how FLIP looks at them */
     report_images *images; /* references, from the first entry on */
     /* [materials]: the fits of GGX alone, once the first entry is done */
     hnbrdf_material *ggx;
@@ -201,9 +205,11 @@ void report_write_data(const report *r, FILE *file);
 
 /* ---- grid_image_tables.c ------------------------------------------------------------------- */
 
-/* What PSNR is measured of; the paper's second table; the paper's own figures of it. */
+/* What PSNR is measured of; the paper's second table; FLIP likewise; the paper's own figures of
+ * PSNR. */
 void report_write_psnr_method(const report *r, FILE *file);
 void report_write_psnr_table(const report *r, FILE *file);
+void report_write_flip_table(const report *r, FILE *file);
 void report_write_papers_psnr(FILE *file);
 /* Everything of `report images` but the picture rows into the report's folder. */
 hnbrdf_result report_write_image_files(report *r);

@@ -25,9 +25,10 @@ static int hash_bytes(void *user, const void *data, size_t size)
 /* images.txt: what has to be the same for figures to be reused. */
 static void write_settings(const report *r, hnbrdf_model *const *models, FILE *file)
 {
-    fprintf(file, "hnbrdf %s\nenv %s\nrotate %.9g\nsize %ld\nspp %ld\nseed %ld\nrows %ld\n",
+    fprintf(file,
+            "hnbrdf %s\nenv %s\nrotate %.9g\nsize %ld\nspp %ld\nseed %ld\nrows %ld\nppd %.9g\n",
             hnbrdf_version(), r->light.env, r->light.rotate, r->image_size, r->light.spp,
-            r->light.seed, r->rows);
+            r->light.seed, r->rows, r->flip.pixels_per_degree);
     for (int m = 0; m < r->data.count; m++)
         fprintf(file, "material %s: %s\n", hnbrdf_measured_name(r->data.items[m]),
                 hnbrdf_measured_summary(r->data.items[m]));
@@ -93,16 +94,18 @@ static int read_number(const char *text, double *value)
 /* A row of images.csv; what is not one is made again. */
 static void read_row(report *r, const hnbrdf_csv_reader *reader)
 {
-    double values[6];
+    enum { VALUES = 7, FIRST = 5, NAME = FIRST + VALUES };
+    double values[VALUES];
     report_picture *p =
-        reader->count == 12 ? find_picture(r, reader->fields[0], reader->fields[11]) : NULL;
-    for (int k = 0; k < 6 && p; k++)
-        if (strcmp(reader->fields[5 + k], "inf") == 0)
+        reader->count == NAME + 1 ? find_picture(r, reader->fields[0], reader->fields[NAME]) : NULL;
+    for (int k = 0; k < VALUES && p; k++)
+        if (strcmp(reader->fields[FIRST + k], "inf") == 0)
             values[k] = (double)INFINITY;
-        else if (!read_number(reader->fields[5 + k], &values[k]))
+        else if (!read_number(reader->fields[FIRST + k], &values[k]))
             p = NULL;
     if (p)
-        *p = (report_picture){1, values[0], values[1], values[2], values[3], values[4], values[5]};
+        *p = (report_picture){1,         values[0], values[1], values[2],
+                              values[3], values[4], values[5], values[6]};
 }
 
 hnbrdf_result report_images_read_figures(report *r)

@@ -1,5 +1,6 @@
 /* grid_image_tables.c: the errors of spheres as CSV and as Markdown, the paper's second table
  * among them. */
+#include "base/number.h"
 #include "base/write.h"
 #include "report/grid.h"
 
@@ -10,7 +11,8 @@
 
 void report_write_images_csv(const report *r, FILE *file)
 {
-    fputs("material,kind,net,encoding,latent,mae,mse,psnr,psnr_error,psnr_bias,peak_error,name\n",
+    fputs("material,kind,net,encoding,latent,mae,mse,psnr,psnr_error,psnr_bias,peak_error,flip,"
+          "name\n",
           file);
     for (int m = 0; m < r->data.count; m++)
         for (int k = 0; k < r->count; k++) {
@@ -21,8 +23,8 @@ void report_write_images_csv(const report *r, FILE *file)
             hnbrdf_write_csv_text(file, hnbrdf_measured_name(r->data.items[m]));
             putc(',', file);
             report_write_model_columns(e, file);
-            fprintf(file, ",%.9g,%.9g,%.9g,%.4g,%.4g,%.4g,%s\n", p->mae, p->mse, p->psnr,
-                    p->psnr_error, p->psnr_bias, p->peak_error, e->name);
+            fprintf(file, ",%.9g,%.9g,%.9g,%.4g,%.4g,%.4g,%.9g,%s\n", p->mae, p->mse, p->psnr,
+                    p->psnr_error, p->psnr_bias, p->peak_error, p->flip, e->name);
         }
 }
 
@@ -63,6 +65,31 @@ void report_write_psnr_table(const report *r, FILE *file)
                 const report_entry *e = report_find(r, form, r->nets[n], r->latents[l]);
                 if (r->forms[form] && e && e->mean_psnr > 0.0)
                     fprintf(file, " %.2f +- %.2f |", e->mean_psnr, e->mean_psnr_error);
+                else if (r->forms[form])
+                    fputs(" |", file);
+            }
+        putc('\n', file);
+    }
+}
+
+void report_write_flip_table(const report *r, FILE *file)
+{
+    fprintf(
+        file,
+        "FLIP of the same spheres, mean over the pixels that they cover: what a person sees of "
+        "the difference\nat %s pixels a degree, 0 for nothing; the largest over the exposures of "
+        "HDR-FLIP (%s). It\nis our implementation of Andersson et al. (2020, 2021), not NVIDIA's. "
+        "The noise of both renderings counts.\n\nGGX alone: %.4f.\n\n",
+        HNBRDF_NUMBER(r->flip.pixels_per_degree > 0.0 ? r->flip.pixels_per_degree : 67.02),
+        "include/hnbrdf/metrics.h", r->entries[0].mean_flip);
+    report_write_form_header(r, file);
+    for (int n = 0; n < r->net_count; n++) {
+        fprintf(file, "| %dx%d |", r->nets[n][0], r->nets[n][1]);
+        for (int l = 0; l < r->latent_count; l++)
+            for (report_form form = REPORT_HYBRID; form < REPORT_FORMS; form++) {
+                const report_entry *e = report_find(r, form, r->nets[n], r->latents[l]);
+                if (r->forms[form] && e && e->mean_psnr > 0.0)
+                    fprintf(file, " %.4f |", e->mean_flip);
                 else if (r->forms[form])
                     fputs(" |", file);
             }
@@ -137,7 +164,8 @@ static const report_entry *neural_beside(const report *r, const report_entry *e)
 
 static void write_models(const report *r, FILE *file)
 {
-    fputs("\n## Model by model\n\nMean MAE in radiance and PSNR in dB; noise: by how much PSNR is "
+    fputs("\n## Model by model\n\nMean MAE in radiance, FLIP and PSNR in dB; noise: by how much "
+          "PSNR is "
           "too "
           "low "
           "because noise counts as error (drowned: materials "
@@ -146,13 +174,13 @@ static void write_models(const report *r, FILE *file)
           "neural "
           "model that stores as many numbers a material, and for how many\nmaterials PSNR is "
           "higher.\n\n"
-          "| model | MAE | PSNR | noise | against GGX alone | against neural "
-          "|\n|---|---|---|---|---|---|\n",
+          "| model | MAE | FLIP | PSNR | noise | against GGX alone | against neural "
+          "|\n|---|---|---|---|---|---|---|\n",
           file);
     for (int k = 0; k < r->count; k++) {
         const report_entry *e = &r->entries[k];
-        fprintf(file, "| %s | %.5f | %.2f +- %.2f |", e->name, e->mean_mae, e->mean_psnr,
-                e->mean_psnr_error);
+        fprintf(file, "| %s | %.5f | %.4f | %.2f +- %.2f |", e->name, e->mean_mae, e->mean_flip,
+                e->mean_psnr, e->mean_psnr_error);
         write_bias(r, e, file);
         if (e->form == REPORT_GGX)
             fputs(" |", file);
@@ -179,6 +207,8 @@ void report_write_images_markdown(const report *r, FILE *file)
     report_write_psnr_method(r, file);
     fputs("\n## Mean PSNR, dB\n", file);
     report_write_psnr_table(r, file);
+    fputs("\n## Mean FLIP\n\n", file);
+    report_write_flip_table(r, file);
     write_models(r, file);
     if (done == r->data.count && render_has_exr()) {
         fputs("\n## Picture rows\n\nReference, models and where they differ. pictures/ has the "

@@ -106,11 +106,41 @@ void report_images_drop_reference(report *r, int m)
 
 /* ---- Measuring ------------------------------------------------------------------------------- */
 
+/* A picture with the mean of both renderings in values, which has room for 4 numbers a pixel. */
+static render_image mean_of(const render_image pictures[2], float *values)
+{
+    const size_t pixels = (size_t)pictures[0].width * (size_t)pictures[0].height;
+    render_image mean = {.width = pictures[0].width,
+                         .height = pictures[0].height,
+                         .rgb = values,
+                         .alpha = values + 3 * pixels};
+    for (size_t i = 0; i < 3 * pixels; i++)
+        mean.rgb[i] = 0.5f * (pictures[0].rgb[i] + pictures[1].rgb[i]);
+    for (size_t i = 0; i < pixels; i++)
+        mean.alpha[i] = 0.5f * (pictures[0].alpha[i] + pictures[1].alpha[i]);
+    return mean;
+}
+
+static hnbrdf_result measure_flip(const report *r, const render_image pictures[2],
+                                  const render_image references[2], double *flip)
+{
+    const size_t pixels = (size_t)pictures[0].width * (size_t)pictures[0].height;
+    float *values = malloc(8 * pixels * sizeof *values);
+    if (!values)
+        return hnbrdf_fail(r->error, HNBRDF_ERROR_MEMORY, "out of memory");
+    const render_image image = mean_of(pictures, values),
+                       reference = mean_of(references, values + 4 * pixels);
+    hnbrdf_result code = report_flip_compare(&image, &reference, &r->flip, NULL, flip, r->error);
+    free(values);
+    return code;
+}
+
 hnbrdf_result report_images_measure(report *r, int m, report_entry *e, const hnbrdf_model *model,
                                     render_image *mean)
 {
     hnbrdf_image_error error;
     hnbrdf_image_noise noise;
+    double flip = 0.0;
     render_image pictures[2] = {{0}, {0}};
     render_surface surface = render_surface_model(model, report_material(r, model, m));
     hnbrdf_result code = render_twice(r, m, &surface, pictures);
@@ -118,13 +148,16 @@ hnbrdf_result report_images_measure(report *r, int m, report_entry *e, const hnb
         code = report_picture_compare_twice(pictures, r->images->references[m], &error, &noise,
                                             r->error);
     if (code == HNBRDF_OK)
+        code = measure_flip(r, pictures, r->images->references[m], &flip);
+    if (code == HNBRDF_OK)
         e->pictures[m] = (report_picture){1,
                                           error.mae,
                                           error.mse,
                                           fmin(error.psnr, REPORT_PSNR_LIMIT),
                                           noise.psnr_error,
                                           noise.psnr_bias,
-                                          noise.peak_error};
+                                          noise.peak_error,
+                                          flip};
     if (code == HNBRDF_OK && mean) {
         average(pictures);
         *mean = pictures[0];
@@ -194,7 +227,7 @@ hnbrdf_result report_images_run(report *r, hnbrdf_model *const *models,
 void report_images_average(const report *r, report_entry *e)
 {
     int done = 0;
-    double psnr = 0.0, mae = 0.0, variance = 0.0;
+    double psnr = 0.0, mae = 0.0, flip = 0.0, variance = 0.0;
     for (int m = 0; m < r->data.count; m++) {
         const report_picture *p = &e->pictures[m];
         if (!p->done)
@@ -202,11 +235,13 @@ void report_images_average(const report *r, report_entry *e)
         done++;
         psnr += p->psnr;
         mae += p->mae;
+        flip += p->flip;
         variance += p->psnr_error * p->psnr_error + p->peak_error * p->peak_error;
     }
     double n = done ? (double)done : 1.0;
     e->mean_psnr = psnr / n;
     e->mean_mae = mae / n;
+    e->mean_flip = flip / n;
     e->mean_psnr_error = sqrt(variance) / n;
 }
 

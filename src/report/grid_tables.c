@@ -17,19 +17,19 @@ static void write_analytic_column(const report_entry *e, const hnbrdf_comparison
 }
 
 /* Empty if no pictures are made. */
-static void write_psnr_column(const report *r, double psnr, FILE *file)
+static void write_picture_columns(const report *r, double psnr, double flip, FILE *file)
 {
     if (r->image_size)
-        fprintf(file, ",%.6g", psnr);
+        fprintf(file, ",%.6g,%.6g", psnr, flip);
     else
-        putc(',', file);
+        fputs(",,", file);
 }
 
 void report_write_accuracy(const report *r, FILE *file)
 {
     fputs(
         "kind,net,encoding,latent,steps,seconds,pairs_per_s,weights,mults,smape_grid,smape_uniform,"
-        "smape_analytic,smape_cosine,floor,psnr,name\n",
+        "smape_analytic,smape_cosine,floor,psnr,flip,name\n",
         file);
     for (int k = 0; k < r->count; k++) {
         const report_entry *e = &r->entries[k];
@@ -41,7 +41,7 @@ void report_write_accuracy(const report *r, FILE *file)
                 e->mean[HNBRDF_SAMPLER_UNIFORM].smape);
         write_analytic_column(e, &e->mean[r->sampler], file);
         fprintf(file, ",%.6g,%.6g", e->mean[HNBRDF_SAMPLER_COSINE].smape, (double)e->floor);
-        write_psnr_column(r, e->mean_psnr, file);
+        write_picture_columns(r, e->mean_psnr, e->mean_flip, file);
         fprintf(file, ",%s\n", e->name);
     }
 }
@@ -50,8 +50,7 @@ void report_write_materials(const report *r, FILE *file)
 {
     int n = r->data.count;
     fputs("material,kind,net,encoding,latent,smape_grid,smape_uniform,smape_analytic,smape_cosine,"
-          "psnr,"
-          "name\n",
+          "psnr,flip,name\n",
           file);
     for (int k = 0; k < r->count; k++)
         for (int m = 0; r->entries[k].done && m < n; m++) {
@@ -63,7 +62,7 @@ void report_write_materials(const report *r, FILE *file)
                     e->errors[HNBRDF_SAMPLER_UNIFORM * n + m].smape);
             write_analytic_column(e, &e->errors[r->sampler * n + m], file);
             fprintf(file, ",%.6g", e->errors[HNBRDF_SAMPLER_COSINE * n + m].smape);
-            write_psnr_column(r, e->pictures[m].psnr, file);
+            write_picture_columns(r, e->pictures[m].psnr, e->pictures[m].flip, file);
             fprintf(file, ",%s\n", e->name);
         }
 }
@@ -102,6 +101,8 @@ static void write_images(const report *r, FILE *file)
     fputs("\n## Mean PSNR, dB\n\n", file);
     report_write_psnr_method(r, file);
     report_write_psnr_table(r, file);
+    fputs("\n## Mean FLIP\n\n", file);
+    report_write_flip_table(r, file);
 }
 
 /* ---- Markdown: hybrids against the others ---------------------------------------------------- */

@@ -57,6 +57,8 @@ _measured_options = _structure(
     "hnbrdf_measured_options", ("max_bytes", _Z), ("merl_lookup", _I), ("merl_node", _I),
     ("merl_identify", _I), ("rgl_signed", _I), ("rgl_spectra", _I), ("utia_mode", _I),
     ("utia_scale", _D), ("utia_no_extrapolate", _I), ("read_hdf5", _P))
+_flip_exposures = _structure(
+    "hnbrdf_flip_exposures", ("start", _D), ("stop", _D), ("count", _I))
 _custom = _structure("hnbrdf_measured_custom", ("name", _S), ("summary", _S), ("isotropic", _I),
                      ("eval", _eval_fn), ("release", _P), ("user", _P))
 _fit_progress = _structure("hnbrdf_fit_progress", ("stage", _S), ("done", _D), ("loss", _D),
