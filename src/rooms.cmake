@@ -81,7 +81,8 @@ hnbrdf_room(report
   editing_fit.c editing_measure.c editing_mix.c editing_plot.c editing_sheet.c
   editing_tables.c fit_log.c flip.c gallery_choose.c
   gallery_pages.c gallery_strips.c grid.c grid_columns.c grid_figures.c grid_fit.c grid_ggx.c
-  grid_image_tables.c grid_images.c grid_plot.c grid_ranks.c grid_rows.c grid_tables.c info.c
+  grid_image_tables.c grid_images.c grid_judged.c grid_kept.c grid_plot.c grid_ranks.c
+  grid_rows.c grid_tables.c info.c
   info_physics.c lobes_table.c loss_plot.c output.c picture.c same_picture.c
   sampling_measure.c sampling_strips.c sampling_write.c scene_compare.c sheet.c
   spheres.c stability_plot.c stability_report.c still.c texels.c verify_report.c)

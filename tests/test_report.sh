@@ -34,10 +34,11 @@ expect_failure "a file in the way" "file: is a file, expected a folder"
 
 # ---- a small grid -----------------------------------------------------------------------------------
 materials="builtin:glossy-plastic-green builtin:gold-two-lobe builtin:velvet-crimson"
-small="--quick --steps 200 --pairs 1000 --pool 2048"
+small="--quick --steps 200 --pool 2048"
+pairs=1000
 side=32
 report() {
-    run "$HNBRDF" report accuracy $materials $small --images $side -o r "$@"
+    run "$HNBRDF" report accuracy $materials $small --pairs $pairs --images $side -o r "$@"
     [ "$rc" -eq 0 ] || fail "report $*: exit $rc"
 }
 # column NAME: that column of accuracy.csv, after the model's name.
@@ -98,6 +99,20 @@ cmp -s first.csv r/ggx.csv || fail "--resume forgot how the fits of GGX went"
 [ "$(wc -l <r/accuracy.csv)" -eq 8 ] || fail "--resume did not add the new ones"
 [ "$(column smape_grid | awk '$1 == "hybrid-8x2-l4" { printf "%.5f", $2 }')" = "$alone" ] ||
     fail "--resume changed a figure"
+# Finished models are not measured again: what is kept of them is taken as it is, unless the settings are others.
+kept=r/models/hybrid-8x2-l4.figures
+cp $kept kept
+sed '2s/^[^ ]*/0.125/' kept >$kept # the first material, uniform
+report --nets 8x2 --resume
+grep -q '^glossy-plastic-green,hybrid,8x2,angles,4,[^,]*,0.125,' r/materials.csv || fail "--resume measured again"
+cmp -s first.csv r/ggx.csv || fail "--resume without measuring forgot how the fits of GGX went"
+pairs=1001
+report --nets 8x2 --resume
+pairs=1000
+grep -q ',0.125,' r/materials.csv && fail "--resume took figures of other settings"
+head -c 200 kept >$kept # as if a disk had been full
+report --nets 8x2 --resume
+cmp -s kept $kept || fail "figures measured again differ"
 rm r/models/hybrid-8x2-l4.txt # as if the run had ended while it was at it
 side=0
 report --nets 8x2 --resume --threads 1
@@ -106,6 +121,23 @@ column psnr | grep -qx 'hybrid-8x2-l4 ' || fail "--images 0 makes pictures"
 cmp -s first r/models/hybrid-8x2-l4.safetensors || fail "the model made again is another one"
 report --nets 8x2 --resume --seed 2
 cmp -s first r/models/hybrid-8x2-l4.safetensors && fail "--resume reused a model of another seed"
+
+# ---- materials that are left to GGX alone: those that `fit` names ----------------------------------------
+for steps in 40 60 90 120; do
+    "$HNBRDF" fit $materials --net 16x2 --steps $steps --pool 2048 -o f.safetensors 2>&1 |
+        sed -n 's/^note: \(.*\): with the network it is worse than GGX alone.*turns the network off$/\1/p' | sort >named
+    [ ! -s named ] || break
+done
+[ -s named ] || fail "no material is left to GGX alone after so few steps: try others"
+for again in '' --resume; do
+    run "$HNBRDF" report accuracy $materials --quick --steps $steps --pairs 500 --pool 2048 --images 0 --models hybrid \
+        -o a $again
+    awk -F, 'NR == 1 { for (k = 1; k <= NF; k++) if ($k == "alone") at = k } $at == 1 { print $1 }' a/materials.csv |
+        sort | cmp -s - named || fail "alone: $(cat a/materials.csv); fit: $(cat named)"
+    grep -q "^| hybrid-16x2-l4 | $(wc -l <named | tr -d ' '): .*$(head -n 1 named)" a/report.md ||
+        fail "report.md does not name what is left to GGX alone"
+done
+grep -q ',ggx,none,none,0,.*,,ggx$' a/materials.csv || fail "GGX alone has a column alone"
 
 # An interrupt ends the run with what is done.
 "$HNBRDF" report accuracy $materials --nets 8x2,64x4 --steps 1000000 --pairs 1000 --pool 2048 -o i --models hybrid \
@@ -120,6 +152,8 @@ kill -INT "$process"
 wait "$process"
 rc=$?
 [ "$rc" -eq 1 ] && grep -q 'interrupted' err || fail "interrupt: exit $rc"
+grep -q 'is told when all 3 are done' i/report.md && ! grep -q 'Against the baselines' i/report.md ||
+    fail "an incomplete report names winners"
 grep -q '^ggx,' i/accuracy.csv || fail "what was finished before the interrupt is lost"
 
 finish

@@ -1,4 +1,4 @@
-/* flip_colour.h: what a display shows, the colours of FLIP, and the distance between two of them. */
+/* flip_colour.h: what a display shows, the colours of FLIP, and how far two of them are apart. */
 #ifndef HNBRDF_METRICS_FLIP_COLOUR_H
 #define HNBRDF_METRICS_FLIP_COLOUR_H
 

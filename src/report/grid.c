@@ -48,7 +48,8 @@ hnbrdf_result report_make_entries(report *r)
         report_entry *e = &r->entries[k];
         e->errors = calloc((size_t)r->data.count * REPORT_SAMPLERS, sizeof *e->errors);
         e->pictures = calloc((size_t)r->data.count, sizeof *e->pictures);
-        if (!e->errors || !e->pictures)
+        e->judged = calloc((size_t)r->data.count, sizeof *e->judged);
+        if (!e->errors || !e->pictures || !e->judged)
             return hnbrdf_fail(r->error, HNBRDF_ERROR_MEMORY, "out of memory");
     }
     r->ggx = calloc((size_t)r->data.count, sizeof *r->ggx);
@@ -62,10 +63,13 @@ void report_free_entries(report *r)
     for (int k = 0; k < r->count; k++) {
         free(r->entries[k].errors);
         free(r->entries[k].pictures);
+        free(r->entries[k].judged);
     }
     free(r->entries);
     free(r->ggx);
     free(r->search);
+    hnbrdf_model_free(r->ggx_model);
+    r->ggx_model = NULL;
 }
 
 const report_entry *report_find(const report *r, report_form form, const int net[2], int latent)
@@ -84,6 +88,19 @@ const report_entry *report_find(const report *r, report_form form, const int net
 double report_error(const report *r, const report_entry *e, int m)
 {
     return e->errors[r->sampler * r->data.count + m].smape;
+}
+
+int report_is_complete(const report *r)
+{
+    int complete = 1;
+    for (int k = 0; k < r->count; k++)
+        complete &= r->entries[k].done;
+    return complete;
+}
+
+int report_is_judged(report_form form)
+{
+    return form == REPORT_HYBRID || form == REPORT_PAPER;
 }
 
 int report_wins(const report *r, const report_entry *a, const report_entry *b)

@@ -36,6 +36,13 @@ typedef enum report_form {
     REPORT_FORMS
 } report_form;
 
+/* What the fit found of a material: see hnbrdf_fit_worth. */
+typedef enum report_judged {
+    REPORT_BETTER = 0, /* than GGX alone, or as good */
+    REPORT_ALONE,      /* worse, and so left to GGX alone */
+    REPORT_WORSE       /* worse, but the network cannot be turned off for it */
+} report_judged;
+
 /* One model of the grid and, once done, its errors. */
 typedef struct report_entry {
     char name[48]; /* "hybrid-32x2-l4": of its file in models/ */
@@ -51,6 +58,7 @@ typedef struct report_entry {
     hnbrdf_comparison *errors; /* [REPORT_SAMPLERS][materials] */
     hnbrdf_comparison mean[REPORT_SAMPLERS];
     report_picture *pictures;   /* [materials], if pictures are made */
+    unsigned char *judged;      /* [materials]: report_judged, of those with a network and GGX */
     double mean_psnr, mean_mae; /* over the materials */
     double mean_psnr_error;     /* standard error by noise of mean_psnr, of the peaks too */
     double mean_flip;
@@ -84,6 +92,7 @@ typedef struct report {
     /* [materials]: the fits of GGX alone, once the first entry is done */
     hnbrdf_material *ggx;
     hnbrdf_fit_search *search; /* [materials]: how they went; starts 0 where it is not known */
+    hnbrdf_model *ggx_model;   /* of them, for the pictures; once the first entry is done */
     double budget;             /* seconds of training an entry; 0: `steps` */
     /* a folder of an earlier report whose models are taken; NULL: none */
     const char *from;
@@ -119,6 +128,10 @@ void report_free_entries(report *r);
 const report_entry *report_find(const report *r, report_form form, const int net[2], int latent);
 /* SMAPE of material m with the report's sampler. */
 double report_error(const report *r, const report_entry *e, int m);
+/* 1 if every entry is done. Until then nothing is said to be better than something else. */
+int report_is_complete(const report *r);
+/* 1 if the fit judges the materials of this form: a network and GGX. */
+int report_is_judged(report_form form);
 /* For how many materials a has the lower error; the higher PSNR. */
 int report_wins(const report *r, const report_entry *a, const report_entry *b);
 int report_image_wins(const report *r, const report_entry *a, const report_entry *b);
@@ -163,7 +176,8 @@ hnbrdf_result report_images_measure(report *r, int m, report_entry *e, const hnb
 /* Puts the mean of both references into the first one and returns it; the second is no more. */
 const render_image *report_images_mean_reference(report *r, int m);
 void report_images_drop_reference(report *r, int m);
-/* All materials of an entry in turn; the first entry renders the references before. */
+/* All materials of an entry in turn; before the first one that is measured the references are
+ * rendered. */
 hnbrdf_result report_images_entry(report *r, report_entry *e, const hnbrdf_model *model);
 /* Fills the means over the materials that are done. */
 void report_images_average(const report *r, report_entry *e);
@@ -179,6 +193,19 @@ hnbrdf_result report_images_keep_settings(const report *r, hnbrdf_model *const *
 hnbrdf_result report_images_read_figures(report *r);
 /* 1 if every entry has its figures of material m. */
 int report_images_is_done(const report *r, int m);
+
+/* ---- grid_kept.c --------------------------------------------------------------------------- */
+
+/* The figures of an entry that is measured go beside its model. */
+hnbrdf_result report_keep_figures(const report *r, const report_entry *e,
+                                  const hnbrdf_model *model);
+/* 1 if there are figures of this very model, measured with the settings of this report, and the
+ * entry has them now. */
+int report_take_figures(const report *r, report_entry *e, const hnbrdf_model *model);
+
+/* ---- grid_judged.c: which materials were left to GGX alone, and which are worse than it ------ */
+
+void report_write_judged(const report *r, FILE *file);
 
 /* ---- grid_tables.c, grid_plot.c, grid_ggx.c: into FILE, whatever is done so far -------- */
 

@@ -60,7 +60,25 @@ static hnbrdf_result write_record(const report *r, const report_entry *e)
         fprintf(output.file, "search %d %.9g %.9g %.9g %.9g\n", r->search[m].starts,
                 r->search[m].best, r->search[m].second, (double)r->search[m].second_alpha[0],
                 (double)r->search[m].second_alpha[1]);
+    if (report_is_judged(e->form)) {
+        fputs("judged", output.file);
+        for (int m = 0; m < r->data.count; m++)
+            fprintf(output.file, " %d", (int)e->judged[m]);
+        putc('\n', output.file);
+    }
     return report_output_close(&output, r->error);
+}
+
+static int read_judged(const report *r, report_entry *e, FILE *file)
+{
+    char word[8] = "";
+    int same = fscanf(file, " %7s", word) == 1 && strcmp(word, "judged") == 0;
+    for (int m = 0; m < r->data.count && same; m++) {
+        unsigned value = 0;
+        same = fscanf(file, " %u", &value) == 1 && value <= REPORT_WORSE;
+        e->judged[m] = (unsigned char)value;
+    }
+    return same;
 }
 
 /* 1 if there is a record of a model made with these very settings. */
@@ -81,6 +99,8 @@ static int read_record(const report *r, report_entry *e)
         same = fscanf(file, " search %d %lf %lf %f %f", &s->starts, &s->best, &s->second,
                       &s->second_alpha[0], &s->second_alpha[1]) == 5;
     }
+    if (same && report_is_judged(e->form))
+        same = read_judged(r, e, file);
     fclose(file);
     return same;
 }
@@ -210,11 +230,15 @@ static hnbrdf_result fit_entry(const report *r, report_entry *e, watch *w, hnbrd
     hnbrdf_fit_report made;
     hnbrdf_model *fitted = NULL;
     hnbrdf_result result = HNBRDF_ERROR_MEMORY;
+    hnbrdf_fit_worth *worth = calloc((size_t)r->data.count, sizeof *worth);
     char *checkpoint = report_path(r, e->name, "checkpoint"),
          *path = report_path(r, e->name, "safetensors");
-    if (checkpoint && path) {
+    if (!worth) {
+        hnbrdf_fail(r->error, result, "out of memory");
+    } else if (checkpoint && path) {
         forget(r, e, "txt");
         set_options(r, e, &options);
+        options.worth = report_is_judged(e->form) ? worth : NULL;
         options.search = e->form == REPORT_GGX ? r->search : NULL;
         options.ranks = is_shared(e) ? r->ranks : NULL;
         options.progress = show;
@@ -229,6 +253,8 @@ static hnbrdf_result fit_entry(const report *r, report_entry *e, watch *w, hnbrd
         e->steps = made.steps;
         e->seconds = made.seconds;
         e->pairs_per_s = made.pairs_per_s;
+        for (int m = 0; m < r->data.count; m++)
+            e->judged[m] = worth[m].alone ? REPORT_ALONE : worth[m].worse ? REPORT_WORSE : 0;
         if (!is_shared(e) || report_rank(r) == 0)
             result = save(r, fitted, e, path);
     }
@@ -240,6 +266,7 @@ static hnbrdf_result fit_entry(const report *r, report_entry *e, watch *w, hnbrd
     }
     free(checkpoint);
     free(path);
+    free(worth);
     return result;
 }
 
@@ -300,7 +327,6 @@ static hnbrdf_result measure(const report *r, report_entry *e, const hnbrdf_mode
                 code = hnbrdf_fail(r->error, job.results[k], "%s: %s",
                                    hnbrdf_measured_name(r->data.items[k % r->data.count]),
                                    hnbrdf_strerror(job.results[k]));
-        average(e, r->data.count);
     } else {
         code = hnbrdf_fail(r->error, HNBRDF_ERROR_MEMORY, "out of memory");
     }
@@ -322,16 +348,28 @@ static void describe(report_entry *e, const hnbrdf_model *model)
     e->mults = hnbrdf_model_multiplications(model);
 }
 
-static hnbrdf_result finish_entry(report *r, report_entry *e, const hnbrdf_model *model)
+static hnbrdf_result measure_all(report *r, report_entry *e, const hnbrdf_model *model)
 {
-    describe(e, model);
     hnbrdf_result result = measure(r, e, model);
-    for (int m = 0; result == HNBRDF_OK && e->form == REPORT_GGX && m < r->data.count; m++)
-        r->ggx[m] = *hnbrdf_model_material(model, m);
     if (result == HNBRDF_OK && r->image_size)
         result = report_images_entry(r, e, model);
-    e->done = result == HNBRDF_OK;
+    if (result == HNBRDF_OK && (!is_shared(e) || report_rank(r) == 0))
+        result = report_keep_figures(r, e, model);
     return result;
+}
+
+static hnbrdf_result finish_entry(report *r, report_entry *e, const hnbrdf_model *model)
+{
+    hnbrdf_result result = HNBRDF_OK;
+    describe(e, model);
+    if (!r->resume || !report_take_figures(r, e, model))
+        result = measure_all(r, e, model);
+    if (result != HNBRDF_OK)
+        return result;
+    average(e, r->data.count);
+    report_images_average(r, e);
+    e->done = 1;
+    return HNBRDF_OK;
 }
 
 static hnbrdf_result run_entry(report *r, report_entry *e, watch *w)
@@ -345,11 +383,17 @@ static hnbrdf_result run_entry(report *r, report_entry *e, watch *w)
         model = NULL;
         result = result == HNBRDF_OK ? fit_entry(r, e, w, &model) : result;
     }
+    if (result == HNBRDF_OK && is_shared(e)) {
+        for (int m = 0; m < r->data.count; m++)
+            r->ggx[m] = *hnbrdf_model_material(model, m);
+        r->ggx_model = model;
+    }
     if (result == HNBRDF_OK)
         result = finish_entry(r, e, model);
     if (result == HNBRDF_OK)
         learn_from(w, e);
-    hnbrdf_model_free(model);
+    if (model != r->ggx_model)
+        hnbrdf_model_free(model);
     return result;
 }
 

@@ -164,6 +164,7 @@ static const report_entry *neural_beside(const report *r, const report_entry *e)
 
 static void write_models(const report *r, FILE *file)
 {
+    const int complete = report_is_complete(r);
     fputs("\n## Model by model\n\nMean MAE in radiance, FLIP and PSNR in dB; noise: by how much "
           "PSNR is "
           "too "
@@ -173,7 +174,7 @@ static void write_models(const report *r, FILE *file)
           "than the "
           "neural "
           "model that stores as many numbers a material, and for how many\nmaterials PSNR is "
-          "higher.\n\n"
+          "higher, once all are done.\n\n"
           "| model | MAE | FLIP | PSNR | noise | against GGX alone | against neural "
           "|\n|---|---|---|---|---|---|---|\n",
           file);
@@ -182,11 +183,8 @@ static void write_models(const report *r, FILE *file)
         fprintf(file, "| %s | %.5f | %.4f | %.2f +- %.2f |", e->name, e->mean_mae, e->mean_flip,
                 e->mean_psnr, e->mean_psnr_error);
         write_bias(r, e, file);
-        if (e->form == REPORT_GGX)
-            fputs(" |", file);
-        else
-            write_gain(r, e, &r->entries[0], file);
-        write_gain(r, e, neural_beside(r, e), file);
+        write_gain(r, e, complete && e->form != REPORT_GGX ? &r->entries[0] : NULL, file);
+        write_gain(r, e, complete ? neural_beside(r, e) : NULL, file);
         putc('\n', file);
     }
 }
@@ -234,7 +232,9 @@ hnbrdf_result report_write_image_files(report *r)
 {
     for (int k = 0; k < r->count; k++) {
         report_images_average(r, &r->entries[k]);
-        r->entries[k].done = report_images_is_done(r, r->data.count - 1);
+        r->entries[k].done = 1;
+        for (int m = 0; m < r->data.count; m++)
+            r->entries[k].done &= r->entries[k].pictures[m].done;
     }
     hnbrdf_result code = report_write(r, "images.csv", report_write_images_csv);
     for (int n = 0; n < r->net_count && code == HNBRDF_OK && r->entries[0].done; n++)

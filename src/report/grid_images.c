@@ -248,14 +248,13 @@ void report_images_average(const report *r, report_entry *e)
 hnbrdf_result report_images_entry(report *r, report_entry *e, const hnbrdf_model *model)
 {
     hnbrdf_result code = HNBRDF_OK;
-    if (e->form == REPORT_GGX) {
+    if (!r->images) {
         code = report_images_open(r);
         for (int m = 0; m < r->data.count && code == HNBRDF_OK; m++)
-            code = report_images_reference(r, m, model);
+            code = report_images_reference(r, m, r->ggx_model);
     }
     for (int m = 0; m < r->data.count && code == HNBRDF_OK; m++)
         code = report_images_measure(r, m, e, model, NULL);
-    report_images_average(r, e);
     return code;
 }
 

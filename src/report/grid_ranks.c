@@ -34,10 +34,14 @@ hnbrdf_result report_spread_entry(const report *r, int from, report_entry *e)
     const size_t count = (size_t)r->data.count;
     hnbrdf_comparison *errors = e->errors;
     report_picture *pictures = e->pictures;
+    unsigned char *judged = e->judged;
     hnbrdf_result result = spread(r, from, e, sizeof *e);
     e->errors = errors; /* not those of another process */
     e->pictures = pictures;
+    e->judged = judged;
     if (result == HNBRDF_OK)
         result = spread(r, from, errors, REPORT_SAMPLERS * count * sizeof *errors);
+    if (result == HNBRDF_OK)
+        result = spread(r, from, judged, count * sizeof *judged);
     return result == HNBRDF_OK ? spread(r, from, pictures, count * sizeof *pictures) : result;
 }

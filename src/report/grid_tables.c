@@ -46,11 +46,12 @@ void report_write_accuracy(const report *r, FILE *file)
     }
 }
 
+/* alone: 1 of a material that was left to GGX alone; empty where there is no network or no GGX. */
 void report_write_materials(const report *r, FILE *file)
 {
     int n = r->data.count;
     fputs("material,kind,net,encoding,latent,smape_grid,smape_uniform,smape_analytic,smape_cosine,"
-          "psnr,flip,name\n",
+          "psnr,flip,alone,name\n",
           file);
     for (int k = 0; k < r->count; k++)
         for (int m = 0; r->entries[k].done && m < n; m++) {
@@ -63,7 +64,10 @@ void report_write_materials(const report *r, FILE *file)
             write_analytic_column(e, &e->errors[r->sampler * n + m], file);
             fprintf(file, ",%.6g", e->errors[HNBRDF_SAMPLER_COSINE * n + m].smape);
             write_picture_columns(r, e->pictures[m].psnr, e->pictures[m].flip, file);
-            fprintf(file, ",%s\n", e->name);
+            if (report_is_judged(e->form))
+                fprintf(file, ",%d,%s\n", e->judged[m] == REPORT_ALONE, e->name);
+            else
+                fprintf(file, ",,%s\n", e->name);
         }
 }
 
@@ -172,18 +176,7 @@ static void write_equal_numbers(const report *r, FILE *file)
         }
 }
 
-/* 1 if every model at this place of the grid is done. */
-static int is_complete(const report *r, const int net[2], int latent)
-{
-    int complete = 1;
-    for (report_form form = REPORT_HYBRID; form < REPORT_FORMS; form++) {
-        const report_entry *e = report_find(r, form, net, latent);
-        complete &= !e || e->done;
-    }
-    return complete;
-}
-
-/* How many materials each model of a network's size is the best for; only where all are done. */
+/* How many materials each model of a network's size is the best for. */
 static void write_best(const report *r, FILE *file)
 {
     fprintf(file, "\n## For how many materials a model is the best of its row, %s sampler\n\n",
@@ -192,8 +185,6 @@ static void write_best(const report *r, FILE *file)
     for (int n = 0; n < r->net_count; n++)
         for (int l = 0; l < r->latent_count; l++) {
             int wins[REPORT_FORMS] = {0};
-            if (!is_complete(r, r->nets[n], r->latents[l]))
-                continue;
             for (int m = 0; m < r->data.count; m++) {
                 const report_entry *best = &r->entries[0];
                 for (report_form form = REPORT_HYBRID; form < REPORT_FORMS; form++) {
@@ -327,10 +318,16 @@ void report_write_markdown(const report *r, FILE *file)
     for (int k = 0; k < REPORT_SAMPLERS; k++)
         write_errors(r, order[k], file);
     write_images(r, file);
-    write_wins(r, file);
-    write_smallest_against_largest(r, file);
-    write_equal_numbers(r, file);
-    write_best(r, file);
+    if (report_is_complete(r)) {
+        write_wins(r, file);
+        write_smallest_against_largest(r, file);
+        write_equal_numbers(r, file);
+        write_best(r, file);
+    } else {
+        fprintf(file, "\nWhich model is better than which is told when all %d are done.\n",
+                r->count);
+    }
+    report_write_judged(r, file);
     report_write_ggx_section(r, file);
     write_costs(r, file);
     write_plots(r, file);
