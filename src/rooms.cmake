@@ -81,9 +81,10 @@ hnbrdf_room(report
   editing_fit.c editing_measure.c editing_mix.c editing_plot.c editing_sheet.c
   editing_tables.c fit_log.c flip.c gallery_choose.c
   gallery_pages.c gallery_strips.c grid.c grid_columns.c grid_figures.c grid_fit.c grid_ggx.c
-  grid_image_tables.c grid_images.c grid_judged.c grid_kept.c grid_plot.c grid_ranks.c
+  grid_image_tables.c grid_images.c grid_judged.c grid_kept.c grid_outside.c grid_paper.c
+  grid_plot.c grid_ranks.c
   grid_rows.c grid_tables.c info.c
-  info_physics.c lobes_table.c loss_plot.c output.c picture.c same_picture.c
+  info_physics.c lobes_table.c loss_plot.c output.c paper.c picture.c same_picture.c
   sampling_measure.c sampling_strips.c sampling_write.c scene_compare.c sheet.c
   spheres.c stability_plot.c stability_report.c still.c texels.c verify_report.c)
 hnbrdf_room(bench
@@ -94,5 +95,6 @@ hnbrdf_room(cli
   cmd_fit.c cmd_gallery.c cmd_import.c cmd_info.c cmd_lobes.c cmd_mix.c cmd_render.c
   cmd_report.c cmd_report_editing.c cmd_report_images.c cmd_report_sampling.c cmd_scene.c
   cmd_sheet.c cmd_stability.c cmd_verify.c files.c main.c message.c option.c output.c
-  picture.c progress.c ranks.c ranks_mpi.c ranks_none.c reading.c report_options.c sources.c
+  picture.c progress.c published.c
+  ranks.c ranks_mpi.c ranks_none.c reading.c report_options.c sources.c
   standard.c verify_devices.c watch.c words.c)

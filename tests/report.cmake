@@ -11,6 +11,7 @@ hnbrdf_test(test_edit_materials test_edit_materials.c model_support.c core_suppo
 hnbrdf_cli_test(test_edit_cli)
 hnbrdf_cli_test(test_report)
 set_tests_properties(test_report PROPERTIES TIMEOUT 300)
+hnbrdf_cli_test(test_report_paper)
 hnbrdf_cli_test(test_report_sampling)
 hnbrdf_cli_test(test_bake_cli)
 set_tests_properties(test_bake_cli PROPERTIES TIMEOUT 300)

@@ -377,6 +377,42 @@ static void pictures_of_noise_alone_say_so(void **state)
     assert_close(noise.peak_error, 20.0 / log(10.0) / 4.0, 1e-12);
 }
 
+/* A measurement in the place of a model, over the same pairs: a MERL file that holds one number
+ * everywhere is a constant, which a model is too. */
+static void a_measurement_compares_as_a_model_does(void **state)
+{
+    (void)state;
+    const float value[3] = {600.0f / 1500.0f, 600.0f * 1.15f / 1500.0f, 600.0f * 1.66f / 1500.0f};
+    hnbrdf_error error;
+    hnbrdf_measured *data = NULL, *constant = constant_merl(600.0, 0);
+    hnbrdf_model *model = constant_model(value);
+    hnbrdf_comparison as_model, as_measured;
+    assert_int_equal(hnbrdf_measured_open_builtin(0, &data, &error), HNBRDF_OK);
+    for (int s = 0; hnbrdf_sampler_name((hnbrdf_sampler)s); s++) {
+        const hnbrdf_sampler sampler = (hnbrdf_sampler)s;
+        assert_int_equal(
+            hnbrdf_compare_measured(constant, data, sampler, PAIRS, 1, &as_measured, &error),
+            HNBRDF_OK);
+        assert_int_equal(hnbrdf_compare(model, hnbrdf_model_material(model, 0), data, sampler,
+                                        PAIRS, 1, &as_model, &error),
+                         HNBRDF_OK);
+        /* exp(log(value)) and value differ by a few places of float */
+        assert_true(fabs(as_measured.smape - as_model.smape) < 1e-6);
+        assert_true(fabs(as_measured.mae - as_model.mae) < 1e-6 && as_measured.mae > 0.0);
+        assert_true(as_measured.smape == as_measured.smape_analytic);
+        assert_int_equal(as_measured.pairs, PAIRS);
+        assert_int_equal(hnbrdf_compare_measured(data, data, sampler, PAIRS, 1, &as_measured, NULL),
+                         HNBRDF_OK);
+        assert_true(as_measured.smape == 0.0 && as_measured.mse == 0.0);
+    }
+    assert_int_equal(
+        hnbrdf_compare_measured(NULL, data, HNBRDF_SAMPLER_GRID, 1, 1, &as_model, &error),
+        HNBRDF_ERROR_ARGUMENT);
+    hnbrdf_measured_close(data);
+    hnbrdf_measured_close(constant);
+    hnbrdf_model_free(model);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -394,6 +430,7 @@ int main(void)
         cmocka_unit_test(the_error_by_noise_is_the_spread_of_many_renderings),
         cmocka_unit_test(without_noise_there_is_no_error_by_noise),
         cmocka_unit_test(pictures_of_noise_alone_say_so),
+        cmocka_unit_test(a_measurement_compares_as_a_model_does),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

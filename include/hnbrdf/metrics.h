@@ -27,6 +27,14 @@ HNBRDF_API hnbrdf_result hnbrdf_compare(const hnbrdf_model *model, const hnbrdf_
                                         size_t pairs, uint64_t seed, hnbrdf_comparison *comparison,
                                         hnbrdf_error *error);
 
+/* The same of another measurement or approximation in the place of a model, over the same pairs; it
+ * has no analytic part, smape_analytic is smape. Where it has no valid value it counts as 0. */
+HNBRDF_API hnbrdf_result hnbrdf_compare_measured(const hnbrdf_measured *approximation,
+                                                 const hnbrdf_measured *measured,
+                                                 hnbrdf_sampler sampler, size_t pairs,
+                                                 uint64_t seed, hnbrdf_comparison *comparison,
+                                                 hnbrdf_error *error);
+
 /* SMAPE of one value against a reference, one channel: 2 |f - F| / (|f| + |F|), 0 when both are
  * 0. */
 HNBRDF_API double hnbrdf_smape(double f, double reference);

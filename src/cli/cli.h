@@ -156,6 +156,15 @@ int cli_choose_source_material(const cli_source *source, const char *name);
 
 /* A model file and nothing else. Returns 0, or CLI_FAILURE after a message. */
 int cli_open_model(const char *path, hnbrdf_model **model);
+/* Of published shaders: how many names lost what published names add, and the number of the first
+ * of them, from 1. */
+typedef struct cli_imported {
+    int renamed, first;
+} cli_imported;
+/* Published .brdf shaders, count >= 1, of the same network. */
+int cli_import(char *const *paths, int count, hnbrdf_model **model, cli_imported *told);
+/* All shaders of a folder, or a model file made of them. */
+int cli_open_published(const char *path, hnbrdf_model **model);
 /* The same for a command that writes it to `output`, which may be `path`: asks, before any work,
  * whether that can be written. */
 int cli_open_model_to_change(const char *path, const char *output, hnbrdf_model **model);

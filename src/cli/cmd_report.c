@@ -29,11 +29,16 @@ static const cli_command command = {
     "Everything is written anew after each model: what an interrupted run has done stays, and "
     "--resume\n"
     "goes on with it. A model made with other settings is not reused.\n"
+    "With --paper it looks which of the paper's databases the data are: MERL by the checksums of "
+    "the\n"
+    "files, RGL and UTIA by their names. What the paper prints then stands beside ours, with what\n"
+    "differs; --published and --nbrdf add rows for networks that others have published.\n"
     "`mpirun -n N hnbrdf report accuracy ...` shares the models among N processes that see the "
     "same\n"
     "DIR; each reads all data.",
     "hnbrdf report accuracy builtin --quick -o quick\n"
     "hnbrdf report accuracy rgl/ --seconds 300 --sampler uniform -o rgl-report\n"
+    "hnbrdf report accuracy merl/ --paper --published brdf/ --steps 40000 -o paper\n"
     "hnbrdf report accuracy merl/ --seconds 600 --latents 4 --nets 16x2,32x2 --resume -o "
     "merl-report",
 };
@@ -63,16 +68,40 @@ static hnbrdf_result finished(const report *r, const report_entry *e)
 
 /* ---- Command --------------------------------------------------------------------------------- */
 
-static int run(report *r, char **arguments, int count)
+/* What --published and --nbrdf name. */
+typedef struct outside_paths {
+    const char *published, *nbrdf;
+} outside_paths;
+
+static int open_outside(report *r, const outside_paths *paths, cli_data *nbrdf)
 {
-    cli_data data = {0};
+    char *folder = (char *)paths->nbrdf;
+    int code = paths->published ? cli_open_published(paths->published, &r->published) : CLI_OK;
+    if (code == CLI_OK && folder)
+        code = cli_open_data(&folder, 1, nbrdf);
+    for (int k = 0; k < nbrdf->count && code == CLI_OK; k++)
+        if (hnbrdf_measured_format_of(nbrdf->items[k]) != HNBRDF_MEASURED_NBRDF)
+            code =
+                cli_fail("%s: %s is %s, expected networks of Neural-BRDF", folder,
+                         hnbrdf_measured_name(nbrdf->items[k]),
+                         hnbrdf_measured_format_name(hnbrdf_measured_format_of(nbrdf->items[k])));
+    r->nbrdf = (report_data){nbrdf->items, nbrdf->count};
+    return code;
+}
+
+static int run(report *r, char **arguments, int count, const outside_paths *paths)
+{
+    cli_data data = {0}, nbrdf = {0};
     cli_progress progress;
     hnbrdf_error error;
-    const int own = cli_open_data(arguments, count, &data);
+    int own = cli_open_data(arguments, count, &data);
+    if (own == CLI_OK)
+        own = open_outside(r, paths, &nbrdf);
     int code = cli_ranks_agree(own);
     if (code != CLI_OK) {
-        if (own == CLI_OK)
-            cli_close_data(&data);
+        cli_close_data(&data);
+        cli_close_data(&nbrdf);
+        hnbrdf_model_free(r->published);
         return code;
     }
     r->ranks = cli_ranks();
@@ -85,15 +114,21 @@ static int run(report *r, char **arguments, int count)
     if (result == HNBRDF_OK)
         result = report_make_entries(r);
     if (result == HNBRDF_OK)
+        result = report_measure_outside(r);
+    if (result == HNBRDF_OK)
         result = report_run(r, finished);
     hnbrdf_catch_interrupts(0);
     cli_progress_end(&progress);
     code = cli_code(result, &error);
+    if (code == CLI_OK && r->paper)
+        report_write_paper(r, stdout);
     if (code == CLI_OK)
         printf("\n%s/report.md: tables and plots; SMAPE, 0 is perfect, 2 the worst\n",
                r->directory);
     report_free_entries(r);
     cli_close_data(&data);
+    cli_close_data(&nbrdf);
+    hnbrdf_model_free(r->published);
     return code;
 }
 
@@ -103,7 +138,7 @@ static void fill_defaults(report *r, int quick, const char **nets, const char **
     if (!*nets)
         *nets = quick ? "16x2" : "16x2,16x3,32x2,32x3,64x2,64x3";
     if (!*latents)
-        *latents = quick ? "4" : "4,8";
+        *latents = quick || r->paper ? "4" : "4,8";
     if (!r->pairs)
         r->pairs = quick ? 5000 : 200000;
     if (!r->steps && r->budget == 0.0 && quick)
@@ -130,6 +165,7 @@ int cmd_report(int argc, char **argv)
     const char *nets = NULL, *latents = NULL, *models = "hybrid,paper,neural";
     cli_word sampler = {HNBRDF_SAMPLER_GRID, cli_sampler_word};
     cli_word analytic = {HNBRDF_FIT_FAITHFUL, cli_analytic_word};
+    outside_paths outside = {0};
     int quick = 0, count;
     const cli_option options[] = {
         {"output", 'o', CLI_WRITE_FOLDER, &r.directory, 0, 0, "DIR",
@@ -139,6 +175,12 @@ int cmd_report(int argc, char **argv)
          "latent sizes of the hybrids (default 4,8)"},
         {"models", 0, CLI_TEXT, &models, 0, 0, "LIST",
          "of hybrid, paper and neural (default all); GGX always"},
+        {"paper", 0, CLI_FLAG, &r.paper, 0, 0, NULL,
+         "our figures beside those that the paper prints of these data; latents 4"},
+        {"published", 0, CLI_TEXT, &outside.published, 0, 0, "DIR|MODEL",
+         "with --paper: the paper's own networks, a folder of .brdf or what `import` made of them"},
+        {"nbrdf", 0, CLI_TEXT, &outside.nbrdf, 0, 0, "DIR",
+         "with --paper: networks of Neural-BRDF for the same materials, by their names"},
         {"seconds", 0, CLI_REAL, &r.budget, 0.1, 1e6, "S",
          "train each network this long (default: by steps)"},
         {"steps", 0, CLI_INT, &r.steps, 1, 1e9, "N",
@@ -181,6 +223,9 @@ int cmd_report(int argc, char **argv)
         result = cli_usage(&command, "no folder given, expected -o DIR");
     if (result < 0 && r.steps && r.budget > 0.0)
         result = cli_usage(&command, "--steps and --seconds exclude each other");
+    if (result < 0 && !r.paper && (outside.published || outside.nbrdf))
+        result = cli_usage(&command, "--published and --nbrdf belong to --paper");
+    cli_read.merl_identify |= r.paper;
     fill_defaults(&r, quick, &nets, &latents);
     if (result < 0)
         result = report_read_nets(&command, nets, &r);
@@ -189,7 +234,7 @@ int cmd_report(int argc, char **argv)
     if (result < 0)
         result = report_read_models(&command, models, &r);
     if (result < 0)
-        result = run(&r, argv + 2, count - 1);
+        result = run(&r, argv + 2, count - 1, &outside);
     free(line);
     return result;
 }

@@ -5,6 +5,7 @@
 #include "base/error.h"
 
 #include <math.h>
+#include <string.h>
 
 enum { BLOCK = 256, DRAWS_PER_PAIR = 1000 };
 
@@ -41,31 +42,48 @@ static void draw_block(const hnbrdf_measured *measured, hnbrdf_sampler sampler, 
     block->count = n;
 }
 
-static void add_block(const hnbrdf_model *model, const hnbrdf_material *material,
-                      const pair_block *block, error_sums *sums)
+/* What is compared with the measurement: a material of a model, or another measurement. */
+typedef struct compared {
+    const hnbrdf_model *model;
+    const hnbrdf_material *material;
+    const hnbrdf_measured *approximation;
+} compared;
+
+/* f[n] and the analytic part of it, of the pairs of the block. */
+static void eval_block(const compared *c, const pair_block *block, float f[][3],
+                       float analytic[][3])
 {
-    float f[BLOCK][3];
-    hnbrdf_eval_batch(model, material, block->count, block->wi[0], 0, block->wo[0], 0, f[0], 0);
-    for (size_t n = 0; n < block->count; n++) {
-        float analytic[3];
-        hnbrdf_eval_analytic(model, material, block->wi[n], block->wo[n], analytic);
+    if (!c->approximation)
+        hnbrdf_eval_batch(c->model, c->material, block->count, block->wi[0], 0, block->wo[0], 0,
+                          f[0], 0);
+    for (size_t n = 0; n < block->count; n++)
+        if (c->approximation) {
+            hnbrdf_measured_eval(c->approximation, block->wi[n], block->wo[n], f[n]);
+            memcpy(analytic[n], f[n], sizeof analytic[n]);
+        } else {
+            hnbrdf_eval_analytic(c->model, c->material, block->wi[n], block->wo[n], analytic[n]);
+        }
+}
+
+static void add_block(const compared *c, const pair_block *block, error_sums *sums)
+{
+    float f[BLOCK][3], analytic[BLOCK][3];
+    eval_block(c, block, f, analytic);
+    for (size_t n = 0; n < block->count; n++)
         for (int channel = 0; channel < 3; channel++) {
             double reference = (double)block->reference[n][channel];
             double difference = (double)f[n][channel] - reference;
             sums->smape += hnbrdf_smape((double)f[n][channel], reference);
-            sums->smape_analytic += hnbrdf_smape((double)analytic[channel], reference);
+            sums->smape_analytic += hnbrdf_smape((double)analytic[n][channel], reference);
             sums->absolute += fabs(difference);
             sums->squared += difference * difference;
         }
-    }
 }
 
-hnbrdf_result hnbrdf_compare(const hnbrdf_model *model, const hnbrdf_material *material,
-                             const hnbrdf_measured *measured, hnbrdf_sampler sampler, size_t pairs,
-                             uint64_t seed, hnbrdf_comparison *comparison, hnbrdf_error *error)
+static hnbrdf_result compare(const compared *c, const hnbrdf_measured *measured,
+                             hnbrdf_sampler sampler, size_t pairs, uint64_t seed,
+                             hnbrdf_comparison *comparison, hnbrdf_error *error)
 {
-    if (!model || !material || !measured || !comparison)
-        return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT, "compare: an argument is NULL");
     if (!hnbrdf_sampler_name(sampler))
         return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT, "compare: no sampler has the number %d",
                            (int)sampler);
@@ -82,7 +100,7 @@ hnbrdf_result hnbrdf_compare(const hnbrdf_model *model, const hnbrdf_material *m
         pair_block block;
         draw_block(measured, sampler, pairs - used < BLOCK ? pairs - used : BLOCK, &rng, &draws,
                    &block);
-        add_block(model, material, &block, &sums);
+        add_block(c, &block, &sums);
         used += block.count;
     }
     if (used == 0)
@@ -97,4 +115,25 @@ hnbrdf_result hnbrdf_compare(const hnbrdf_model *model, const hnbrdf_material *m
     comparison->mse = sums.squared / values;
     comparison->pairs = used;
     return HNBRDF_OK;
+}
+
+hnbrdf_result hnbrdf_compare(const hnbrdf_model *model, const hnbrdf_material *material,
+                             const hnbrdf_measured *measured, hnbrdf_sampler sampler, size_t pairs,
+                             uint64_t seed, hnbrdf_comparison *comparison, hnbrdf_error *error)
+{
+    const compared c = {model, material, NULL};
+    if (!model || !material || !measured || !comparison)
+        return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT, "compare: an argument is NULL");
+    return compare(&c, measured, sampler, pairs, seed, comparison, error);
+}
+
+hnbrdf_result hnbrdf_compare_measured(const hnbrdf_measured *approximation,
+                                      const hnbrdf_measured *measured, hnbrdf_sampler sampler,
+                                      size_t pairs, uint64_t seed, hnbrdf_comparison *comparison,
+                                      hnbrdf_error *error)
+{
+    const compared c = {NULL, NULL, approximation};
+    if (!approximation || !measured || !comparison)
+        return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT, "compare: an argument is NULL");
+    return compare(&c, measured, sampler, pairs, seed, comparison, error);
 }

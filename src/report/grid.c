@@ -68,6 +68,8 @@ void report_free_entries(report *r)
     free(r->entries);
     free(r->ggx);
     free(r->search);
+    for (int k = 0; k < REPORT_OUTSIDES; k++)
+        free(r->outside[k].errors);
     hnbrdf_model_free(r->ggx_model);
     r->ggx_model = NULL;
 }

@@ -71,6 +71,17 @@ typedef struct report_data {
     int count;
 } report_data;
 
+/* Networks that were not fitted here. */
+enum { REPORT_PUBLISHED, REPORT_NBRDF, REPORT_OUTSIDES };
+/* Of an NBRDF network: 6 inputs, 21, 21, 3 outputs. */
+enum { REPORT_NBRDF_NUMBERS = 675 };
+
+typedef struct report_outside {
+    int has;                       /* how many materials of the data */
+    hnbrdf_comparison *errors;     /* [REPORT_SAMPLERS][materials]; 0 pairs: it lacks it */
+    double smape[REPORT_SAMPLERS]; /* mean over those that it has */
+} report_outside;
+
 typedef struct report {
     const char *directory;
     const char *command_line;
@@ -99,6 +110,10 @@ typedef struct report {
     const char *given; /* the file of the only model beside GGX alone; NULL: a grid */
     long rows;         /* materials whose spheres are shown */
     int resume;
+    int paper;               /* 1: our figures beside the paper's */
+    hnbrdf_model *published; /* the paper's networks, or NULL */
+    report_data nbrdf;       /* networks of Neural-BRDF */
+    report_outside outside[REPORT_OUTSIDES];
     const hnbrdf_communicator *ranks; /* processes that share the entries; NULL: this one alone */
 } report;
 
@@ -203,6 +218,20 @@ hnbrdf_result report_keep_figures(const report *r, const report_entry *e,
  * entry has them now. */
 int report_take_figures(const report *r, report_entry *e, const hnbrdf_model *model);
 
+/* ---- grid_outside.c: networks that were not fitted here ------------------------------------- */
+
+/* Measures those that are there. */
+hnbrdf_result report_measure_outside(report *r);
+/* SMAPE of GGX alone over the materials that it has; once the first entry is done. */
+double report_ggx_beside(const report *r, const report_outside *o, int sampler);
+
+/* ---- grid_paper.c: beside the paper ---------------------------------------------------------- */
+
+/* "Data: ...", what they are of the paper's databases. */
+void report_write_recognised(const report *r, FILE *file);
+/* Markdown, a section. */
+void report_write_paper(const report *r, FILE *file);
+
 /* ---- grid_judged.c: which materials were left to GGX alone, and which are worse than it ------ */
 
 void report_write_judged(const report *r, FILE *file);
@@ -232,12 +261,10 @@ void report_write_data(const report *r, FILE *file);
 
 /* ---- grid_image_tables.c ------------------------------------------------------------------- */
 
-/* What PSNR is measured of; the paper's second table; FLIP likewise; the paper's own figures of
- * PSNR. */
+/* What PSNR is measured of; the paper's second table; FLIP likewise. */
 void report_write_psnr_method(const report *r, FILE *file);
 void report_write_psnr_table(const report *r, FILE *file);
 void report_write_flip_table(const report *r, FILE *file);
-void report_write_papers_psnr(FILE *file);
 /* Everything of `report images` but the picture rows into the report's folder. */
 hnbrdf_result report_write_image_files(report *r);
 /* images.csv, a row a material and model; images.md. */

@@ -3,6 +3,7 @@
 #include "base/number.h"
 #include "base/write.h"
 #include "report/grid.h"
+#include "report/paper.h"
 
 #include <math.h>
 #include <string.h>
@@ -95,20 +96,6 @@ void report_write_flip_table(const report *r, FILE *file)
             }
         putc('\n', file);
     }
-}
-
-void report_write_papers_psnr(FILE *file)
-{
-    fputs(
-        "\nMean image PSNR as published (512 x 512, 1024 samples a pixel, the Uffizi probe):\n\n"
-        "| net | MERL hybrid l=4 | neural l=12 | RGL hybrid l=4 | neural l=12 | UTIA hybrid l=4 | "
-        "neural l=12 |\n"
-        "|---|---|---|---|---|---|---|\n"
-        "| GGX alone | 32.89 | | 33.51 | | 32.58 | |\n"
-        "| 16x3 | 39.37 | 35.75 | 35.54 | 34.78 | 38.17 | 36.43 |\n"
-        "| 32x3 | 40.50 | 38.79 | 37.54 | 36.06 | 38.90 | 38.35 |\n"
-        "| 64x3 | 41.19 | 40.71 | 39.18 | 39.43 | 39.62 | 39.12 |\n",
-        file);
 }
 
 /* ---- Model against model --------------------------------------------------------------------- */
@@ -225,7 +212,7 @@ void report_write_images_markdown(const report *r, FILE *file)
         "and UTIA "
         "databases). For orientation only.\n",
         file);
-    report_write_papers_psnr(file);
+    paper_write_psnr(file);
 }
 
 hnbrdf_result report_write_image_files(report *r)

@@ -2,6 +2,7 @@
  * tables. */
 #include "base/write.h"
 #include "report/grid.h"
+#include "report/paper.h"
 
 #include <string.h>
 
@@ -246,23 +247,9 @@ static void write_costs(const report *r, FILE *file)
 
 static void write_papers_figures(FILE *file)
 {
-    fputs(
-        "\n## The paper's own figures\n\n"
-        "Mean SMAPE as published (De Oliveira et al., EGSR 2026): other data (the MERL, RGL and "
-        "UTIA\n"
-        "databases), sampler unknown. For orientation only.\n\n"
-        "| net | MERL hybrid l=4 | neural l=12 | RGL hybrid l=4 | neural l=12 | UTIA hybrid l=4 | "
-        "neural l=12 |\n"
-        "|---|---|---|---|---|---|---|\n"
-        "| GGX alone | 0.36 | | 0.64 | | 0.19 | |\n"
-        "| 16x2 | 0.2815 | 0.6006 | 0.6184 | 0.7552 | 0.0958 | 0.1173 |\n"
-        "| 16x3 | 0.2389 | 0.3890 | 0.6095 | 0.6669 | 0.0913 | 0.1139 |\n"
-        "| 32x2 | 0.2470 | 0.3524 | 0.5899 | 0.6293 | 0.0778 | 0.1046 |\n"
-        "| 32x3 | 0.2003 | 0.2537 | 0.5687 | 0.6549 | 0.0677 | 0.0833 |\n"
-        "| 64x2 | 0.2174 | 0.2681 | 0.5925 | 0.5942 | 0.0634 | 0.0878 |\n"
-        "| 64x3 | 0.1800 | 0.2085 | 0.5100 | 0.5376 | 0.0483 | 0.0657 |\n",
-        file);
-    report_write_papers_psnr(file);
+    fputs("\n## The paper's own figures\n\n", file);
+    paper_write_smape(file);
+    paper_write_psnr(file);
 }
 
 /* ---- Markdown: the whole --------------------------------------------------------------------- */
@@ -315,6 +302,8 @@ void report_write_markdown(const report *r, FILE *file)
     static const int order[REPORT_SAMPLERS] = {HNBRDF_SAMPLER_GRID, HNBRDF_SAMPLER_UNIFORM,
                                                HNBRDF_SAMPLER_COSINE};
     write_method(r, file);
+    if (r->paper)
+        report_write_paper(r, file);
     for (int k = 0; k < REPORT_SAMPLERS; k++)
         write_errors(r, order[k], file);
     write_images(r, file);
