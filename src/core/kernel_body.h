@@ -3,13 +3,17 @@
  * The includer defines KERNEL_TABLE and KERNEL_VARIANT, the table to fill and what it is called;
  * KERNEL_WIDTH, the floats in a vector (1: plain loops, no compiler extension), KERNEL_ROWS x
  * KERNEL_WIDE vectors, the register tile of the network, and KERNEL_SINGLE, the floats in a
- * vector of the network of one evaluation. Everything but the network is loops over lanes of the
+ * vector of the network of one evaluation. Everything else in a batch is loops over lanes of the
  * same inline functions that define it, which compilers vectorise. */
 #include "core/kernel_network.h"
 #include "core/kernel_lanes.h"
 
 /* ---- One pair -------------------------------------------------------------------------------- */
 
+#if KERNEL_WIDTH > 1
+#include "core/kernel_vector.h"
+#include "core/kernel_single.h"
+#else
 /* The network first: its sums are one long wait, and f_a is worked out in its shadow. */
 static void kernel_single(const hnbrdf_prepared *prepared, const float wi[3], const float wo[3],
                           float f[3])
@@ -37,6 +41,7 @@ static void kernel_single(const hnbrdf_prepared *prepared, const float wi[3], co
             value[c] = hnbrdf_finish(f_a[c]);
     memcpy(f, value, 3 * sizeof *f);
 }
+#endif
 
 /* ---- Batches --------------------------------------------------------------------------------- */
 

@@ -151,46 +151,41 @@ static void kernel_fold(const hnbrdf_model *model, const float *latent, float *f
           first);
 }
 
-/* The network where every layer is `vectors` vectors wide, 0 for any width. Inlined where that is
- * known: the layers then follow each other without a call or a choice between them. */
+/* The network where every layer is `vectors` vectors wide and takes `hidden` inputs, 0 for any
+ * width. Inlined where that is known: the layers then follow each other without a call, a loop or a
+ * choice between them. */
 KERNEL_INLINE void network_of(const hnbrdf_prepared *prepared, const float *x, int vectors,
-                              float *out)
+                              int hidden, float *out)
 {
     const hnbrdf_model *model = prepared->model;
     const hnbrdf_model_desc *desc = &model->desc;
-    const int stride = hnbrdf_packed_outputs(desc, 0), hidden = desc->hidden, last = desc->layers;
+    const int depth = hidden ? hidden : desc->hidden, stride = hnbrdf_padded(depth),
+              last = desc->layers;
     float buffers[2][HNBRDF_MAX_HIDDEN];
     any_units(model->packed[0] + desc->latent * stride, stride, HNBRDF_ENCODING_SIZE, x,
-              prepared->first, hidden, 1, vectors, buffers[0]);
+              prepared->first, depth, 1, vectors, buffers[0]);
     for (int k = 1; k < last; k++)
-        any_units(model->packed[k], stride, hidden, buffers[(k - 1) & 1], model->packed_biases[k],
-                  hidden, 1, vectors, buffers[k & 1]);
-    any_units(model->packed[last], HNBRDF_PACK, hidden, buffers[(last - 1) & 1],
+        any_units(model->packed[k], stride, depth, buffers[(k - 1) & 1], model->packed_biases[k],
+                  depth, 1, vectors, buffers[k & 1]);
+    any_units(model->packed[last], HNBRDF_PACK, depth, buffers[(last - 1) & 1],
               model->packed_biases[last], HNBRDF_MAX_OUTPUTS, 0, OUTPUT_VECTORS, out);
 }
 
-/* A width that is rounded up stays within what the layers are padded to. */
-static void network_single(const hnbrdf_prepared *prepared, const float *x, float *out)
+KERNEL_APART void network_single(const hnbrdf_prepared *prepared, const float *x, float *out)
 {
 #if KERNEL_WIDTH > 1
-    switch ((prepared->model->desc.hidden + KERNEL_SINGLE - 1) / KERNEL_SINGLE) {
-    case 1:
-    case 2:
-        network_of(prepared, x, 2, out);
+    switch (prepared->model->desc.hidden) {
+    case 16:
+        network_of(prepared, x, 16 / KERNEL_SINGLE, 16, out);
         return;
-    case 3:
-    case 4:
-        network_of(prepared, x, 4, out);
-        return;
-    case 7:
-    case 8:
-        network_of(prepared, x, 8, out);
+    case 32:
+        network_of(prepared, x, 32 / KERNEL_SINGLE, 32, out);
         return;
     default:
         break;
     }
 #endif
-    network_of(prepared, x, 0, out);
+    network_of(prepared, x, 0, 0, out);
 }
 
 /* ---- The network of a block of evaluations, vectors over lanes ------------------------------- */

@@ -28,10 +28,16 @@ struct hnbrdf_model {
 int hnbrdf_layer_inputs(const hnbrdf_model_desc *desc, int layer);
 int hnbrdf_layer_outputs(const hnbrdf_model_desc *desc, int layer);
 
-/* The outputs rounded up to a multiple of HNBRDF_PACK. */
+/* Rounded up to a multiple of HNBRDF_PACK. */
+static inline int hnbrdf_padded(int outputs)
+{
+    return (outputs + HNBRDF_PACK - 1) & -HNBRDF_PACK;
+}
+
+/* The outputs of a packed layer. */
 static inline int hnbrdf_packed_outputs(const hnbrdf_model_desc *desc, int layer)
 {
-    return (hnbrdf_layer_outputs(desc, layer) + HNBRDF_PACK - 1) / HNBRDF_PACK * HNBRDF_PACK;
+    return hnbrdf_padded(hnbrdf_layer_outputs(desc, layer));
 }
 
 #endif
