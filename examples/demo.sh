@@ -46,7 +46,7 @@ run $hnbrdf render examples/models/rgl_32x2.safetensors --material vch_silk_blue
 
 say "Fitting: GGX alone, then a hybrid with one 32x2 network for all materials"
 run $hnbrdf fit "$@" --kind ggx -o $out/ggx.safetensors
-run $hnbrdf fit "$@" --net 32x2 --latent 4 --encoding half-difference --seconds "$seconds" -o $out/hybrid.safetensors
+run $hnbrdf fit "$@" --net 32x2 --latent 4 --seconds "$seconds" -o $out/hybrid.safetensors
 run $hnbrdf info $out/hybrid.safetensors
 
 say "Comparing both with the measurements"

@@ -58,7 +58,8 @@ endings=$("$hnbrdf" --help | sed -n '/^RGL /p' | grep -o '\.[a-z0-9]*[a-z0-9]' |
     echo "_hnbrdf_commands='$(echo "$commands" | tr '\n' ' ') --help --version'"
     echo "_hnbrdf_reports='$reports'"
     echo "_hnbrdf_data='$endings'"
-    echo "_hnbrdf_builtin='$("$hnbrdf" info builtin | sed -n 's/^\([a-z-]*\)  *builtin .*/\1/p' | tr '\n' ' ')'"
+    echo "_hnbrdf_builtin='anisotropic $({ "$hnbrdf" info builtin && "$hnbrdf" info builtin:anisotropic; } |
+        sed -n 's/^\([a-z-]*\)  *builtin .*/\1/p' | tr '\n' ' ')'"
     echo "# _hnbrdf_value COMMAND OPTION: sets kind, what the option takes, to words, files, data, folder or any."
     echo "# _hnbrdf_table COMMAND: sets options, and what its places take; the last may be repeated."
     for command in $commands; do

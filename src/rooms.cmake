@@ -36,9 +36,9 @@ hnbrdf_room(language
 hnbrdf_room(lobes
   fit_lobes.c)
 hnbrdf_room(measured
-  builtin.c builtin_film.c builtin_materials.c cie.c custom.c families.c formats.c measured.c merl.c
-  merl_known.c nbrdf.c nbrdf_npy.c pairs.c
-  read_file.c rgl.c rgl_eval.c sha256.c tensor_file.c utia.c)
+  builtin.c builtin_anisotropic.c builtin_film.c builtin_materials.c cie.c custom.c families.c
+  formats.c measured.c merl.c merl_known.c nbrdf.c nbrdf_npy.c pairs.c read_file.c rgl.c rgl_eval.c
+  sha256.c tensor_file.c utia.c)
 hnbrdf_room(hdf5
   image_driver.c nbrdf_hdf5.c)
 hnbrdf_room(metrics

@@ -79,6 +79,12 @@ run "$HNBRDF" info "builtin:x$first"
 expect_failure "a misspelt built-in name" "did you mean $first?"
 run "$HNBRDF" eval builtin
 expect_failure "eval builtin" "choose one"
+run "$HNBRDF" eval builtin:anisotropic
+expect_failure "eval builtin:anisotropic" "builtin:anisotropic holds 12 materials, choose one as in builtin:plain-weave-linen"
+run "$HNBRDF" info builtin:anisotropic
+[ "$rc" -eq 0 ] && [ "$(grep -c ' builtin  no  ' out)" -eq 12 ] || fail "info builtin:anisotropic: $(cat out)"
+run "$HNBRDF" info builtin:corduroy
+[ "$rc" -eq 0 ] || fail "a material of the second set"
 mkdir empty twice
 run "$HNBRDF" info empty
 expect_failure "an empty directory" "empty: the directory has no measured file: RGL .bsdf, MERL .binary, UTIA .bin or NBRDF .h5/.npy"

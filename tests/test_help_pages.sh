@@ -86,6 +86,8 @@ hnbrdf fit --kind= -> ggx hybrid neural
 hnbrdf fit --encoding angles- -> angles-anisotropic angles-directed
 hnbrdf fit _ -> UPPER.BSDF builtin rgl
 hnbrdf fit builtin:rough -> rough-clay
+hnbrdf fit builtin:cor -> corduroy
+hnbrdf fit builtin:an -> anisotropic anodised-titanium
 hnbrdf fit builtin:rough-clay --freeze _ -> model.safetensors rgl
 hnbrdf fit rgl -o _ -> model.safetensors rgl
 hnbrdf fit --steps _ ->

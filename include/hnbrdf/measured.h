@@ -159,9 +159,11 @@ hnbrdf_measured_format_of_file(const char *name, size_t *stem, int *part);
 /* ---- Built-in materials and your own --------------------------------------------------------- */
 
 /* The built-in procedural materials, index 0 to hnbrdf_measured_builtin_count() - 1: formulas
- * that hold what measurements contain and one GGX lobe cannot follow. NULL name when index is out
- * of range. */
+ * that hold what measurements contain and one GGX lobe cannot follow. A second set has the next
+ * hnbrdf_measured_builtin_anisotropic_count() indices: cloth, brushed and grooved metal, wood,
+ * hair, all anisotropic. NULL name when index is out of range. */
 HNBRDF_API int hnbrdf_measured_builtin_count(void);
+HNBRDF_API int hnbrdf_measured_builtin_anisotropic_count(void);
 HNBRDF_API const char *hnbrdf_measured_builtin_name(int index);
 HNBRDF_API hnbrdf_result hnbrdf_measured_open_builtin(int index, hnbrdf_measured **measured,
                                                       hnbrdf_error *error);

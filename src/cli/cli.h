@@ -121,13 +121,16 @@ cli_option cli_table_option(const cli_option *table);
 
 /* ---- Sources and data ------------------------------------------------------------------------ */
 
-/* DATA arguments: "builtin" (all built-in materials), "builtin:NAME", files, or directories (every
- * file in them with the ending of a measured format, in byte order of their names). */
+/* DATA arguments: "builtin" and "builtin:anisotropic" (the two sets of built-in materials),
+ * "builtin:NAME", files, or directories (every file in them with the ending of a measured format,
+ * in byte order of their names). */
 typedef struct cli_data {
     hnbrdf_measured **items;
     int count;
 } cli_data;
 
+/* Is it the word of a set of built-in materials? */
+int cli_is_builtin_set(const char *argument);
 /* Opens all; two materials of one name are an error. Returns 0, or CLI_FAILURE after a message. */
 int cli_open_data(char *const *arguments, int count, cli_data *data);
 /* The same of several processes: each opens its share, items of the others are NULL. An error of

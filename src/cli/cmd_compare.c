@@ -17,7 +17,7 @@ static const cli_command command = {
     "of\n"
     "the same names: SMAPE, 0 is perfect and 2 the worst, mean over N pairs of directions and "
     "RGB.\n"
-    "DATA is builtin, builtin:NAME, measured files or directories.\n"
+    "DATA is builtin, builtin:anisotropic, builtin:NAME, measured files or directories.\n"
     "\n"
     "Samplers: uniform (wi and wo uniform in solid angle), cosine, grid (theta_h = u^2 pi/2, "
     "theta_d "

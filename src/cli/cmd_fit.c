@@ -16,8 +16,8 @@ static const cli_command command = {
     "fit", "DATA... [options] -o MODEL.safetensors",
     "Fit one model to measured materials: GGX for each of them, then a small network and latent "
     "codes\n"
-    "that learn what GGX misses. DATA is `builtin`, builtin:NAME, measured files\n"
-    "or directories.\n"
+    "that learn what GGX misses. DATA is `builtin`, `builtin:anisotropic`, builtin:NAME,\n"
+    "measured files or directories.\n"
     "The result depends on the data, the options and the seed, not on the number of threads; a "
     "fit\n"
     "limited by --seconds prints the steps it made, to be repeated with --steps. Ctrl-C ends a "

@@ -40,8 +40,7 @@ static int is_data(gallery_command *c, const char *argument)
 {
     struct stat status;
     cli_source source;
-    if (strcmp(argument, "builtin") == 0 ||
-        (stat(argument, &status) == 0 && S_ISDIR(status.st_mode)))
+    if (cli_is_builtin_set(argument) || (stat(argument, &status) == 0 && S_ISDIR(status.st_mode)))
         return 1;
     if (cli_open_source(argument, &source) != CLI_OK)
         return -1;

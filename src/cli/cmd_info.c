@@ -11,9 +11,9 @@ static const cli_command command = {
     "info",
     "SOURCE [--without-physics] [--json]",
     "Tells what SOURCE holds: a model file, a measured file, builtin:NAME,\n"
-    " builtin, or a directory of measured files. The checksum of a single MERL file "
-    "is compared\n"
-    "with those of the 100 published ones.\n"
+    "builtin, builtin:anisotropic, or a directory of measured files. The checksum of a single "
+    "MERL file\n"
+    "is compared with those of the 100 published ones.\n"
     "\n"
     "Weights are the numbers shared by all materials, mults the multiplications of the network for "
     "one\n"
@@ -27,6 +27,7 @@ static const cli_command command = {
     "also\n"
     "published: the material's name, or null.",
     "hnbrdf info builtin\n"
+    "hnbrdf info builtin:anisotropic\n"
     "hnbrdf info model.safetensors\n"
     "hnbrdf info alum-bronze.binary\n"
     "hnbrdf info model.safetensors --without-physics --json",
@@ -37,7 +38,7 @@ static const cli_command command = {
 static int is_collection(const char *path)
 {
     struct stat status;
-    return strcmp(path, "builtin") == 0 || (stat(path, &status) == 0 && S_ISDIR(status.st_mode));
+    return cli_is_builtin_set(path) || (stat(path, &status) == 0 && S_ISDIR(status.st_mode));
 }
 
 static int tell_collection(char **argument, int json)

@@ -15,7 +15,7 @@ static const cli_command command = {
     "absolute error in radiance and its PSNR (peak: the reference's largest value) over the "
     "sphere's\n"
     "pixels; they are also printed. GGX alone is the analytic part of MODEL, or of --ggx MODEL2.\n"
-    "DATA is builtin, builtin:NAME, measured files or directories.",
+    "DATA is builtin, builtin:anisotropic, builtin:NAME, measured files or directories.",
     "hnbrdf sheet model.safetensors builtin -o sheet.png\n"
     "hnbrdf sheet rgl.safetensors measured/rgl --ggx rgl_ggx.safetensors --difference -o rgl.png\n"
     "hnbrdf sheet model.safetensors builtin --materials gold-two-lobe,retro-tape --size 256 -o "

@@ -30,7 +30,8 @@ static void print_overview(FILE *file)
     char files[256];
     cli_measured_files(files, sizeof files, " or ");
     fprintf(file,
-            "\nDATA is `builtin` (procedural materials), files or directories of them:\n%s.\n",
+            "\nDATA is `builtin` or `builtin:anisotropic` (procedural materials), builtin:NAME of "
+            "one,\nfiles or directories of them:\n%s.\n",
             files);
     fputs("A material is named after its file. `hnbrdf COMMAND --help` tells "
           "more.\n"

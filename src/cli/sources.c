@@ -68,14 +68,31 @@ static const char *builtin_name_in(const char *path)
     return strncmp(path, "builtin:", 8) == 0 ? path + 8 : NULL;
 }
 
+/* Those a word stands for: 1 and a range of numbers, or 0. */
+static int is_builtin_set(const char *argument, int *first, int *count)
+{
+    const int general = hnbrdf_measured_builtin_count();
+    const int second = strcmp(argument, "builtin:anisotropic") == 0;
+    *first = second ? general : 0;
+    *count = second ? hnbrdf_measured_builtin_anisotropic_count() : general;
+    return second || strcmp(argument, "builtin") == 0;
+}
+
+int cli_is_builtin_set(const char *argument)
+{
+    int first, count;
+    return is_builtin_set(argument, &first, &count);
+}
+
 /* Its number, or -1 after a message. */
 static int find_builtin(const char *name)
 {
     name_list list = {0};
+    const char *candidate;
     hnbrdf_guess guess;
     hnbrdf_guess_begin(&guess, name);
-    for (int k = 0; k < hnbrdf_measured_builtin_count(); k++) {
-        const char *candidate = hnbrdf_measured_builtin_name(k);
+    hnbrdf_guess_offer(&guess, "anisotropic");
+    for (int k = 0; (candidate = hnbrdf_measured_builtin_name(k)); k++) {
         if (strcmp(candidate, name) == 0)
             return k;
         list_name(&list, candidate);
@@ -107,8 +124,9 @@ static int is_directory(const char *path)
 static int fail_missing(const char *path)
 {
     int reason = errno;
-    for (int k = 0; k < hnbrdf_measured_builtin_count(); k++)
-        if (strcmp(hnbrdf_measured_builtin_name(k), path) == 0)
+    const char *name;
+    for (int k = 0; (name = hnbrdf_measured_builtin_name(k)); k++)
+        if (strcmp(name, path) == 0)
             return cli_fail("%s: %s; the built-in material of that name is builtin:%s", path,
                             strerror(reason), path);
     return cli_fail("%s: %s", path, strerror(reason));
@@ -306,15 +324,16 @@ static int add_directory(data_builder *builder, const char *path)
 static int add_argument(data_builder *builder, const char *argument)
 {
     const char *name = builtin_name_in(argument);
+    int first, count;
+    if (is_builtin_set(argument, &first, &count)) {
+        for (int k = first; k < first + count; k++)
+            if (add_builtin(builder, k) != CLI_OK)
+                return CLI_FAILURE;
+        return CLI_OK;
+    }
     if (name)
         return add_builtin(builder, find_builtin(name));
-    if (strcmp(argument, "builtin") != 0)
-        return is_directory(argument) ? add_directory(builder, argument)
-                                      : add_file(builder, argument);
-    for (int k = 0; k < hnbrdf_measured_builtin_count(); k++)
-        if (add_builtin(builder, k) != CLI_OK)
-            return CLI_FAILURE;
-    return CLI_OK;
+    return is_directory(argument) ? add_directory(builder, argument) : add_file(builder, argument);
 }
 
 static int open_data(data_builder builder, char *const *arguments, int count, cli_data *data)
@@ -372,10 +391,10 @@ int cli_open_source(const char *path, cli_source *source)
 {
     cli_source opened = {0};
     const char *builtin = builtin_name_in(path);
-    int result;
-    if (strcmp(path, "builtin") == 0)
-        return cli_fail("builtin holds %d materials, choose one as in builtin:%s",
-                        hnbrdf_measured_builtin_count(), hnbrdf_measured_builtin_name(0));
+    int result, first, count;
+    if (is_builtin_set(path, &first, &count))
+        return cli_fail("%s holds %d materials, choose one as in builtin:%s", path, count,
+                        hnbrdf_measured_builtin_name(first));
     if (builtin)
         result = open_builtin(find_builtin(builtin), &opened.measured);
     else if (is_directory(path))

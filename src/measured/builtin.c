@@ -1,5 +1,5 @@
 /* builtin.c: open a built-in procedural material. The materials themselves are in
- * builtin_materials.c. */
+ * builtin_materials.c and builtin_anisotropic.c. */
 #include "measured/builtin_terms.h"
 #include "measured/format.h"
 #include "base/error.h"
@@ -16,11 +16,25 @@ int hnbrdf_measured_builtin_count(void)
     return hnbrdf_builtin_material_count;
 }
 
+int hnbrdf_measured_builtin_anisotropic_count(void)
+{
+    return hnbrdf_builtin_anisotropic_count;
+}
+
+const builtin_material *hnbrdf_builtin_at(int index)
+{
+    int second = index - hnbrdf_builtin_material_count;
+    if (index >= 0 && second < 0)
+        return &hnbrdf_builtin_materials[index];
+    return second >= 0 && second < hnbrdf_builtin_anisotropic_count
+               ? &hnbrdf_builtin_anisotropic[second]
+               : NULL;
+}
+
 const char *hnbrdf_measured_builtin_name(int index)
 {
-    return index >= 0 && index < hnbrdf_builtin_material_count
-               ? hnbrdf_builtin_materials[index].name
-               : NULL;
+    const builtin_material *material = hnbrdf_builtin_at(index);
+    return material ? material->name : NULL;
 }
 
 static int builtin_eval(const void *data, const double wi[3], const double wo[3], double f[3])
@@ -35,7 +49,7 @@ static int builtin_eval(const void *data, const double wi[3], const double wo[3]
 
 hnbrdf_result hnbrdf_builtin_open(int index, measured_body *body, hnbrdf_error *error)
 {
-    const builtin_material *material = &hnbrdf_builtin_materials[index];
+    const builtin_material *material = hnbrdf_builtin_at(index);
     builtin *opened = calloc(1, sizeof *opened);
     if (!opened)
         return hnbrdf_fail(error, HNBRDF_ERROR_MEMORY, "%s: out of memory", material->name);

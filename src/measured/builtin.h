@@ -33,8 +33,11 @@ typedef struct builtin_material {
     void (*eval)(const pair *p, double f[3]);
 } builtin_material;
 
-extern const builtin_material hnbrdf_builtin_materials[];
-extern const int hnbrdf_builtin_material_count;
+extern const builtin_material hnbrdf_builtin_materials[], hnbrdf_builtin_anisotropic[];
+extern const int hnbrdf_builtin_material_count, hnbrdf_builtin_anisotropic_count;
+
+/* Of both sets, the anisotropic one behind the other; NULL when index is out of range. */
+const builtin_material *hnbrdf_builtin_at(int index);
 
 void hnbrdf_film_fill(film_table *table, const film_stack *film);
 void hnbrdf_film_reflectance(const film_table *table, double c, double rgb[3]);

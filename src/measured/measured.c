@@ -239,9 +239,10 @@ hnbrdf_result hnbrdf_measured_open_builtin(int index, hnbrdf_measured **measured
 {
     const char *name = hnbrdf_measured_builtin_name(index);
     if (!name || !measured)
-        return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT, "built-in material %d: expected 0 to %d%s",
-                           index, hnbrdf_measured_builtin_count() - 1,
-                           measured ? "" : " and a place for the result");
+        return hnbrdf_fail(
+            error, HNBRDF_ERROR_ARGUMENT, "built-in material %d: expected 0 to %d%s", index,
+            hnbrdf_measured_builtin_count() + hnbrdf_measured_builtin_anisotropic_count() - 1,
+            measured ? "" : " and a place for the result");
     hnbrdf_measured *opened = calloc(1, sizeof *opened);
     if (!opened)
         return hnbrdf_fail(error, HNBRDF_ERROR_MEMORY, "%s: out of memory", name);

@@ -116,11 +116,14 @@ static hnbrdf_result from_model(loader *l, const render_text_material *m, render
 
 static hnbrdf_result open_builtin(const loader *l, const char *name, hnbrdf_measured **measured)
 {
-    for (int i = 0; i < hnbrdf_measured_builtin_count(); i++)
-        if (strcmp(hnbrdf_measured_builtin_name(i), name) == 0)
+    const char *candidate;
+    for (int i = 0; (candidate = hnbrdf_measured_builtin_name(i)); i++)
+        if (strcmp(candidate, name) == 0)
             return hnbrdf_measured_open_builtin(i, measured, l->error);
     return hnbrdf_fail(l->error, HNBRDF_ERROR_ARGUMENT,
-                       "no built-in material '%s': `hnbrdf info builtin` lists them", name);
+                       "no built-in material '%s': `hnbrdf info builtin` and `hnbrdf info "
+                       "builtin:anisotropic` list them",
+                       name);
 }
 
 static hnbrdf_result load_material(loader *l, const render_text_material *m,

@@ -35,7 +35,8 @@ FUNCTIONS: dict[str, dict[str, tuple]] = {
     "hnbrdf_measured": {
         "measured_open": (_I, _S, _P, _P, _P),
         "measured_open_memory": (_I, _P, _Z, _S, _P, _P, _P),
-        "measured_builtin_count": (_I,), "measured_builtin_name": (_S, _I),
+        "measured_builtin_count": (_I,), "measured_builtin_anisotropic_count": (_I,),
+        "measured_builtin_name": (_S, _I),
         "measured_open_builtin": (_I, _I, _P, _P), "measured_create_custom": (_I, _P, _P, _P),
         "measured_close": (None, _P), "measured_name": (_S, _P), "measured_summary": (_S, _P),
         "measured_is_isotropic": (_I, _P), "measured_eval": (_I, _P, _P, _P, _P)},

@@ -57,7 +57,8 @@ class Measured:
     @staticmethod
     def builtin_names() -> list[str]:
         lib = part("hnbrdf_measured")
-        return [lib.measured_builtin_name(k).decode() for k in range(lib.measured_builtin_count())]
+        count = lib.measured_builtin_count() + lib.measured_builtin_anisotropic_count()
+        return [lib.measured_builtin_name(k).decode() for k in range(count)]
 
     @classmethod
     def custom(cls, name: str, function: Callable[[Sequence[float], Sequence[float]], Any],
