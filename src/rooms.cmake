@@ -37,7 +37,8 @@ hnbrdf_room(lobes
   fit_lobes.c)
 hnbrdf_room(measured
   builtin.c builtin_anisotropic.c builtin_film.c builtin_materials.c cie.c custom.c families.c
-  formats.c measured.c merl.c merl_known.c nbrdf.c nbrdf_npy.c pairs.c read_file.c rgl.c rgl_eval.c
+  formats.c measured.c merl.c merl_known.c nbrdf.c nbrdf_npy.c pairs.c procedural.c
+  procedural_draw.c procedural_measure.c procedural_open.c read_file.c rgl.c rgl_eval.c rgl_tables.c
   sha256.c tensor_file.c utia.c)
 hnbrdf_room(hdf5
   image_driver.c nbrdf_hdf5.c)

@@ -93,6 +93,19 @@ run_in "$pair" "$HNBRDF" eval lambert.binary --merl trilinear
 awk -F, 'NR == 2 { exit !($1 > 0.999999 && $1 < 1.000001 && $3 > 1.659999 && $3 < 1.660001) }' out ||
     fail "merl trilinear: $(tail -1 out)"
 
+# Procedural materials: so many, or one by its number.
+run "$HNBRDF" info procedural:3
+expect_ok "info of procedural materials"
+[ "$(grep -c '^procedural-[012] ' out)" -eq 3 ] || fail "three procedural materials: $(cat out)"
+run "$HNBRDF" info builtin:procedural-17
+grep -q "random terms" out || fail "info of one procedural material: $(cat out)"
+for wrong in 0 x -1 1000000 3x ''; do
+    run "$HNBRDF" info "procedural:$wrong"
+    expect_failure "procedural:$wrong" "procedural:$wrong: expected a number of materials, 1 to 999999"
+done
+run "$HNBRDF" info builtin:procedural-x
+expect_failure "procedural-x" "no material 'procedural-x' in builtin"
+
 # What is not the default is told beside every error and fit.
 run "$HNBRDF" fit lambert.binary --kind ggx --merl trilinear --merl-node edge --utia raw -o lambert.safetensors
 expect_ok "fit with reading options"

@@ -168,6 +168,17 @@ HNBRDF_API const char *hnbrdf_measured_builtin_name(int index);
 HNBRDF_API hnbrdf_result hnbrdf_measured_open_builtin(int index, hnbrdf_measured **measured,
                                                       hnbrdf_error *error);
 
+/* Procedural materials without end, number 0 to HNBRDF_MAX_PROCEDURAL: random mixtures of lobes,
+ * interference films, flakes, coats, fibres and diffuse parts, three of four as RGL's goniometer
+ * would measure them, interpolation and all. They are what a network that shall describe unknown
+ * materials is trained on besides measurements. The same on every machine, but for the last bits of
+ * its mathematical functions. Opening computes tables: some milliseconds, and 1.2 MB. The name is
+ * "procedural-" and the number. Isotropic. */
+#define HNBRDF_MAX_PROCEDURAL 999999
+HNBRDF_EXPERIMENTAL hnbrdf_result hnbrdf_measured_open_procedural(int number,
+                                                                  hnbrdf_measured **measured,
+                                                                  hnbrdf_error *error);
+
 /* A BRDF of your own, to be fitted and compared like a measurement: a formula, another renderer's
  * table, a larger model that a smaller one shall learn from. */
 typedef struct hnbrdf_measured_custom {

@@ -122,19 +122,19 @@ cli_option cli_table_option(const cli_option *table);
 /* ---- Sources and data ------------------------------------------------------------------------ */
 
 /* DATA arguments: "builtin" and "builtin:anisotropic" (the two sets of built-in materials),
- * "builtin:NAME", files, or directories (every file in them with the ending of a measured format,
- * in byte order of their names). */
+ * "builtin:NAME", "procedural:N" (the first N procedural materials), files, or directories (every
+ * file in them with the ending of a measured format, in byte order of their names). */
 typedef struct cli_data {
     hnbrdf_measured **items;
     int count;
 } cli_data;
 
-/* Is it the word of a set of built-in materials? */
-int cli_is_builtin_set(const char *argument);
 /* Opens all; two materials of one name are an error. Returns 0, or CLI_FAILURE after a message. */
 int cli_open_data(char *const *arguments, int count, cli_data *data);
-/* The same of several processes: each opens its share, items of the others are NULL. An error of
- * one is one of all. */
+/* Does the argument stand for any number of materials? */
+int cli_is_collection(const char *argument);
+/* The same as cli_open_data() of several processes: each opens its share, items of the others are
+ * NULL. An error of one is one of all. */
 int cli_open_data_of_ranks(char *const *arguments, int count, cli_data *data);
 void cli_close_data(cli_data *data);
 

@@ -17,7 +17,8 @@ static const cli_command command = {
     "Fit one model to measured materials: GGX for each of them, then a small network and latent "
     "codes\n"
     "that learn what GGX misses. DATA is `builtin`, `builtin:anisotropic`, builtin:NAME,\n"
-    "measured files or directories.\n"
+    "measured files or directories; procedural:N stands for N random materials from formulas, of\n"
+    "which a network for materials that it has not seen learns what there may be.\n"
     "The result depends on the data, the options and the seed, not on the number of threads; a "
     "fit\n"
     "limited by --seconds prints the steps it made, to be repeated with --steps. Ctrl-C ends a "
@@ -35,6 +36,7 @@ static const cli_command command = {
     "  hnbrdf fit rgl/ --net 32x2 --latent 4 --seconds 120 -o rgl.safetensors\n"
     "  hnbrdf fit rgl/ --kind ggx -o ggx.safetensors\n"
     "  hnbrdf fit new.bsdf --freeze rgl.safetensors -o more.safetensors\n"
+    "  hnbrdf fit rgl/ procedural:200 --net 64x2 --latent 16 -o many.safetensors\n"
     "  hnbrdf fit merl/ --encoding directions --floor 0 -o paper.safetensors\n"};
 
 #define FEW_VALID 0.1 /* share; measurements are above half */

@@ -5,7 +5,6 @@
 
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 static const cli_command command = {
     "gallery",
@@ -38,9 +37,8 @@ typedef struct gallery_command {
 /* 1 if this argument is DATA, 0 if it is a model file, -1 after a message. */
 static int is_data(gallery_command *c, const char *argument)
 {
-    struct stat status;
     cli_source source;
-    if (cli_is_builtin_set(argument) || (stat(argument, &status) == 0 && S_ISDIR(status.st_mode)))
+    if (cli_is_collection(argument))
         return 1;
     if (cli_open_source(argument, &source) != CLI_OK)
         return -1;

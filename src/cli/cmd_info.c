@@ -4,8 +4,6 @@
 #include "report/info_physics.h"
 
 #include <stdlib.h>
-#include <string.h>
-#include <sys/stat.h>
 
 static const cli_command command = {
     "info",
@@ -34,12 +32,6 @@ static const cli_command command = {
 };
 
 /* ---- Command --------------------------------------------------------------------------------- */
-
-static int is_collection(const char *path)
-{
-    struct stat status;
-    return cli_is_builtin_set(path) || (stat(path, &status) == 0 && S_ISDIR(status.st_mode));
-}
 
 static int tell_collection(char **argument, int json)
 {
@@ -114,6 +106,6 @@ int cmd_info(int argc, char **argv)
     if (count != 1)
         return cli_usage(&command, "%s",
                          count ? "more than one SOURCE" : "no SOURCE to tell about");
-    return is_collection(argv[1]) ? tell_collection(argv + 1, json)
-                                  : tell_source(argv[1], without_physics, json);
+    return cli_is_collection(argv[1]) ? tell_collection(argv + 1, json)
+                                      : tell_source(argv[1], without_physics, json);
 }

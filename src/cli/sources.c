@@ -78,10 +78,22 @@ static int is_builtin_set(const char *argument, int *first, int *count)
     return second || strcmp(argument, "builtin") == 0;
 }
 
-int cli_is_builtin_set(const char *argument)
+/* The number of "procedural-17"; -1: another name. */
+static int procedural_number(const char *name)
 {
-    int first, count;
-    return is_builtin_set(argument, &first, &count);
+    char *end;
+    if (strncmp(name, "procedural-", 11) != 0 || name[11] < '0' || name[11] > '9')
+        return -1;
+    const long number = strtol(name + 11, &end, 10);
+    return *end || number > HNBRDF_MAX_PROCEDURAL ? -1 : (int)number;
+}
+
+static int open_procedural(int number, hnbrdf_measured **measured)
+{
+    hnbrdf_error error;
+    if (hnbrdf_measured_open_procedural(number, measured, &error) != HNBRDF_OK)
+        return cli_fail("%s", error.text);
+    return CLI_OK;
 }
 
 /* Its number, or -1 after a message. */
@@ -262,6 +274,32 @@ static int add_builtin(data_builder *builder, int index)
     return add_material(builder, measured, origin);
 }
 
+static int add_procedural(data_builder *builder, int number)
+{
+    char origin[40];
+    hnbrdf_measured *measured = NULL;
+    if (is_elsewhere(builder))
+        return leave_out(builder);
+    if (open_procedural(number, &measured) != CLI_OK)
+        return CLI_FAILURE;
+    snprintf(origin, sizeof origin, "builtin:procedural-%d", number);
+    return add_material(builder, measured, origin);
+}
+
+/* The first `count` of them. */
+static int add_procedurals(data_builder *builder, const char *count)
+{
+    char *end;
+    const long wanted = strtol(count, &end, 10);
+    if (*count < '0' || *count > '9' || *end || wanted < 1 || wanted > HNBRDF_MAX_PROCEDURAL)
+        return cli_fail("procedural:%s: expected a number of materials, 1 to %d", count,
+                        HNBRDF_MAX_PROCEDURAL);
+    for (int k = 0; k < (int)wanted; k++)
+        if (add_procedural(builder, k) != CLI_OK)
+            return CLI_FAILURE;
+    return CLI_OK;
+}
+
 static int is_measured_name(const struct dirent *entry)
 {
     return hnbrdf_measured_format_of_file(entry->d_name, NULL, NULL) != NULL;
@@ -321,6 +359,17 @@ static int add_directory(data_builder *builder, const char *path)
     return result;
 }
 
+static const char *procedural_count(const char *argument)
+{
+    return strncmp(argument, "procedural:", 11) == 0 ? argument + 11 : NULL;
+}
+
+int cli_is_collection(const char *argument)
+{
+    int first, count;
+    return is_builtin_set(argument, &first, &count) || procedural_count(argument) || is_directory(argument);
+}
+
 static int add_argument(data_builder *builder, const char *argument)
 {
     const char *name = builtin_name_in(argument);
@@ -331,8 +380,12 @@ static int add_argument(data_builder *builder, const char *argument)
                 return CLI_FAILURE;
         return CLI_OK;
     }
+    if (name && procedural_number(name) >= 0)
+        return add_procedural(builder, procedural_number(name));
     if (name)
         return add_builtin(builder, find_builtin(name));
+    if (procedural_count(argument))
+        return add_procedurals(builder, procedural_count(argument));
     return is_directory(argument) ? add_directory(builder, argument) : add_file(builder, argument);
 }
 
@@ -395,8 +448,12 @@ int cli_open_source(const char *path, cli_source *source)
     if (is_builtin_set(path, &first, &count))
         return cli_fail("%s holds %d materials, choose one as in builtin:%s", path, count,
                         hnbrdf_measured_builtin_name(first));
-    if (builtin)
+    if (builtin && procedural_number(builtin) >= 0)
+        result = open_procedural(procedural_number(builtin), &opened.measured);
+    else if (builtin)
         result = open_builtin(find_builtin(builtin), &opened.measured);
+    else if (procedural_count(path))
+        return cli_fail("%s: materials, choose one as in builtin:procedural-0", path);
     else if (is_directory(path))
         return cli_fail("%s: a directory, expected one model or measured file", path);
     else if (cli_looks_like_model(path) || hnbrdf_ends_with(path, ".safetensors"))

@@ -59,5 +59,6 @@ hnbrdf_result hnbrdf_custom_open(const hnbrdf_measured_custom *custom, measured_
 
 /* index is in range. */
 hnbrdf_result hnbrdf_builtin_open(int index, measured_body *body, hnbrdf_error *error);
+hnbrdf_result hnbrdf_procedural_open(int number, measured_body *body, hnbrdf_error *error);
 
 #endif

@@ -234,6 +234,25 @@ hnbrdf_result hnbrdf_measured_open_memory(const void *data, size_t size, const c
     return open_file(&file, path, &settled, measured, error);
 }
 
+typedef hnbrdf_result open_numbered(int number, measured_body *body, hnbrdf_error *error);
+
+static hnbrdf_result open_formula(open_numbered *open, int number, const char *name,
+                                  hnbrdf_measured **measured, hnbrdf_error *error)
+{
+    hnbrdf_measured *opened = calloc(1, sizeof *opened);
+    if (!opened)
+        return hnbrdf_fail(error, HNBRDF_ERROR_MEMORY, "%s: out of memory", name);
+    opened->format = HNBRDF_MEASURED_BUILTIN;
+    hnbrdf_result result = open(number, &opened->body, error);
+    if (result) {
+        free(opened);
+        return result;
+    }
+    copy_clean(opened->name, sizeof opened->name, name, strlen(name));
+    *measured = opened;
+    return HNBRDF_OK;
+}
+
 hnbrdf_result hnbrdf_measured_open_builtin(int index, hnbrdf_measured **measured,
                                            hnbrdf_error *error)
 {
@@ -243,18 +262,19 @@ hnbrdf_result hnbrdf_measured_open_builtin(int index, hnbrdf_measured **measured
             error, HNBRDF_ERROR_ARGUMENT, "built-in material %d: expected 0 to %d%s", index,
             hnbrdf_measured_builtin_count() + hnbrdf_measured_builtin_anisotropic_count() - 1,
             measured ? "" : " and a place for the result");
-    hnbrdf_measured *opened = calloc(1, sizeof *opened);
-    if (!opened)
-        return hnbrdf_fail(error, HNBRDF_ERROR_MEMORY, "%s: out of memory", name);
-    opened->format = HNBRDF_MEASURED_BUILTIN;
-    hnbrdf_result result = hnbrdf_builtin_open(index, &opened->body, error);
-    if (result) {
-        free(opened);
-        return result;
-    }
-    copy_clean(opened->name, sizeof opened->name, name, strlen(name));
-    *measured = opened;
-    return HNBRDF_OK;
+    return open_formula(hnbrdf_builtin_open, index, name, measured, error);
+}
+
+hnbrdf_result hnbrdf_measured_open_procedural(int number, hnbrdf_measured **measured,
+                                              hnbrdf_error *error)
+{
+    char name[32];
+    if (number < 0 || number > HNBRDF_MAX_PROCEDURAL || !measured)
+        return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT,
+                           "procedural material %d: expected 0 to %d%s", number,
+                           HNBRDF_MAX_PROCEDURAL, measured ? "" : " and a place for the result");
+    snprintf(name, sizeof name, "procedural-%d", number);
+    return open_formula(hnbrdf_procedural_open, number, name, measured, error);
 }
 
 hnbrdf_result hnbrdf_measured_create_custom(const hnbrdf_measured_custom *custom,

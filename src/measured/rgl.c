@@ -234,46 +234,16 @@ static hnbrdf_result read_directions(const reader *r, const rgl_fields *fields, 
     return HNBRDF_OK;
 }
 
-/* One slice of the density by the trapezoid rule, summed in double; returns its integral. */
-static double sum_slice(const tensor *field, size_t slice, size_t width, size_t height,
-                        double *cells, double *rows)
+static hnbrdf_result fill_warp(const reader *r, const tensor *field, rgl *material, float *density)
 {
-    double total = 0.0, previous = 0.0;
-    for (size_t y = 0; y < height; y++) {
-        size_t first = (slice * height + y) * width;
-        double along = 0.0;
-        cells[y * width] = 0.0;
-        for (size_t x = 1; x < width; x++) {
-            along +=
-                ((double)element(field, first + x - 1) + (double)element(field, first + x)) / 2;
-            cells[y * width + x] = along;
-        }
-        if (y > 0)
-            total += (previous + along) / 2;
-        rows[y] = total;
-        previous = along;
-    }
-    return total;
-}
-
-static hnbrdf_result fill_warp(const reader *r, const tensor *field, rgl *material, double *cells,
-                               double *rows)
-{
-    size_t width = material->warp_width, height = material->warp_height;
+    const size_t size = material->warp_width * material->warp_height;
     for (size_t slice = 0; slice < material->phi_count * material->theta_count; slice++) {
-        double total = sum_slice(field, slice, width, height, cells, rows);
-        if (!(total > 0.0))
+        for (size_t i = 0; i < size; i++)
+            density[i] = element(field, slice * size + i);
+        if (!hnbrdf_rgl_warp(material, slice, density))
             return hnbrdf_fail(r->error, HNBRDF_ERROR_FORMAT,
                                "%s: field \"%s\" is 0 all over slice %zu, expected a density",
                                r->label, field->shown, slice);
-        rgl_node *nodes = material->nodes + slice * height * width;
-        for (size_t i = 0; i < height * width; i++)
-            nodes[i] =
-                (rgl_node){(float)((double)element(field, slice * height * width + i) / total),
-                           (float)(cells[i] / total)};
-        for (size_t y = 0; y < height; y++)
-            material->rows[slice * height + y] =
-                (rgl_row){(float)(cells[y * width + width - 1] / total), (float)(rows[y] / total)};
     }
     return HNBRDF_OK;
 }
@@ -285,12 +255,11 @@ static hnbrdf_result build_warp(const reader *r, const tensor *field, rgl *mater
     material->warp_height = height;
     material->nodes = malloc(field->count * sizeof *material->nodes);
     material->rows = malloc(field->count / width * sizeof *material->rows);
-    double *cells = malloc(width * height * sizeof *cells), *rows = malloc(height * sizeof *rows);
-    hnbrdf_result result = material->nodes && material->rows && cells && rows
-                               ? fill_warp(r, field, material, cells, rows)
+    float *density = malloc(width * height * sizeof *density);
+    hnbrdf_result result = material->nodes && material->rows && density
+                               ? fill_warp(r, field, material, density)
                                : out_of_memory(r, field);
-    free(cells);
-    free(rows);
+    free(density);
     return result;
 }
 
@@ -408,23 +377,6 @@ static hnbrdf_result build(const reader *r, rgl *material, size_t *negative)
     return result;
 }
 
-static void release(void *data)
-{
-    rgl *material = data;
-    if (!material)
-        return;
-    free(material->phi);
-    free(material->theta);
-    free(material->ndf.values);
-    free(material->sigma.values);
-    free(material->nodes);
-    free(material->rows);
-    free(material->rgb);
-    free(material->wavelengths);
-    free(material->spectra);
-    free(material);
-}
-
 /* For people; what is no wavelength at all is cut. */
 static int nearest_nm(float nm)
 {
@@ -470,11 +422,11 @@ static hnbrdf_result rgl_open(const measured_file *source, const hnbrdf_measured
     result = material ? build(&r, material, &negative)
                       : hnbrdf_fail(error, HNBRDF_ERROR_MEMORY, "%s: out of memory", label);
     if (result) {
-        release(material);
+        hnbrdf_rgl_release(material);
     } else {
         body->data = material;
         body->eval = hnbrdf_rgl_eval;
-        body->release = release;
+        body->release = hnbrdf_rgl_release;
         body->isotropic = !material->needs_phi_i;
         body->is_signed = options->rgl_signed;
         if (material->spectra) {

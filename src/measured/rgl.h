@@ -42,6 +42,12 @@ typedef struct rgl {
     float *spectra;     /* [slice][y][x][wavelength], signed; NULL if not kept */
 } rgl;
 
+/* Fills the warp of one slice from its density, [y][x], not normalised; nodes and rows have their
+ * memory. 0 where the density is 0 all over. */
+int hnbrdf_rgl_warp(rgl *material, size_t slice, const float *density);
+/* As measured_body.release. */
+void hnbrdf_rgl_release(void *data);
+
 /* As measured_body.eval: f per channel, signed. 0 where the normal is invisible from wi. */
 int hnbrdf_rgl_eval(const void *data, const double wi[3], const double wo[3], double f[3]);
 /* As measured_body.eval_spectrum; the spectra must have been kept. */
