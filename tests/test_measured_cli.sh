@@ -114,4 +114,16 @@ run "$HNBRDF" compare lambert.safetensors lambert.binary --pairs 1000 --merl tri
 grep -q "read with --merl trilinear --merl-node centre$" out || fail "compare does not tell how data are read"
 run "$HNBRDF" compare lambert.safetensors lambert.binary --pairs 1000
 grep -q "read with" out && fail "compare tells of defaults"
+
+# What a network knows of materials that it has not seen, in small.
+mkdir held
+cp lambert_rgb.bsdf held/one.bsdf
+cp lambert_rgb.bsdf held/two.bsdf
+cp lambert.binary held/three.binary
+ROTATIONS=1 STEPS=20 COUNTS="0 2" NET=16x2 LATENT=2 PAIRS=500 SIZE=32 HNBRDF=$HNBRDF WORK=work \
+    sh "$(dirname "$0")/../examples/holdout.sh" held > out 2> err || fail "holdout.sh: $(cat err)"
+for row in '| 0 | ' '| 2 | ' '| one | '; do
+    grep -q "^$row" out || fail "holdout.sh: no row $row: $(cat out)"
+done
+[ -e work/0/seen/two.bsdf ] && [ ! -e work/0/seen/one.bsdf ] || fail "holdout.sh trains on what it leaves out"
 finish

@@ -367,7 +367,8 @@ static const char *procedural_count(const char *argument)
 int cli_is_collection(const char *argument)
 {
     int first, count;
-    return is_builtin_set(argument, &first, &count) || procedural_count(argument) || is_directory(argument);
+    return is_builtin_set(argument, &first, &count) || procedural_count(argument) ||
+           is_directory(argument);
 }
 
 static int add_argument(data_builder *builder, const char *argument)
