@@ -114,7 +114,7 @@ if command -v python3 >/dev/null; then
     python3 -c 'import json, sys; json.load(open(sys.argv[1]))' b.json 2>err || fail "JSON"
     python3 -c 'import sys, xml.dom.minidom as m; m.parse(sys.argv[1])' b.svg 2>err || fail "the plot is not XML"
 fi
-# Two panels for c-batch, c-single-prepared and each device; in each of them a mark for each model, and one for the
+# Two panels for c-batch, c-single-prepared, each device, and bytes; in each of them a mark for each model, and one for the
 # peer, whose error and time are known; and the legend's. What is left of GGX's time on a device without that of its
 # reading and writing may be noise, and negative: that has no mark.
 devices=$(cut -d, -f5 b.csv | grep vulkan | sort -u | wc -l)
@@ -126,10 +126,38 @@ awk -F, 'NR == 1 { for (k = 1; k <= NF; k++) at[$k] = k; next }
              if ($(at["smape"]) != "") { seen[$5, $1, peer, "smape"] = 1; kinds[kind] = 1 }
              if ($(at["psnr"]) != "") { seen[$5, $1, peer, "psnr"] = 1; kinds[kind] = 1 }
          }
-         END { for (k in seen) n++; for (k in kinds) n++; print n }' b.csv >marks
-[ "$(cat marks)" -ge 14 ] || fail "marks of the processor" # three models in four panels, two kinds
+         NR > 1 { bytes[$1, 1] = bytes[$1, 2] = 1 } # the panels against bytes
+         END { for (k in seen) n++; for (k in bytes) n++; for (k in kinds) n++; print n }' b.csv >marks
+[ "$(cat marks)" -ge 20 ] || fail "marks of the processor" # three models in six panels, two kinds
 [ "$(grep -c "class='mark'" b.svg)" -eq "$(cat marks)" ] || fail "marks in the plot, expected $(cat marks)"
-[ "$(grep -c '<polyline' b.svg)" -eq "$((2 * backends))" ] || fail "Pareto fronts in the plot"
+[ "$(grep -c '<polyline' b.svg)" -eq "$((2 * backends + 2))" ] || fail "Pareto fronts in the plot"
+
+# ---- what one would pick instead ------------------------------------------------------------------
+run "$HNBRDF" bench ours.safetensors --quick --baselines
+expect_usage "--baselines without data" "needs --data"
+run "$HNBRDF" bench ours.safetensors --quick --nbrdf x --data "$data"
+expect_usage "--nbrdf alone" "needs --baselines"
+one=builtin:gold-two-lobe
+run "$HNBRDF" bench ours.safetensors --data $one --quick --baselines --device none --csv b.csv --plot b.svg
+[ "$rc" -eq 0 ] || fail "bench --baselines: exit $rc"
+for model in measurement table-90x90x180 ggx-two-lobes; do
+    [ "$(grep -c "^$model,none,none,0,c-single-prepared," b.csv)" -eq 1 ] || fail "no row of $model"
+done
+rows "baselines: a value, a direction, a density take time" \
+    'get("backend") == "c-single-prepared" && !(get("ns_per_eval") > 0 && get("sample_ns") > 0 && get("density_ns") > 0 &&
+                                               get("ratio_to_ggx") > 0) { print }'
+# The measurement has no error, the table little, and two lobes follow a material of two lobes.
+rows "baselines: errors" \
+    'get("model") == "ggx" { ggx = get("smape") }
+     get("model") == "measurement" && get("smape") != 0 { print }
+     get("model") == "table-90x90x180" && !(get("smape") > 0 && get("smape") < 0.05) { print }
+     get("model") == "ggx-two-lobes" && !(get("smape") < 0.6 * ggx) { print }'
+rows "baselines: bytes" \
+    'get("model") == "ggx-two-lobes" && get("scene_bytes") != 44 { print }
+     get("model") == "table-90x90x180" && get("scene_bytes") != 17496000 { print }
+     get("model") == "ours" && get("scene_bytes") != get("bytes") + 4 * (9 + get("latent")) { print }
+     get("model") == "ggx" && get("scene_bytes") != 36 { print }'
+grep -q 'measurement (exact)' b.svg || fail "the plot has no measurement"
 
 # ---- without a model --------------------------------------------------------------------------------
 run "$HNBRDF" bench --quick --nets 4x1,8x1 --data "$data" --device none --csv -

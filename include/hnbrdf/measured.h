@@ -215,6 +215,10 @@ HNBRDF_API const char *hnbrdf_measured_summary(const hnbrdf_measured *measured);
  * ("alum-bronze"); NULL if it is none of the 100, or was opened without merl_identify. */
 HNBRDF_API const char *hnbrdf_measured_published(const hnbrdf_measured *measured);
 
+/* The bytes that a program with this material has to store: of its file, or of an NBRDF network's
+ * numbers in single precision. 0 of built-in materials and of your own. */
+HNBRDF_EXPERIMENTAL size_t hnbrdf_measured_bytes(const hnbrdf_measured *measured);
+
 /* f(wi, wo). Returns 1 if this is a valid measurement; 0 with f = 0 if it is not: below the
  * horizon, a bin that was never measured, a half vector that an RGL file calls invisible,
  * directions that are not finite. Fits and error metrics skip those. Colours outside the gamut

@@ -25,6 +25,15 @@ hnbrdf_result bench_show(const bench_watch *watch, const char *what, double shar
 
 enum { BENCH_NAME = 96, BENCH_MODELS = 32, BENCH_ROWS = 512, BENCH_DEVICES = 8 };
 
+/* What one would pick instead of a model of this library. */
+typedef enum bench_baseline {
+    BENCH_MEASUREMENT = 0, /* by its reader */
+    BENCH_TABLE,           /* of 90 x 90 x 180 values, trilinear, made of the measurement */
+    BENCH_TWO_LOBES,       /* Lambert and two GGX lobes, fitted here */
+    BENCH_NBRDF,           /* a network for each material (Sztrajman et al. 2021), where given */
+    BENCH_BASELINES
+} bench_baseline;
+
 typedef struct bench_model {
     char name[BENCH_NAME]; /* of the file, without folder and extension; or KIND-HxN */
     hnbrdf_model *model;
@@ -32,6 +41,7 @@ typedef struct bench_model {
     const hnbrdf_material *material; /* the one that is evaluated */
     double smape, psnr;              /* means over the materials that have data; NaN: unknown */
     double half_smape;               /* of the network in half precision; NaN without Vulkan */
+    int is_baseline;                 /* 1: one of bench.baselines, `model` is NULL */
     /* of bench_peer_model(); NaN unless the encoding is `directions` */
     double peer_smape, peer_psnr;
 } bench_model;
@@ -43,6 +53,7 @@ typedef struct bench_row {
     hnbrdf_encoding encoding;
     int threads;                 /* 0: unknown, on real GPUs */
     hnbrdf_probe whole, network; /* network: the same with nothing but the network */
+    hnbrdf_probe draw, density;  /* a direction with its density; a density; of single calls */
     const hnbrdf_probe *io;      /* of the row's buffers; NULL: it has none */
     double compile_ms, first_ms; /* NaN on the CPU */
     size_t bytes;
@@ -62,6 +73,9 @@ typedef struct bench {
     int model_count;
     bench_row *rows; /* [BENCH_ROWS] */
     int row_count;
+    bench_model baselines[BENCH_BASELINES];      /* those without a name are not wanted */
+    hnbrdf_measured *const *data, *const *nbrdf; /* borrowed */
+    int data_count, nbrdf_count;
     hnbrdf_probe io[BENCH_DEVICES];
     int io_count;
     bench_peak peaks[BENCH_PEAKS];
@@ -91,6 +105,18 @@ hnbrdf_result bench_fit_model(bench *b, hnbrdf_measured *const *data, int count,
 /* GGX alone in its place: the analytic part of the first model that has one, else of default
  * materials. The last of these calls. */
 hnbrdf_result bench_add_ggx(bench *b, hnbrdf_error *error);
+
+/* ---- baselines.c ----------------------------------------------------------------------------- */
+
+/* Wants them all, those of NBRDF networks where there are any. Networks go with the measurements
+ * of their names; all of these are borrowed until the bench is freed. */
+void bench_add_baselines(bench *b, hnbrdf_measured *const *data, int count,
+                         hnbrdf_measured *const *nbrdf, int nbrdf_count);
+/* "measurement", "table-90x90x180", "ggx-two-lobes", "nbrdf" */
+const char *bench_baseline_name(bench_baseline baseline);
+/* What all materials of the data take together: the network, and what each of them has, in single
+ * precision. NaN without data. */
+double bench_scene_bytes(const bench *b, const bench_model *model);
 
 /* ---- rows.c ---------------------------------------------------------------------------------- */
 

@@ -1,7 +1,7 @@
 /* measure.c: makes all rows and times them, with the peaks of this machine along the way. */
 #include "base/clock.h"
 #include "base/error.h"
-#include "bench/bench.h"
+#include "bench/baselines.h"
 #include "bench/peak.h"
 
 #include <stdlib.h>
@@ -41,7 +41,7 @@ static void choose_peaks(bench *b)
 
 static hnbrdf_result time_rows(bench *b, double sample_ns, hnbrdf_error *error)
 {
-    hnbrdf_probe **probes = calloc(2 * BENCH_ROWS + BENCH_DEVICES, sizeof *probes);
+    hnbrdf_probe **probes = calloc(4 * BENCH_ROWS + BENCH_DEVICES, sizeof *probes);
     int count = 0;
     if (!probes)
         return hnbrdf_fail(error, HNBRDF_ERROR_MEMORY, "out of memory");
@@ -50,8 +50,10 @@ static hnbrdf_result time_rows(bench *b, double sample_ns, hnbrdf_error *error)
         probes[count++] = &b->io[k];
     for (int k = 0; k < b->row_count; k++) {
         probes[count++] = &b->rows[k].whole;
-        if (b->rows[k].network.run)
-            probes[count++] = &b->rows[k].network;
+        hnbrdf_probe *const others[] = {&b->rows[k].network, &b->rows[k].draw, &b->rows[k].density};
+        for (int i = 0; i < 3; i++)
+            if (others[i]->run)
+                probes[count++] = others[i];
     }
     timing t = {.b = b, .peak_seconds = -2.0, .error = error};
     const hnbrdf_timing how = {
@@ -66,15 +68,19 @@ hnbrdf_result bench_measure(bench *b, const bench_gpu_options *options, double s
 {
     bench_cpu *cpu = NULL;
     bench_gpu *gpu = NULL;
+    bench_baseline_rows *baselines = NULL;
     b->rows = calloc(BENCH_ROWS, sizeof *b->rows);
     if (!b->rows)
         return hnbrdf_fail(error, HNBRDF_ERROR_MEMORY, "out of memory");
     hnbrdf_result result = bench_cpu_open(b, &cpu, error);
     if (!result)
+        result = bench_baseline_rows_open(b, &baselines, error);
+    if (!result)
         result = bench_gpu_open(b, options, &gpu, error);
     if (!result)
         result = time_rows(b, sample_ns, error);
     bench_gpu_close(gpu);
+    bench_baseline_rows_close(baselines);
     bench_cpu_close(cpu);
     return result;
 }

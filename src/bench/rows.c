@@ -20,6 +20,8 @@ hnbrdf_result bench_add_row(bench *b, const bench_model *model, const char *back
                        .encoding = model->desc.encoding,
                        .whole = {.ns = (double)NAN},
                        .network = {.ns = (double)NAN},
+                       .draw = {.ns = (double)NAN},
+                       .density = {.ns = (double)NAN},
                        .compile_ms = (double)NAN,
                        .first_ms = (double)NAN,
                        .smape = model->smape,
@@ -30,7 +32,7 @@ hnbrdf_result bench_add_row(bench *b, const bench_model *model, const char *back
 
 const char *bench_net(const bench_model *model, char text[16])
 {
-    if (model->desc.kind == HNBRDF_KIND_GGX)
+    if (model->desc.kind == HNBRDF_KIND_GGX || model->is_baseline)
         snprintf(text, 16, "none");
     else
         snprintf(text, 16, "%dx%d", model->desc.hidden, model->desc.layers);
@@ -51,7 +53,7 @@ const bench_row *bench_ggx(const bench *b, const bench_row *row)
 {
     for (int k = 0; k < b->row_count; k++)
         if (b->rows[k].model == &b->models[0] && strcmp(b->rows[k].backend, row->backend) == 0 &&
-            strcmp(b->rows[k].variant, row->variant) == 0)
+            (row->model->is_baseline || strcmp(b->rows[k].variant, row->variant) == 0))
             return &b->rows[k];
     return NULL;
 }
@@ -59,6 +61,8 @@ const bench_row *bench_ggx(const bench *b, const bench_row *row)
 double bench_peak_fraction(const bench *b, const bench_row *row, double ns, int fused)
 {
     const hnbrdf_model_desc *desc = &row->model->desc;
+    if (row->model->is_baseline)
+        return (double)NAN;
     double operations = 2.0 * (double)hnbrdf_model_multiplications(row->model->model);
     if (!row->io) /* on the CPU the latent code is folded into the first bias */
         operations -= 2.0 * desc->hidden * desc->latent;

@@ -24,7 +24,7 @@ typedef struct cpu_work {
 } cpu_work;
 
 struct bench_cpu {
-    float wi[PAIRS][3], wo[PAIRS][3], f[PAIRS][3];
+    float wi[PAIRS][3], wo[PAIRS][3], f[PAIRS][3], u[PAIRS][2], pdf[PAIRS];
     float inputs[BLOCKS][HNBRDF_ENCODING_SIZE][HNBRDF_LANES],
         outputs[HNBRDF_MAX_OUTPUTS][HNBRDF_LANES];
     cpu_work *works; /* all that were made */
@@ -51,6 +51,28 @@ static double run_prepared(void *context, long repeats)
     for (long n = 0; n < repeats; n++)
         for (int k = 0; k < PAIRS; k++)
             hnbrdf_prepared_eval(&w->prepared, cpu->wi[k], cpu->wo[k], cpu->f[k]);
+    return 1e9 * (hnbrdf_thread_seconds() - started);
+}
+
+static double run_draw(void *context, long repeats)
+{
+    cpu_work *w = context;
+    struct bench_cpu *cpu = w->cpu;
+    double started = hnbrdf_thread_seconds();
+    for (long n = 0; n < repeats; n++)
+        for (int k = 0; k < PAIRS; k++)
+            cpu->pdf[k] = hnbrdf_prepared_draw(&w->prepared, cpu->wo[k], cpu->u[k], cpu->f[k]);
+    return 1e9 * (hnbrdf_thread_seconds() - started);
+}
+
+static double run_density(void *context, long repeats)
+{
+    cpu_work *w = context;
+    struct bench_cpu *cpu = w->cpu;
+    double started = hnbrdf_thread_seconds();
+    for (long n = 0; n < repeats; n++)
+        for (int k = 0; k < PAIRS; k++)
+            cpu->pdf[k] = hnbrdf_prepared_pdf(&w->prepared, cpu->wi[k], cpu->wo[k]);
     return 1e9 * (hnbrdf_thread_seconds() - started);
 }
 
@@ -96,6 +118,8 @@ static void fill(struct bench_cpu *cpu)
     hnbrdf_rng_seed(&rng, 1, 0);
     for (int k = 0; k < PAIRS; k++) {
         hnbrdf_sampler_draw(HNBRDF_SAMPLER_UNIFORM, &rng, cpu->wi[k], cpu->wo[k]);
+        cpu->u[k][0] = hnbrdf_rng_float(&rng);
+        cpu->u[k][1] = hnbrdf_rng_float(&rng);
         for (int i = 0; i < HNBRDF_ENCODING_SIZE; i++)
             cpu->inputs[k / HNBRDF_LANES][i][k % HNBRDF_LANES] =
                 2.0f * hnbrdf_rng_float(&rng) - 1.0f;
@@ -150,6 +174,10 @@ static hnbrdf_result add_row(bench *b, const bench_model *model, cpu_work *work,
     row->whole = hnbrdf_probe_make(whole, work, PAIRS);
     if (with_network && model->desc.kind != HNBRDF_KIND_GGX)
         row->network = hnbrdf_probe_make(run_network, work, PAIRS);
+    if (whole == run_prepared) {
+        row->draw = hnbrdf_probe_make(run_draw, work, PAIRS);
+        row->density = hnbrdf_probe_make(run_density, work, PAIRS);
+    }
     return HNBRDF_OK;
 }
 

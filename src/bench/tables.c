@@ -10,7 +10,7 @@ static const char columns[] = "model,net,encoding,latent,backend,variant,weights
                               "eval,evals_per_s,peak_fraction,"
                               "ratio_to_ggx,compile_ms,bytes,mults,smape,psnr,io_ns,net_ns,net_"
                               "peak_fraction,first_dispatch_ms,"
-                              "threads,net_muladd_fraction";
+                              "threads,net_muladd_fraction,sample_ns,density_ns,scene_bytes";
 
 /* ---- What follows from a row ----------------------------------------------------------------- */
 
@@ -37,7 +37,14 @@ static figures figures_of(const bench *b, const bench_row *row)
 
 static const char *encoding_of(const bench_row *row)
 {
-    return row->model->desc.kind == HNBRDF_KIND_GGX ? "none" : hnbrdf_encoding_name(row->encoding);
+    return row->model->desc.kind == HNBRDF_KIND_GGX || row->model->is_baseline
+               ? "none"
+               : hnbrdf_encoding_name(row->encoding);
+}
+
+static size_t multiplications(const bench_row *row)
+{
+    return row->model->is_baseline ? 0 : hnbrdf_model_multiplications(row->model->model);
 }
 
 /* ---- For people ------------------------------------------------------------------------------ */
@@ -115,6 +122,31 @@ static void print_ratios(const bench *b, const bench_row *row, FILE *file)
     fprintf(file, "\n");
 }
 
+/* What a renderer needs, and what all materials take. */
+static void print_uses(const bench *b, int name, FILE *file)
+{
+    fprintf(file,
+            "\none at a time, ns: a value, a direction with its density, a density%s\n%-*s  %8s  "
+            "%8s  %8s",
+            b->data_count ? "; bytes of all materials" : "", name, "", "value", "sample",
+            "density");
+    fprintf(file, b->data_count ? "  %10s  %6s\n" : "\n", "bytes", "SMAPE");
+    for (int k = 0; k < b->row_count; k++) {
+        const bench_row *row = &b->rows[k];
+        if (strcmp(row->backend, "c-single-prepared") != 0)
+            continue;
+        fprintf(file, "%-*s", name, row->model->name);
+        print_number(file, 8, 1, bench_ns(row));
+        print_number(file, 8, 1, row->draw.ns);
+        print_number(file, 8, 1, row->density.ns);
+        if (b->data_count) {
+            print_number(file, 10, 0, bench_scene_bytes(b, row->model));
+            print_number(file, 6, 4, row->smape);
+        }
+        fprintf(file, "\n");
+    }
+}
+
 void bench_print(const void *of, FILE *file)
 {
     const bench *b = of;
@@ -134,6 +166,7 @@ void bench_print(const void *of, FILE *file)
             "bytes", "SMAPE", "PSNR");
     for (int k = 0; k < b->row_count; k++)
         print_row(b, &b->rows[k], name, backend, file);
+    print_uses(b, name, file);
     fprintf(file, "\nratios:\n");
     for (int k = 0; k < b->row_count; k++)
         print_ratios(b, &b->rows[k], file);
@@ -161,13 +194,16 @@ static void write_csv_row(const bench *b, const bench_row *row, FILE *file)
     const double before[] = {f.ns, f.per_second, f.peak_fraction, f.ratio, row->compile_ms};
     for (int k = 0; k < 5; k++)
         write_csv_number(file, before[k]);
-    fprintf(file, ",%zu,%zu", row->bytes, hnbrdf_model_multiplications(row->model->model));
+    fprintf(file, ",%zu,%zu", row->bytes, multiplications(row));
     const double after[] = {row->smape,   row->psnr, f.io_ns, f.network_ns, f.network_peak_fraction,
                             row->first_ms};
     for (int k = 0; k < 6; k++)
         write_csv_number(file, after[k]);
     write_csv_number(file, row->threads ? row->threads : (double)NAN);
-    write_csv_number(file, f.network_muladd_fraction);
+    const double last[] = {f.network_muladd_fraction, row->draw.ns, row->density.ns,
+                           bench_scene_bytes(b, row->model)};
+    for (int k = 0; k < 4; k++)
+        write_csv_number(file, last[k]);
     putc('\n', file);
 }
 
@@ -200,7 +236,8 @@ static void write_json_row(const bench *b, const bench_row *row, FILE *file)
     figures f = figures_of(b, row);
     fputs("    {", file);
     write_json_text(file, "model", row->model->name);
-    write_json_text(file, "kind", hnbrdf_kind_name(row->model->desc.kind));
+    write_json_text(file, "kind",
+                    row->model->is_baseline ? "baseline" : hnbrdf_kind_name(row->model->desc.kind));
     write_json_text(file, "net", bench_net(row->model, net));
     write_json_text(file, "encoding", encoding_of(row));
     write_json_number(file, "latent", row->model->desc.latent);
@@ -221,8 +258,10 @@ static void write_json_row(const bench *b, const bench_row *row, FILE *file)
     write_json_number(file, "net_muladd_fraction", f.network_muladd_fraction);
     write_json_number(file, "first_dispatch_ms", row->first_ms);
     write_json_number(file, "threads", row->threads ? row->threads : (double)NAN);
-    fprintf(file, "\"bytes\": %zu, \"mults\": %zu}", row->bytes,
-            hnbrdf_model_multiplications(row->model->model));
+    write_json_number(file, "sample_ns", row->draw.ns);
+    write_json_number(file, "density_ns", row->density.ns);
+    write_json_number(file, "scene_bytes", bench_scene_bytes(b, row->model));
+    fprintf(file, "\"bytes\": %zu, \"mults\": %zu}", row->bytes, multiplications(row));
 }
 
 void bench_write_json(const void *of, FILE *file)

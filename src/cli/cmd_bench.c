@@ -27,6 +27,11 @@ static const cli_command command = {
     "same network with the directions as inputs, mat4 chains with literals of three decimals,\n"
     "microfacet formulas with full fractions and pow, as published viewer shaders have them;\n"
     "made by this command).\n\n"
+    "Baselines (--baselines): measurement (by its reader), table-90x90x180 (of MERL's shape,\n"
+    "trilinear, made of the measurement with the mean of both orders of the directions),\n"
+    "ggx-two-lobes (Lambert and two GGX lobes, fitted to the measurement), nbrdf (--nbrdf, a\n"
+    "network a material). Directions are drawn, and densities taken, by a table of 5.6 MB a\n"
+    "material for the first two (Lawrence et al. 2004), by both lobes, and by GGX alone.\n\n"
     "CSV: ns_per_eval is without buffers; peak_fraction: multiplications and additions of the\n"
     "network in that time (on the CPU without the latent code's, which is folded into the\n"
     "first bias), of the FMA peak measured in the same run with the row's instructions and\n"
@@ -35,7 +40,9 @@ static const cli_command command = {
     "it, and of the uniform block; mults: of the network, an evaluation; smape, psnr: means\n"
     "over the materials that DATA has, blank without; io_ns: of the buffers; net_ns and\n"
     "net_peak_fraction: of the network alone; first_dispatch_ms: pipeline and first run;\n"
-    "threads; net_muladd_fraction: of the peak without fusing.",
+    "threads; net_muladd_fraction: of the peak without fusing; sample_ns, density_ns: one\n"
+    "direction with its density, one density; scene_bytes: of all materials of DATA, the\n"
+    "network, kd, eta, alpha, rotation and latent codes in single precision.",
     "hnbrdf bench --quick\n"
     "hnbrdf bench model.safetensors\n"
     "hnbrdf bench a.safetensors b.safetensors --data rgl/ --csv b.csv --plot b.svg\n"
@@ -43,10 +50,10 @@ static const cli_command command = {
 };
 
 typedef struct settings {
-    const char *data, *nets, *device, *csv, *json, *plot;
+    const char *data, *nets, *device, *csv, *json, *plot, *nbrdf;
     double seconds;
     long steps, pool;
-    int quick, without_peer, scaling;
+    int quick, without_peer, scaling, baselines;
     double sample_ms;
     bench_gpu_options gpu;
 } settings;
@@ -154,7 +161,7 @@ static int write_results(const bench *b, const settings *set)
 
 static int run(bench *b, const settings *set, char **paths, int count)
 {
-    cli_data data = {NULL, 0};
+    cli_data data = {NULL, 0}, nbrdf = {NULL, 0};
     hnbrdf_error error;
     int code =
         set->data || count == 0 ? open_data(set->data ? set->data : "builtin", &data) : CLI_OK;
@@ -162,6 +169,10 @@ static int run(bench *b, const settings *set, char **paths, int count)
         code = load_model(b, paths[k]);
     if (code == CLI_OK && count == 0)
         code = fit_models(b, &data, set);
+    if (code == CLI_OK && set->nbrdf)
+        code = open_data(set->nbrdf, &nbrdf);
+    if (code == CLI_OK && set->baselines)
+        bench_add_baselines(b, data.items, data.count, nbrdf.items, nbrdf.count);
     if (code == CLI_OK)
         code = ended(b, bench_add_ggx(b, &error), &error);
     if (code == CLI_OK && data.count > 0)
@@ -174,6 +185,7 @@ static int run(bench *b, const settings *set, char **paths, int count)
         code = write_results(b, set);
     bench_free(b);
     cli_close_data(&data);
+    cli_close_data(&nbrdf);
     return code;
 }
 
@@ -238,6 +250,10 @@ int cmd_bench(int argc, char **argv)
          "how often every row is sampled, 20 ms each (default 12)"},
         {"without-peer", 0, CLI_FLAG, &set.without_peer, 0, 0, NULL,
          "leave out the rows in the published style"},
+        {"baselines", 0, CLI_FLAG, &set.baselines, 0, 0, NULL,
+         "rows of what one would pick instead too; needs --data"},
+        {"nbrdf", 0, CLI_TEXT, &set.nbrdf, 0, 0, "DATA",
+         "with --baselines: NBRDF networks (.h5, .npy), by the names of the measurements"},
         {"scaling", 0, CLI_FLAG, &set.scaling, 0, 0, NULL,
          "instead: what a fit by 10, 100 and 1000 processes would exchange, on paper, as CSV"},
         {"quick", 0, CLI_FLAG, &set.quick, 0, 0, NULL,
@@ -250,7 +266,11 @@ int cmd_bench(int argc, char **argv)
     b->sampler = (hnbrdf_sampler)sampler.value;
     if (code < 0) {
         setenv("MESA_SHADER_CACHE_DISABLE", "true", 0); /* the first dispatch is timed */
-        code = set.scaling ? print_scaling(&set) : run(b, &set, argv + 1, count);
+        if ((set.nbrdf && !set.baselines) || (set.baselines && count > 0 && !set.data))
+            code = cli_usage(&command,
+                             set.nbrdf ? "--nbrdf needs --baselines" : "--baselines needs --data");
+        else
+            code = set.scaling ? print_scaling(&set) : run(b, &set, argv + 1, count);
     }
     free(line);
     free(b);

@@ -16,6 +16,7 @@ typedef struct measured_body {
     int isotropic;
     int is_signed;         /* negative values are kept: the caller clamps to +-HNBRDF_MAX_VALUE */
     const char *published; /* as hnbrdf_measured_published(); constant text or NULL */
+    size_t bytes;          /* as hnbrdf_measured_bytes(); 0: the size of the file */
     char summary[256];
     /* Only of spectral data, else 0 and NULL: f at `count` wavelengths; likewise. */
     size_t wavelength_count;

@@ -153,6 +153,7 @@ static hnbrdf_result open_file(const measured_file *file, const char *path,
         return result;
     }
     make_name(opened->name, path);
+    opened->body.bytes = opened->body.bytes ? opened->body.bytes : file->size;
     *measured = opened;
     return HNBRDF_OK;
 }
@@ -340,6 +341,11 @@ const char *hnbrdf_measured_summary(const hnbrdf_measured *measured)
 const char *hnbrdf_measured_published(const hnbrdf_measured *measured)
 {
     return measured->body.published;
+}
+
+size_t hnbrdf_measured_bytes(const hnbrdf_measured *measured)
+{
+    return measured->body.bytes;
 }
 
 size_t hnbrdf_measured_wavelengths(const hnbrdf_measured *measured, const float **nm)

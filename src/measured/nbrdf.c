@@ -213,6 +213,9 @@ hnbrdf_result hnbrdf_nbrdf_open_arrays(const nbrdf_arrays *arrays, const char *c
     body->eval = nbrdf_eval;
     body->release = free;
     body->isotropic = 1;
+    for (int k = 0; k < NBRDF_ARRAYS; k++)
+        body->bytes += sizeof(float) * arrays->array[k].shape[0] *
+                       (arrays->array[k].axes == 2 ? arrays->array[k].shape[1] : 1);
     snprintf(body->summary, sizeof body->summary,
              "NBRDF network 6-%zu-%zu-3 from %s, rectified units, exp(x) - 1, not exactly "
              "reciprocal",
