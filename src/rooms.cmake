@@ -89,8 +89,9 @@ hnbrdf_room(report
   sampling_measure.c sampling_strips.c sampling_write.c scene_compare.c sheet.c
   spheres.c stability_plot.c stability_report.c still.c texels.c verify_report.c)
 hnbrdf_room(bench
-  baselines.c measure.c models.c peak.c peer.c plot.c quality.c rows.c rows_baselines.c rows_cpu.c
-  rows_gpu.c scaling.c speed.c tables.c two_lobes.c watch.c)
+  baselines.c growth.c growth_cpu.c growth_files.c growth_fit.c growth_gpu.c measure.c models.c
+  peak.c peer.c plot.c quality.c rows.c rows_baselines.c rows_cpu.c rows_gpu.c scaling.c speed.c
+  tables.c two_lobes.c watch.c)
 hnbrdf_room(cli
   cli.c cmd_bake.c cmd_bench.c cmd_compare.c cmd_edit.c cmd_eval.c cmd_export.c
   cmd_fit.c cmd_gallery.c cmd_import.c cmd_info.c cmd_lobes.c cmd_mix.c cmd_render.c

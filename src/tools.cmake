@@ -93,6 +93,7 @@ endif()
 add_executable(hnbrdf_cli ${HNBRDF_ROOM_cli})
 set_target_properties(hnbrdf_cli PROPERTIES OUTPUT_NAME hnbrdf
   RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR})
+target_link_libraries(hnbrdf_bench PUBLIC hnbrdf_report)
 target_link_libraries(hnbrdf_cli PRIVATE hnbrdf_flags hnbrdf_report hnbrdf_bench hnbrdf_base)
 target_link_options(hnbrdf_cli PRIVATE ${HNBRDF_LINK_FLAGS})
 target_compile_definitions(hnbrdf_cli PRIVATE _POSIX_C_SOURCE=200809L)

@@ -28,6 +28,15 @@ expect_ok "bench --scaling"
 awk -F, '/^8x2,/ { if ($4 > $3 || $5 * $4 < $2) exit 1; if ($3 > 1 && $8 <= 0) exit 1 }' out ||
     fail "bench --scaling: ranks that work, and pairs of them"
 
+# ---- how costs grow
+run "$HNBRDF" bench --growth --quick --device none --csv growth.csv
+[ "$rc" -eq 0 ] || fail "bench --growth: exit $rc"
+grep -q '^look-up by name, ns ' out || fail "bench --growth: the table"
+head -n 1 growth.csv | grep -q '^cost,unit,against,size,value,arithmetic,exponent,arithmetic_exponent,last_' ||
+    fail "bench --growth: the columns"
+awk -F'"' 'NR > 1 { sub(/"[^"]*"/, "x") } { n = split($0, f, ","); if (n != 10) exit 1 }' growth.csv ||
+    fail "bench --growth: fields"
+
 # ---- a model of ours and one with the published encoding ---------------------------------------------
 materials="builtin:glossy-plastic-green builtin:gold-two-lobe"
 data=$(echo $materials | tr ' ' ,)

@@ -309,6 +309,81 @@ static void a_failing_write_is_reported_wherever_it_happens(void **state)
     hnbrdf_model_free(model);
 }
 
+/* ---- The material of an index ---------------------------------------------------------------- */
+
+static const char *next_line(const char *line)
+{
+    const char *end = strchr(line, '\n');
+    return end ? end + 1 : NULL;
+}
+
+/* The line behind this `if` and what it holds. */
+static const char *skip_if(const char *line)
+{
+    const char *end = strchr(line, '\n');
+    int depth = end[-1] == '{';
+    if (!depth)
+        return next_line(end + 1);
+    for (line = end + 1; depth > 0; line = next_line(line)) {
+        end = strchr(line, '\n');
+        depth += (end[-1] == '{') - (end[-1] == '}');
+    }
+    return line;
+}
+
+/* kd.r of the material that the function's text returns for this index. */
+static double returned(const char *body, int index)
+{
+    int place = index;
+    const char *line = strstr(body, "{\n") + 2;
+    while (line) {
+        int number;
+        double kd;
+        const char *text = line + strspn(line, " ");
+        if (sscanf(text, "int material_place = material_index < 0 ? %d", &number) == 1)
+            place = index < 0 ? number : index;
+        if (sscanf(text, "return hnbrdf_material(vec3(%lf", &kd) == 1)
+            return kd;
+        line = sscanf(text, "if (material_place < %d", &number) == 1 && place >= number
+                   ? skip_if(line)
+                   : next_line(line);
+    }
+    fail_msg("no material for %d", index);
+    return 0.0;
+}
+
+static void every_index_has_its_material(void **state)
+{
+    enum { MOST = 64 };
+    hnbrdf_material materials[MOST];
+    char texts[MOST][8];
+    const char *names[MOST];
+    (void)state;
+    for (int k = 0; k < MOST; k++) {
+        hnbrdf_material_init(&materials[k]);
+        materials[k].kd[0] = (float)(k + 1) / 128.0f;
+        snprintf(texts[k], sizeof texts[k], "m%d", k);
+        names[k] = texts[k];
+    }
+    for (int count = 1; count <= MOST; count += count < 9 ? 1 : 11) {
+        hnbrdf_model *model;
+        const hnbrdf_model_desc desc = {.kind = HNBRDF_KIND_GGX,
+                                        .material_count = count,
+                                        .materials = materials,
+                                        .names = names};
+        assert_int_equal(hnbrdf_model_create(&desc, NULL, &model, NULL), HNBRDF_OK);
+        char *text = scene_text(model, 0);
+        char *body = body_of(text, "hnbrdf_material hnbrdf_scene_material(int");
+        for (int index = -2; index < count + 2; index++) {
+            const int stands_for = index < 0 || index >= count ? count - 1 : index;
+            assert_true(returned(body, index) == (stands_for + 1) / 128.0);
+        }
+        free(body);
+        free(text);
+        hnbrdf_model_free(model);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -322,6 +397,7 @@ int main(void)
         cmocka_unit_test(bad_indices_are_refused_before_anything_is_written),
         cmocka_unit_test(languages_have_names_and_what_is_none_is_refused),
         cmocka_unit_test(a_failing_write_is_reported_wherever_it_happens),
+        cmocka_unit_test(every_index_has_its_material),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

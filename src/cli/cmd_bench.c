@@ -1,6 +1,7 @@
 /* cmd_bench.c: `hnbrdf bench`: run time beside error, for models, backends and styles of one
  * run. */
 #include "bench/bench.h"
+#include "bench/growth.h"
 #include "bench/scaling.h"
 #include "cli/cli.h"
 #include "cli/report.h"
@@ -46,14 +47,16 @@ static const cli_command command = {
     "hnbrdf bench --quick\n"
     "hnbrdf bench model.safetensors\n"
     "hnbrdf bench a.safetensors b.safetensors --data rgl/ --csv b.csv --plot b.svg\n"
-    "hnbrdf bench --nets 8x2,16x2,32x2,64x3 --data rgl/ --seconds 60 --plot bench.svg",
+    "hnbrdf bench --nets 8x2,16x2,32x2,64x3 --data rgl/ --seconds 60 --plot bench.svg\n"
+    "hnbrdf bench a.safetensors --data rgl/ --baselines --csv b.csv\n"
+    "hnbrdf bench --growth --csv growth.csv",
 };
 
 typedef struct settings {
     const char *data, *nets, *device, *csv, *json, *plot, *nbrdf;
     double seconds;
     long steps, pool;
-    int quick, without_peer, scaling, baselines;
+    int quick, without_peer, scaling, growth, baselines;
     double sample_ms;
     bench_gpu_options gpu;
 } settings;
@@ -143,6 +146,22 @@ static int print_scaling(const settings *set)
         return code;
     code = cli_code(bench_scaling_print((const int(*)[2])nets, count, output.file, &error), &error);
     return cli_output_close(&output) || code ? CLI_FAILURE : CLI_OK;
+}
+
+/* How costs grow. */
+static int print_growth(const bench *b, const settings *set)
+{
+    growth g = {.cpu = b->cpu};
+    hnbrdf_error error;
+    const bench_growth_options options = {
+        .quick = set->quick, .device = set->device, .watch = b->watch};
+    hnbrdf_result result = bench_growth(&options, &g, &error);
+    cli_stages_end(b->watch.user);
+    if (result)
+        return cli_code(result, &error);
+    if (!cli_is_stdout(set->csv))
+        bench_growth_print(&g, stdout);
+    return cli_write_file(set->csv, bench_growth_write_csv, &g);
 }
 
 /* ---- Output ---------------------------------------------------------------------------------- */
@@ -254,6 +273,8 @@ int cmd_bench(int argc, char **argv)
          "rows of what one would pick instead too; needs --data"},
         {"nbrdf", 0, CLI_TEXT, &set.nbrdf, 0, 0, "DATA",
          "with --baselines: NBRDF networks (.h5, .npy), by the names of the measurements"},
+        {"growth", 0, CLI_FLAG, &set.growth, 0, 0, NULL,
+         "instead: how costs grow with H, N, l, materials and pairs; a minute or two"},
         {"scaling", 0, CLI_FLAG, &set.scaling, 0, 0, NULL,
          "instead: what a fit by 10, 100 and 1000 processes would exchange, on paper, as CSV"},
         {"quick", 0, CLI_FLAG, &set.quick, 0, 0, NULL,
@@ -270,7 +291,9 @@ int cmd_bench(int argc, char **argv)
             code = cli_usage(&command,
                              set.nbrdf ? "--nbrdf needs --baselines" : "--baselines needs --data");
         else
-            code = set.scaling ? print_scaling(&set) : run(b, &set, argv + 1, count);
+            code = set.growth    ? print_growth(b, &set)
+                   : set.scaling ? print_scaling(&set)
+                                 : run(b, &set, argv + 1, count);
     }
     free(line);
     free(b);

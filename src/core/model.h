@@ -16,6 +16,8 @@ struct hnbrdf_model {
     hnbrdf_model_desc desc;     /* scale is never 0 here; all pointers point into this allocation */
     hnbrdf_allocator allocator; /* both functions set */
     const struct hnbrdf_kernel *kernel;
+    /* [desc.material_count] pointers into desc.names, in the order of strcmp() */
+    const char *const **by_name;
     /* The same layers as vectors want them. packed[k] is input-major,
      * [inputs][hnbrdf_packed_outputs()], in the canonical order of summation: for k = 0 the latent
      * inputs come before the directions. packed_biases[k] is [hnbrdf_packed_outputs()]. What pads

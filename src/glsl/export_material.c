@@ -148,6 +148,35 @@ static void put_name(hnbrdf_printer *out, const char *name)
         hnbrdf_put_bytes(out, *name == ';' ? "," : name, 1);
 }
 
+static void put_indent(hnbrdf_printer *out, int depth)
+{
+    for (int k = 0; k < depth; k++)
+        hnbrdf_put(out, "    ");
+}
+
+/* Halves, by turns: through a chain of comparisons a shader with a thousand materials takes longer
+ * than its network. Constants in an array are no way: drivers copy all of it for every evaluation,
+ * or compile for minutes. */
+static void put_range(hnbrdf_printer *out, const hnbrdf_scene *s, int first, int count, int depth)
+{
+    const int half = count / 2, middle = first + half, lone = half == 1;
+    if (count == 1) {
+        put_indent(out, depth);
+        hnbrdf_put(out, "return ");
+        hnbrdf_put_material(out, s, first);
+        hnbrdf_put(out, ";\n");
+        return;
+    }
+    put_indent(out, depth);
+    hnbrdf_put(out, "if (material_place < %d)%s\n", middle, lone ? "" : " {");
+    put_range(out, s, first, half, depth + 1);
+    if (!lone) {
+        put_indent(out, depth);
+        hnbrdf_put(out, "}\n");
+    }
+    put_range(out, s, middle, count - half, depth);
+}
+
 void hnbrdf_put_materials(hnbrdf_printer *out, const hnbrdf_scene *s)
 {
     for (int k = 0; k < s->count; k++) {
@@ -159,12 +188,9 @@ void hnbrdf_put_materials(hnbrdf_printer *out, const hnbrdf_scene *s)
     hnbrdf_put(out,
                "// Any number outside of [0, HNBRDF_MATERIAL_COUNT) stands for the last one.\n");
     hnbrdf_put(out, "hnbrdf_material hnbrdf_scene_material(int material_index)\n{\n");
-    for (int k = 0; k < s->count; k++) {
-        if (k + 1 < s->count)
-            hnbrdf_put(out, "    if (material_index == %d)\n    ", k);
-        hnbrdf_put(out, "    return ");
-        hnbrdf_put_material(out, s, k);
-        hnbrdf_put(out, ";\n");
-    }
+    if (s->count > 1)
+        hnbrdf_put(out, "    int material_place = material_index < 0 ? %d : material_index;\n",
+                   s->count - 1);
+    put_range(out, s, 0, s->count, 1);
     hnbrdf_put(out, "}\n\n");
 }

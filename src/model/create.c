@@ -133,17 +133,20 @@ static hnbrdf_result check_materials(const hnbrdf_model_desc *desc, hnbrdf_error
 
 static int compare_names(const void *a, const void *b)
 {
-    return strcmp(*(const char *const *)a, *(const char *const *)b);
+    return strcmp(**(const char *const *const *)a, **(const char *const *const *)b);
 }
 
-/* Sorts `names` to find two that are equal. */
-static hnbrdf_result check_unique(const char **names, int count, hnbrdf_error *error)
+/* Fills `sorted`, which also brings two names that are equal together. */
+static hnbrdf_result sort_names(const char *const *names, int count, const char *const **sorted,
+                                hnbrdf_error *error)
 {
-    hnbrdf_sort(names, (size_t)count, sizeof *names, compare_names);
+    for (int i = 0; i < count; ++i)
+        sorted[i] = &names[i];
+    hnbrdf_sort(sorted, (size_t)count, sizeof *sorted, compare_names);
     for (int i = 1; i < count; ++i) {
-        if (strcmp(names[i - 1], names[i]) == 0) {
+        if (strcmp(*sorted[i - 1], *sorted[i]) == 0) {
             return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT,
-                               "two materials are named %s, expected every name once", names[i]);
+                               "two materials are named %s, expected every name once", *sorted[i]);
         }
     }
     return HNBRDF_OK;
@@ -168,7 +171,7 @@ static size_t model_size(const hnbrdf_model_desc *desc)
         size += padded(packed_size(desc, k) * sizeof(float));
         size += padded((size_t)hnbrdf_packed_outputs(desc, k) * sizeof(float));
     }
-    size += padded(count * sizeof(hnbrdf_material)) + count * sizeof(char *);
+    size += padded(count * sizeof(hnbrdf_material)) + 2 * count * sizeof(char *);
     for (size_t i = 0; i < count; ++i)
         size += strlen(desc->names[i]) + 1;
     return size;
@@ -269,11 +272,12 @@ static hnbrdf_result fill(hnbrdf_model *model, const hnbrdf_model_desc *desc, hn
     }
     own->materials = take_materials(&at, desc);
     const char **names = (const char **)(void *)at;
-    memcpy(names, desc->names, (size_t)desc->material_count * sizeof *names);
-    const hnbrdf_result result = check_unique(names, desc->material_count, error);
+    const char *const **sorted = (const char *const **)(void *)(names + desc->material_count);
+    copy_names(names, (char *)(sorted + desc->material_count), desc);
+    const hnbrdf_result result = sort_names(names, desc->material_count, sorted, error);
     if (result)
         return result;
-    copy_names(names, (char *)(names + desc->material_count), desc);
+    model->by_name = sorted;
     own->names = names;
     return HNBRDF_OK;
 }
@@ -318,9 +322,17 @@ void hnbrdf_model_free(hnbrdf_model *model)
 
 int hnbrdf_model_find(const hnbrdf_model *model, const char *name)
 {
-    for (int i = 0; name && i < model->desc.material_count; ++i)
-        if (strcmp(model->desc.names[i], name) == 0)
-            return i;
+    int low = 0, high = name ? model->desc.material_count : 0;
+    while (low < high) {
+        const int middle = low + (high - low) / 2;
+        const int order = strcmp(*model->by_name[middle], name);
+        if (order == 0)
+            return (int)(model->by_name[middle] - model->desc.names);
+        if (order < 0)
+            low = middle + 1;
+        else
+            high = middle;
+    }
     return -1;
 }
 
