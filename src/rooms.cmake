@@ -78,7 +78,8 @@ hnbrdf_room(edit
 hnbrdf_room(bake
   bake.c ggx.c half.c options.c ranks.c report.c rows.c search.c sizes.c teacher.c tell.c wave.c)
 hnbrdf_room(report
-  bake_plot.c bake_tables.c compare.c compare_images.c editing_edits.c editing_figures.c
+  bake_front.c bake_plot.c bake_tables.c compare.c compare_images.c editing_edits.c
+  editing_figures.c
   editing_fit.c editing_measure.c editing_mix.c editing_plot.c editing_sheet.c
   editing_tables.c fit_log.c flip.c gallery_choose.c
   gallery_pages.c gallery_strips.c grid.c grid_columns.c grid_figures.c grid_fit.c grid_ggx.c
@@ -89,11 +90,11 @@ hnbrdf_room(report
   sampling_measure.c sampling_strips.c sampling_write.c scene_compare.c sheet.c
   spheres.c stability_plot.c stability_report.c still.c texels.c verify_report.c)
 hnbrdf_room(bench
-  baselines.c growth.c growth_cpu.c growth_files.c growth_fit.c growth_gpu.c measure.c models.c
-  peak.c peer.c plot.c quality.c rows.c rows_baselines.c rows_cpu.c rows_gpu.c scaling.c speed.c
-  tables.c two_lobes.c watch.c)
+  baselines.c growth.c growth_cpu.c growth_files.c growth_fit.c growth_gpu.c
+  growth_series.c measure.c models.c peak.c peer.c plot.c quality.c rows.c rows_baselines.c
+  rows_cpu.c rows_gpu.c scaling.c speed.c tables.c two_lobes.c watch.c)
 hnbrdf_room(cli
-  cli.c cmd_bake.c cmd_bench.c cmd_compare.c cmd_edit.c cmd_eval.c cmd_export.c
+  bake_device.c cli.c cmd_bake.c cmd_bench.c cmd_compare.c cmd_edit.c cmd_eval.c cmd_export.c
   cmd_fit.c cmd_gallery.c cmd_import.c cmd_info.c cmd_lobes.c cmd_mix.c cmd_render.c
   cmd_report.c cmd_report_editing.c cmd_report_images.c cmd_report_sampling.c cmd_scene.c
   cmd_sheet.c cmd_stability.c cmd_verify.c files.c main.c message.c option.c output.c

@@ -104,6 +104,29 @@ awk -F, 'NR > 1 && $5 > 100 { bad = 1 } $18 == 1 { picked = $5 } END { exit !(pi
 bake "the knee" 0 big.safetensors -m retro-tape,rough-clay --net auto --steps 160 --restarts 1 --plot auto.svg -o auto.safetensors
 "$HNBRDF" info auto.safetensors | grep -q '^  kind *hybrid$' || fail "--net auto gives no network"
 
+# ---- encodings, times of GGX, several numbers of materials -------------------------------------------
+# shellcheck disable=SC2086
+bake "every encoding" 0 big.safetensors -m $names --net 4x1 --encoding all --steps 160 --restarts 1 --csv all.csv \
+    -o all.safetensors --data $data
+[ "$(awk -F, 'NR > 2 { print $3 }' all.csv | sort | tr '\n' ' ')" = "angles angles-directed directions half-difference " ] ||
+    fail "--encoding all: not each of them once"
+awk -F, 'NR > 2 && (!n++ || $15 < least) { least = $15; best = $3 } NR > 2 && $18 { picked = $3 } END { exit picked != best }' all.csv ||
+    fail "--encoding all: not the best one is picked"
+bake "times of GGX" 0 big.safetensors -m $names --max-ggx 1000 --steps 160 --restarts 1 -o ratio.safetensors
+"$HNBRDF" info ratio.safetensors | grep -q '^  kind *hybrid$' || fail "--max-ggx 1000, and yet no network"
+bake "times of GGX that nothing meets" 0 big.safetensors -m $names --max-ggx 1 -o one.safetensors
+"$HNBRDF" info one.safetensors | grep -q '^  kind *ggx$' || fail "--max-ggx 1: not GGX alone"
+# shellcheck disable=SC2086
+bake "a front" 0 big.safetensors -m $names --front 1,3 --steps 640 --restarts 1 --csv front.csv --plot front.svg --data $data
+head -n 1 front.csv | grep -q '^materials,net,latent,encoding,' || fail "--front: the columns"
+[ "$(awk -F, 'NR > 1 { print $1 }' front.csv | sort -u | tr '\n' ' ')" = "1 3 " ] || fail "--front: numbers of materials"
+# All sizes have a short fit, and no full one is of a size that another short fit beats in both.
+awk -F, 'NR > 1 && $10 == "short" { short[$1]++; for (k = 1; k <= n; k++) if (m[k] == $1 && e[k] < $16 && t[k] < $8) worse[$1, $2] = 1
+             n++; m[n] = $1; e[n] = $16; t[n] = $8 }
+         NR > 1 && $10 == "full" && $2 != "ggx" { full[$1]++ }
+         END { exit !(short[1] > 9 && short[1] == short[3] && full[1] > 0 && full[3] > 0) }' front.csv || fail "--front: fits"
+grep -q '3 materials' front.svg && tail -n 1 front.svg | grep -qx '</svg>' || fail "--front: the plot"
+
 # However little time there is, the exit code tells whether a network was fitted.
 run "$HNBRDF" bake big.safetensors -m $names --net 4x1 --seconds 1 --pool 2048 --pairs 1000 -o hasty.safetensors
 if [ "$rc" -eq 0 ]; then

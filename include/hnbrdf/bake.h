@@ -24,7 +24,9 @@ typedef enum hnbrdf_bake_wish {
                              GGX alone is within it, no network at all (kind ggx) */
     HNBRDF_BAKE_TIME,     /* the lowest error with at most max_ns an evaluation */
     HNBRDF_BAKE_SIZE,     /* the lowest error with at most max_multiplications */
-    HNBRDF_BAKE_NET       /* the network with `layers` hidden layers of `hidden` units */
+    HNBRDF_BAKE_NET,      /* the network with `layers` hidden layers of `hidden` units */
+    HNBRDF_BAKE_FRONT /* error against time: full fits of all networks that none beats in both after
+                         short ones; picked as HNBRDF_BAKE_AUTO */
 } hnbrdf_bake_wish;
 
 /* Which error of several materials counts. */
@@ -46,7 +48,11 @@ typedef struct hnbrdf_bake_size {
     int hidden, layers, latent; /* H and N in HxN, and l */
     /* as hnbrdf_model_multiplications() and hnbrdf_model_weight_count() have it */
     size_t multiplications, weights;
-    double ns; /* an evaluation by hnbrdf_eval_batch(), one material, one thread of this machine */
+    /* an evaluation by hnbrdf_eval_batch(), one material, one thread of this machine; or what
+     * hnbrdf_bake_options.time says */
+    double ns;
+    double half_ns; /* with the network in half precision; NaN where unknown, as in C */
+    int encoding;   /* one more than its hnbrdf_encoding; 0: by the options or the data */
 } hnbrdf_bake_size;
 
 /* A model that was made: GGX alone, or by a short or a full fit. Errors are SMAPE. */
@@ -61,6 +67,7 @@ typedef struct hnbrdf_bake_row {
     double analytic; /* mean of the analytic part alone */
     hnbrdf_encoding encoding;
     hnbrdf_comparison *errors; /* [material_count] */
+    int half; /* 1: within max_ns in half precision alone; errors are of weights rounded to it */
 } hnbrdf_bake_row;
 
 /* Why a row was picked. */
@@ -104,6 +111,7 @@ typedef struct hnbrdf_bake_report {
     /* the judged error of the picked network with weights as an export in half precision has them;
      * NaN for GGX alone */
     double half_smape;
+    const char *timed_on; /* as in hnbrdf_bake_options */
 } hnbrdf_bake_report;
 
 /* What it is at. */
@@ -165,6 +173,15 @@ typedef struct hnbrdf_bake_options {
      * the model and all data; NULL: alone. All get the same result; a clock or a callback of rank 0
      * or any other decides for all. `threads` and the callback may differ. */
     const hnbrdf_communicator *ranks;
+    int all_encodings; /* 1: every network with each encoding that suits the data; no `encoding` */
+    double max_ggx;    /* HNBRDF_BAKE_TIME: instead of max_ns, in times of GGX alone; or 0 */
+    /* What an evaluation takes elsewhere, in ns, as on a GPU: of a model whose weights mean
+     * nothing, its network in single or (half 1) half precision; NaN: not there. Called by the
+     * thread that called hnbrdf_bake(). NULL: timed here. timed_on names it; it outlives the
+     * report. */
+    double (*time)(void *user, const hnbrdf_model *model, int half);
+    void *time_user;
+    const char *timed_on;
 } hnbrdf_bake_options;
 
 /* Bake the chosen materials of `model`, which stays as it is and need not outlive *baked. HNBRDF_OK

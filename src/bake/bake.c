@@ -69,6 +69,7 @@ static hnbrdf_result begin_report(bake_task *b, hnbrdf_error *error)
                                      .material_count = b->count,
                                      .names = copy_names(b),
                                      .picked = -1,
+                                     .timed_on = o->timed_on,
                                      .half_smape = (double)NAN};
     b->reference = calloc((size_t)b->count, sizeof *b->reference);
     b->teachers = b->from_data ? NULL : calloc((size_t)b->count, sizeof *b->teachers);

@@ -37,3 +37,9 @@ hnbrdf_model *hnbrdf_bake_half(const hnbrdf_model *model)
     free(numbers);
     return made;
 }
+
+int hnbrdf_bake_needs_half(const bake_task *b, const hnbrdf_bake_size *size)
+{
+    return b->options.wish == HNBRDF_BAKE_TIME && size->ns > b->options.max_ns &&
+           size->half_ns <= b->options.max_ns;
+}

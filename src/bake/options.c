@@ -45,10 +45,13 @@ static hnbrdf_result check_wish(const hnbrdf_bake_options *o, hnbrdf_error *erro
     hnbrdf_result result;
     switch (o->wish) {
     case HNBRDF_BAKE_AUTO:
+    case HNBRDF_BAKE_FRONT:
         return HNBRDF_OK;
     case HNBRDF_BAKE_ERROR:
         return check_real("max_error", o->max_error, 2.0, 0, error);
     case HNBRDF_BAKE_TIME:
+        if (o->max_ggx != 0.0)
+            return check_real("max_ggx", o->max_ggx, 1e6, 0, error);
         return check_real("max_ns", o->max_ns, 1e12, 0, error);
     case HNBRDF_BAKE_SIZE:
         if (o->max_multiplications > 0)
@@ -81,6 +84,11 @@ static hnbrdf_result check_numbers(const hnbrdf_bake_options *o, hnbrdf_error *e
         result = check_range(whole[k].what, whole[k].found, whole[k].low, whole[k].high, error);
     if (!result)
         result = check_real("seconds", o->seconds, 1e7, 1, error);
+    if (!result && o->encoding && o->all_encodings)
+        result = hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT,
+                             "bake options: encoding is %.40s and all_encodings is set, expected "
+                             "one of them",
+                             o->encoding);
     if (!result && o->latent && o->latent_none)
         result = hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT,
                              "bake options: latent is %d and latent_none is set, expected one of "

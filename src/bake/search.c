@@ -14,6 +14,7 @@ enum {
     MOST_JOBS = 32,
     /* candidates that a limit of time or size allows, from the largest down, that get a look */
     LIMIT_LOOKS = 6,
+    MOST_ENCODINGS = 8,
     FINALISTS = 2, /* of them, and of `auto`, that get a full fit */
     PATIENCE = 4   /* candidates without a better product after which `auto` stops looking */
 };
@@ -37,10 +38,11 @@ static int is_met(const bake_task *b, const hnbrdf_bake_row *row)
     case HNBRDF_BAKE_ERROR:
         return hnbrdf_bake_judged(&b->report, row) <= b->options.max_error;
     case HNBRDF_BAKE_TIME:
-        return row->size.ns <= b->options.max_ns;
+        return row->half || row->size.ns <= b->options.max_ns;
     case HNBRDF_BAKE_SIZE:
         return row->size.multiplications <= b->options.max_multiplications;
     case HNBRDF_BAKE_AUTO:
+    case HNBRDF_BAKE_FRONT:
         return row->full && row->size.hidden > 0;
     case HNBRDF_BAKE_NET:
         return row->size.hidden > 0;
@@ -56,7 +58,7 @@ static int is_better(const bake_task *b, const hnbrdf_bake_row *x, const hnbrdf_
         return x->size.multiplications < y->size.multiplications;
     if (b->options.wish == HNBRDF_BAKE_TIME && !met)
         return x->size.ns < y->size.ns;
-    if (b->options.wish == HNBRDF_BAKE_AUTO)
+    if (b->options.wish == HNBRDF_BAKE_AUTO || b->options.wish == HNBRDF_BAKE_FRONT)
         return product(b, x) < product(b, y);
     return hnbrdf_bake_judged(&b->report, x) < hnbrdf_bake_judged(&b->report, y);
 }
@@ -199,15 +201,16 @@ static int is_allowed(const bake_task *b, const hnbrdf_bake_size *size)
 {
     if (b->options.wish == HNBRDF_BAKE_SIZE)
         return size->multiplications <= b->options.max_multiplications;
-    return size->ns <= b->options.max_ns;
+    return size->ns <= b->options.max_ns || hnbrdf_bake_needs_half(b, size);
 }
 
 /* The lowest error within a limit of time or size: of those that it allows, the largest. */
 static hnbrdf_result search_limit(bake_task *b, hnbrdf_error *error)
 {
-    hnbrdf_bake_size *fit[LIMIT_LOOKS];
+    hnbrdf_bake_size *fit[LIMIT_LOOKS * MOST_ENCODINGS];
     int n = 0;
-    for (int k = b->candidate_count - 1; k > 0 && n < LIMIT_LOOKS; k--)
+    const int looks = LIMIT_LOOKS * hnbrdf_bake_encoding_count(b);
+    for (int k = b->candidate_count - 1; k > 0 && n < looks; k--)
         if (is_allowed(b, &b->candidates[k]))
             fit[n++] = &b->candidates[k];
     for (int k = 0; k < n && !is_over(b); k += AT_ONCE) {
@@ -241,6 +244,37 @@ static hnbrdf_result search_auto(bake_task *b, hnbrdf_error *error)
     return finish(b, error);
 }
 
+/* Whether no faster row has as low an error. */
+static int is_on_front(const bake_task *b, const hnbrdf_bake_row *row)
+{
+    for (int k = 0; k < b->report.row_count; k++) {
+        const hnbrdf_bake_row *other = &b->report.rows[k];
+        if (hnbrdf_bake_judged(&b->report, other) <= hnbrdf_bake_judged(&b->report, row) &&
+            other->size.ns < row->size.ns)
+            return 0;
+    }
+    return 1;
+}
+
+/* Short fits of all, full ones of those on the front, the fastest first. */
+static hnbrdf_result search_front(bake_task *b, hnbrdf_error *error)
+{
+    hnbrdf_result result = HNBRDF_OK;
+    for (int k = 1; k < b->candidate_count && !result && !is_over(b); k += AT_ONCE) {
+        hnbrdf_bake_size *some[AT_ONCE];
+        int n = 0;
+        for (; n < AT_ONCE && k + n < b->candidate_count; n++)
+            some[n] = &b->candidates[k + n];
+        result = look(b, some, n, b->candidate_count - 1, error);
+    }
+    for (int k = 1; k < b->candidate_count && !result && !is_over(b); k++) {
+        const hnbrdf_bake_row *seen = best_row(b, &b->candidates[k]);
+        if (seen && is_on_front(b, seen))
+            result = fit_fully(b, &b->candidates[k], error);
+    }
+    return result;
+}
+
 /* Why the picked row is the picked one. */
 static hnbrdf_bake_reason reason(const bake_task *b)
 {
@@ -256,6 +290,7 @@ static hnbrdf_bake_reason reason(const bake_task *b)
     case HNBRDF_BAKE_SIZE:
         return HNBRDF_BAKE_MOST_ACCURATE;
     case HNBRDF_BAKE_AUTO:
+    case HNBRDF_BAKE_FRONT:
         return HNBRDF_BAKE_BALANCED;
     case HNBRDF_BAKE_NET:
         break;
@@ -273,10 +308,15 @@ static hnbrdf_result search(bake_task *b, hnbrdf_error *error)
         return search_limit(b, error);
     case HNBRDF_BAKE_AUTO:
         return search_auto(b, error);
+    case HNBRDF_BAKE_FRONT:
+        return search_front(b, error);
     case HNBRDF_BAKE_NET:
         break;
     }
-    return fit_fully(b, &b->candidates[b->candidate_count - 1], error);
+    hnbrdf_result result = HNBRDF_OK;
+    for (int k = 1; k < b->candidate_count && !result && (k == 1 || !is_over(b)); k++)
+        result = fit_fully(b, &b->candidates[k], error);
+    return result;
 }
 
 hnbrdf_result hnbrdf_bake_search(bake_task *b, hnbrdf_error *error)

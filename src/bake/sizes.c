@@ -20,14 +20,43 @@ enum { NETS = sizeof nets / sizeof nets[0] };
 
 int hnbrdf_bake_same_size(const hnbrdf_bake_size *x, const hnbrdf_bake_size *y)
 {
-    return x->hidden == y->hidden && x->layers == y->layers && x->latent == y->latent;
+    return x->hidden == y->hidden && x->layers == y->layers && x->latent == y->latent &&
+           x->encoding == y->encoding;
 }
 
-static void add(bake_task *b, int hidden, int layers, int latent)
+/* Whether turning a pair of directions about the normal may change what is learned from. */
+static int is_isotropic(const bake_task *b)
+{
+    for (int m = 0; m < b->count; m++)
+        if (!hnbrdf_measured_is_isotropic(b->reference[m]))
+            return 0;
+    return 1;
+}
+
+/* The one for anisotropic data has nothing over the others for isotropic ones, and no other one
+ * but the directions themselves sees the azimuth. */
+static int suits(const bake_task *b, hnbrdf_encoding encoding)
+{
+    return is_isotropic(b) ? encoding != HNBRDF_ENCODING_ANGLES_ANISOTROPIC
+                           : encoding == HNBRDF_ENCODING_ANGLES_ANISOTROPIC ||
+                                 encoding == HNBRDF_ENCODING_DIRECTIONS;
+}
+
+int hnbrdf_bake_encoding_count(const bake_task *b)
+{
+    int count = 0;
+    for (int e = 0; b->options.all_encodings && hnbrdf_encoding_name((hnbrdf_encoding)e); e++)
+        count += suits(b, (hnbrdf_encoding)e);
+    return count ? count : 1;
+}
+
+static void add_one(bake_task *b, int hidden, int layers, int latent, int encoding)
 {
     size_t h = (size_t)hidden, in = INPUTS + (size_t)latent, n = (size_t)layers;
     hnbrdf_bake_size *c = &b->candidates[b->candidate_count++];
     memset(c, 0, sizeof *c);
+    c->half_ns = (double)NAN;
+    c->encoding = encoding;
     if (!hidden)
         return;
     c->hidden = hidden;
@@ -37,12 +66,24 @@ static void add(bake_task *b, int hidden, int layers, int latent)
     c->weights = c->multiplications + h * n + OUTPUTS;
 }
 
+static void add(bake_task *b, int hidden, int layers, int latent)
+{
+    if (!b->options.all_encodings || !hidden) {
+        add_one(b, hidden, layers, latent, 0);
+        return;
+    }
+    for (int e = 0; hnbrdf_encoding_name((hnbrdf_encoding)e); e++)
+        if (suits(b, (hnbrdf_encoding)e))
+            add_one(b, hidden, layers, latent, e + 1);
+}
+
 static int by_mults(const void *a, const void *b)
 {
     const hnbrdf_bake_size *x = a, *y = b;
     return x->multiplications < y->multiplications   ? -1
            : x->multiplications > y->multiplications ? 1
-                                                     : y->latent - x->latent;
+           : x->latent != y->latent                  ? y->latent - x->latent
+                                                     : x->encoding - y->encoding;
 }
 
 /* A latent code of one float less than there are materials lets the network treat each of them as
@@ -71,8 +112,9 @@ static hnbrdf_model *make_dummy(const bake_task *b, const hnbrdf_bake_size *c)
     float *weights = malloc(sizeof(float) * MOST);
     hnbrdf_model *model = NULL;
     hnbrdf_model_desc desc = {.kind = c->hidden ? HNBRDF_KIND_HYBRID : HNBRDF_KIND_GGX,
-                              .encoding = b->encoding < 0 ? HNBRDF_ENCODING_ANGLES
-                                                          : (hnbrdf_encoding)b->encoding,
+                              .encoding = c->encoding       ? (hnbrdf_encoding)(c->encoding - 1)
+                                          : b->encoding < 0 ? HNBRDF_ENCODING_ANGLES
+                                                            : (hnbrdf_encoding)b->encoding,
                               .hidden = c->hidden,
                               .layers = c->layers,
                               .latent = c->latent,
@@ -137,6 +179,20 @@ static void time_models(bake_task *b, stage *on, hnbrdf_model *const *models, ac
     b->report.model.ns = probes[count].ns;
 }
 
+/* By whoever asked to do it. */
+static void time_elsewhere(bake_task *b, hnbrdf_model *const *models)
+{
+    const hnbrdf_bake_options *o = &b->options;
+    for (int k = 0; k < b->candidate_count; k++) {
+        hnbrdf_bake_size *c = &b->candidates[k];
+        if (between(b, (double)k / b->candidate_count))
+            return;
+        c->ns = o->time(o->time_user, models[k], 0);
+        c->half_ns = c->hidden ? o->time(o->time_user, models[k], 1) : (double)NAN;
+    }
+    b->report.model.ns = o->time(o->time_user, b->model, 0);
+}
+
 static hnbrdf_result time_all(bake_task *b, hnbrdf_error *error)
 {
     hnbrdf_rng rng;
@@ -152,7 +208,9 @@ static hnbrdf_result time_all(bake_task *b, hnbrdf_error *error)
         hnbrdf_sampler_draw(HNBRDF_SAMPLER_UNIFORM, &rng, on->wi[k], on->wo[k]);
     for (size_t k = 0; ready && k < count; k++)
         ready = (models[k] = make_dummy(b, &b->candidates[k])) != NULL;
-    if (ready)
+    if (ready && b->options.time)
+        time_elsewhere(b, models);
+    else if (ready)
         time_models(b, on, models, acts, probes, list);
     for (size_t k = 0; models && k < count; k++)
         hnbrdf_model_free(models[k]);
@@ -173,7 +231,8 @@ hnbrdf_result hnbrdf_bake_make_candidates(bake_task *b, hnbrdf_error *error)
     b->report.model.latent = desc.latent;
     b->report.model.multiplications = hnbrdf_model_multiplications(b->model);
     b->report.model.weights = hnbrdf_model_weight_count(b->model);
-    b->candidates = calloc(2 * NETS + 3, sizeof *b->candidates);
+    b->candidates =
+        calloc((2 * NETS + 3) * (size_t)hnbrdf_bake_encoding_count(b), sizeof *b->candidates);
     if (!b->candidates)
         return hnbrdf_fail(error, HNBRDF_ERROR_MEMORY, "out of memory");
     add(b, 0, 0, 0);
@@ -187,6 +246,8 @@ hnbrdf_result hnbrdf_bake_make_candidates(bake_task *b, hnbrdf_error *error)
     if (!result)
         result = hnbrdf_bake_spread(b, 0, b->candidates,
                                     (size_t)b->candidate_count * sizeof *b->candidates, error);
+    if (!result && b->options.max_ggx > 0.0)
+        b->options.max_ns = b->report.max_ns = b->options.max_ggx * b->candidates[0].ns;
     return result ? result
                   : hnbrdf_bake_spread(b, 0, &b->report.model, sizeof b->report.model, error);
 }

@@ -46,6 +46,8 @@ hnbrdf_result hnbrdf_bake_teacher(const hnbrdf_model *model, int material,
 
 /* A hybrid with the weights of an export in half precision; NULL when memory is short. */
 hnbrdf_model *hnbrdf_bake_half(const hnbrdf_model *model);
+/* Whether this size is within max_ns in half precision alone. */
+int hnbrdf_bake_needs_half(const bake_task *b, const hnbrdf_bake_size *size);
 
 /* ---- tell.c: the progress callback ----------------------------------------------------------- */
 
@@ -59,6 +61,8 @@ int hnbrdf_bake_is_stopped(const bake_task *b);
 
 /* Makes b->candidates and measures the time of each and of the model. */
 hnbrdf_result hnbrdf_bake_make_candidates(bake_task *b, hnbrdf_error *error);
+/* How many encodings each network is tried with. */
+int hnbrdf_bake_encoding_count(const bake_task *b);
 int hnbrdf_bake_same_size(const hnbrdf_bake_size *x, const hnbrdf_bake_size *y);
 
 /* ---- rows.c: what was made, and how good it is ----------------------------------------------- */

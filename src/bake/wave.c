@@ -76,22 +76,25 @@ static hnbrdf_fit_options fit_options(const bake_task *b, task *t)
 {
     const bake_job *job = t->job;
     int threads = threads_of(b), width = t->of->width;
-    return (hnbrdf_fit_options){.kind = HNBRDF_KIND_HYBRID,
-                                .hidden = job->size->hidden,
-                                .layers = job->size->layers,
-                                .latent = job->size->latent,
-                                .latent_none = job->size->latent == 0,
-                                .encoding = b->options.encoding,
-                                .materials = b->analytic,
-                                .steps = job->full                  ? b->options.steps
-                                         : b->options.steps / 8 > 0 ? b->options.steps / 8
-                                                                    : 1,
-                                .seconds = t->of->seconds,
-                                .pool = pool_of(b, job->full),
-                                .seed = job->seed,
-                                .threads = threads > width ? threads / width : 1,
-                                .progress = show,
-                                .progress_user = t};
+    return (hnbrdf_fit_options){
+        .kind = HNBRDF_KIND_HYBRID,
+        .hidden = job->size->hidden,
+        .layers = job->size->layers,
+        .latent = job->size->latent,
+        .latent_none = job->size->latent == 0,
+        .encoding = job->size->encoding
+                        ? hnbrdf_encoding_name((hnbrdf_encoding)(job->size->encoding - 1))
+                        : b->options.encoding,
+        .materials = b->analytic,
+        .steps = job->full                  ? b->options.steps
+                 : b->options.steps / 8 > 0 ? b->options.steps / 8
+                                            : 1,
+        .seconds = t->of->seconds,
+        .pool = pool_of(b, job->full),
+        .seed = job->seed,
+        .threads = threads > width ? threads / width : 1,
+        .progress = show,
+        .progress_user = t};
 }
 
 static hnbrdf_result fit(const bake_task *b, task *t)
@@ -107,6 +110,7 @@ static hnbrdf_result fit(const bake_task *b, task *t)
                                .seed = t->job->seed,
                                .steps = report.steps,
                                .seconds = report.seconds,
+                               .half = hnbrdf_bake_needs_half(b, t->job->size),
                                .errors = calloc((size_t)b->count, sizeof *t->row.errors)};
     if (report.stopped && report.steps < LEAST_STEPS)
         return HNBRDF_ERROR_CANCELLED;
@@ -115,7 +119,12 @@ static hnbrdf_result fit(const bake_task *b, task *t)
         pairs = SHORT_PAIRS;
     if (!t->row.errors)
         return hnbrdf_fail(&t->error, HNBRDF_ERROR_MEMORY, "out of memory");
-    result = hnbrdf_bake_measure(b, t->model, NULL, pairs, t->row.errors, &t->error);
+    hnbrdf_model *rounded = t->row.half ? hnbrdf_bake_half(t->model) : NULL;
+    if (t->row.half && !rounded)
+        return hnbrdf_fail(&t->error, HNBRDF_ERROR_MEMORY, "out of memory");
+    result =
+        hnbrdf_bake_measure(b, rounded ? rounded : t->model, NULL, pairs, t->row.errors, &t->error);
+    hnbrdf_model_free(rounded);
     if (!result)
         hnbrdf_bake_summarise(b, &t->row);
     return result;

@@ -47,7 +47,7 @@ hnbrdf_result bench_growth(const bench_growth_options *options, growth *g, hnbrd
 void bench_growth_print(const void *growth, FILE *file);
 void bench_growth_write_csv(const void *growth, FILE *file);
 
-/* ---- The parts ------------------------------------------------------------------------------- */
+/* ---- growth_series.c ------------------------------------------------------------------------- */
 
 /* Another series without points. */
 growth_series *bench_growth_add(growth *g, const char *what, const char *unit, const char *against);
@@ -71,6 +71,8 @@ double bench_growth_size(growth_axis axis, const growth_shape *shape);
 /* A hybrid with weights that mean nothing. */
 hnbrdf_result bench_growth_model(const growth_shape *shape, hnbrdf_model **model,
                                  hnbrdf_error *error);
+
+/* ---- The parts ------------------------------------------------------------------------------- */
 
 /* growth_cpu.c: evaluation. growth_files.c: files, edits, names, export. growth_fit.c: fits.
  * growth_gpu.c: shaders. */

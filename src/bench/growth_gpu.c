@@ -39,7 +39,9 @@ static hnbrdf_result open_device(shader_device *on, const char *which, hnbrdf_er
         return result;
     on->is_open = 1;
     on->is_cpu = on->device.properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
-    snprintf(on->name, sizeof on->name, "vulkan:%.80s", on->device.properties.deviceName);
+    const char *device = on->device.properties.deviceName, *bracket = strstr(device, " (");
+    snprintf(on->name, sizeof on->name, "vulkan:%.*s", bracket ? (int)(bracket - device) : 80,
+             device);
     return gpu_timed_buffers_open(&on->device, EVALUATIONS, &on->buffers, error);
 }
 

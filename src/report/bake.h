@@ -28,4 +28,15 @@ void report_bake_json(const void *report, FILE *file);
 /* SVG: error against time of every row, the limit, and the picked one. */
 void report_bake_plot(const void *report, FILE *file);
 
+/* Bakes of 1, 6, ... materials, each with HNBRDF_BAKE_FRONT. */
+enum { REPORT_BAKE_FRONTS = 6 };
+typedef struct report_bake_front {
+    hnbrdf_bake_report reports[REPORT_BAKE_FRONTS];
+    int count;
+} report_bake_front;
+/* The argument is a report_bake_front. CSV as above with the number of materials before it; SVG:
+ * the error against time that each can reach. */
+void report_bake_front_csv(const void *front, FILE *file);
+void report_bake_front_plot(const void *front, FILE *file);
+
 #endif

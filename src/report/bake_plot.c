@@ -107,18 +107,23 @@ static void draw_legend(const hnbrdf_bake_report *b, FILE *file)
     svg_text(file, x + 170.0, y, "start", NULL, "the model baked from");
 }
 
+static const char *x_title(const hnbrdf_bake_report *b)
+{
+    return b->timed_on ? "ns an evaluation of the exported shader"
+                       : "ns an evaluation (hnbrdf_eval_batch, one thread of this machine)";
+}
+
 void report_bake_plot(const void *report, FILE *file)
 {
     const hnbrdf_bake_report *b = report;
     char title[160], below[160];
     names placed = {.count = 0};
-    svg_panel p = {
-        .left = LEFT,
-        .top = TOP,
-        .width = WIDTH,
-        .height = HEIGHT,
-        .x = {1.0, 0.0, 1, "ns an evaluation (hnbrdf_eval_batch, one thread of this machine)"},
-        .y = {1.0, 0.0, 1, NULL}};
+    svg_panel p = {.left = LEFT,
+                   .top = TOP,
+                   .width = WIDTH,
+                   .height = HEIGHT,
+                   .x = {1.0, 0.0, 1, x_title(b)},
+                   .y = {1.0, 0.0, 1, NULL}};
     for (int k = 0; k < b->row_count; k++) {
         svg_axis_include(&p.x, ROOM * b->rows[k].size.ns);
         svg_axis_include(&p.x, b->rows[k].size.ns);

@@ -27,19 +27,21 @@ void report_bake_heading(const hnbrdf_bake_report *r, const char *path, FILE *fi
 }
 
 /* The columns that models and rows share. */
-static void print_size(const hnbrdf_bake_report *r, const hnbrdf_bake_size *s, const char *fit,
-                       FILE *file)
+static void print_size(const hnbrdf_bake_report *r, const hnbrdf_bake_size *s, const char *encoding,
+                       const char *fit, FILE *file)
 {
     char name[16];
-    fprintf(file, "%-6s %6d  %6zu  %7zu  %8.1f  %6.2f  %-5s  ", hnbrdf_bake_size_name(s, name),
-            s->latent, s->multiplications, s->weights, s->ns, ratio_to_ggx(r, s), fit);
+    fprintf(file, "%-6s %6d  %-18s  %6zu  %7zu  %8.1f  %6.2f  %-5s  ",
+            hnbrdf_bake_size_name(s, name), s->latent, encoding, s->multiplications, s->weights,
+            s->ns, ratio_to_ggx(r, s), fit);
 }
 
 void report_bake_columns(const hnbrdf_bake_report *r, FILE *file)
 {
-    fprintf(file, "\n%-6s %6s  %6s  %7s  %8s  %6s  %-5s  %7s  %7s  %8s  %7s\n", "net", "latent",
-            "mults", "numbers", "ns/eval", "x GGX", "fit", "SMAPE", "worst", "analytic", "seconds");
-    print_size(r, &r->model, "model", file);
+    fprintf(file, "\n%-6s %6s  %-18s  %6s  %7s  %8s  %6s  %-5s  %7s  %7s  %8s  %7s\n", "net",
+            "latent", "encoding", "mults", "numbers", "ns/eval", "x GGX", "fit", "SMAPE", "worst",
+            "analytic", "seconds");
+    print_size(r, &r->model, "", "model", file);
     if (r->from_data)
         fprintf(file, "%7.4f  %7.4f\n", r->model_smape, r->model_worst);
     else
@@ -48,7 +50,11 @@ void report_bake_columns(const hnbrdf_bake_report *r, FILE *file)
 
 void report_bake_row(const hnbrdf_bake_report *r, const hnbrdf_bake_row *row, FILE *file)
 {
-    print_size(r, &row->size, row->full ? "full" : "short", file);
+    print_size(r, &row->size, row->size.hidden ? hnbrdf_encoding_name(row->encoding) : "",
+               row->half   ? "half"
+               : row->full ? "full"
+                           : "short",
+               file);
     fprintf(file, "%7.4f  %7.4f  %8.4f  %7.1f\n", row->smape, row->worst, row->analytic,
             row->seconds);
 }
@@ -70,13 +76,15 @@ static void print_reason(const hnbrdf_bake_report *r, const hnbrdf_bake_row *row
                     within, r->max_error);
         break;
     case HNBRDF_BAKE_TIME:
-        fprintf(file, "%.1f ns, %s %.1f\n", row->size.ns, within, r->max_ns);
+        fprintf(file, "%.1f ns%s, %s %.1f\n", row->half ? row->size.half_ns : row->size.ns,
+                row->half ? " with the network in half precision" : "", within, r->max_ns);
         break;
     case HNBRDF_BAKE_SIZE:
         fprintf(file, "%zu multiplications, within %zu\n", row->size.multiplications,
                 r->max_multiplications);
         break;
     case HNBRDF_BAKE_AUTO:
+    case HNBRDF_BAKE_FRONT:
         fprintf(file, "the lowest error times ns of those tried: %.2f\n",
                 hnbrdf_bake_judged(r, row) * row->size.ns);
         break;
@@ -107,8 +115,12 @@ void report_bake_result(const hnbrdf_bake_report *r, const char *output, FILE *f
     if (s->hidden)
         fprintf(file, "\nweights in half precision (export --precision half): %s error %.4f\n",
                 judge_name(r), r->half_smape);
-    fprintf(file, "\nns/eval: hnbrdf_eval_batch(), one material, one thread of this machine, the "
-                  "least of several interleaved rounds\n");
+    if (r->timed_on)
+        fprintf(file, "\nns/eval: the exported shader on %s, buffers subtracted\n", r->timed_on);
+    else
+        fprintf(file,
+                "\nns/eval: hnbrdf_eval_batch(), one material, one thread of this machine, the "
+                "least of several interleaved rounds\n");
 }
 
 void report_bake_stage(const hnbrdf_bake_progress *p, char what[64], char detail[64])
@@ -167,25 +179,50 @@ hnbrdf_result report_bake_verdict(const hnbrdf_bake_report *r, double seconds, c
 
 /* ---- CSV ------------------------------------------------------------------------------------- */
 
+static const char columns[] =
+    "net,latent,encoding,backend,mults,weights,ns_per_eval,ratio_to_ggx,fit,steps,seed,"
+    "seconds,sampler,reference,smape,smape_worst,smape_analytic,picked";
+
+static const char *backend_of(const hnbrdf_bake_report *r)
+{
+    return r->timed_on ? r->timed_on : "c-batch";
+}
+
+static void write_csv_row(const hnbrdf_bake_report *r, int k, FILE *file)
+{
+    const hnbrdf_bake_row *row = &r->rows[k];
+    const hnbrdf_bake_size *s = &row->size;
+    char name[16];
+    fprintf(file, "%s,%d,%s,", hnbrdf_bake_size_name(s, name), s->latent,
+            s->hidden ? hnbrdf_encoding_name(row->encoding) : "");
+    hnbrdf_write_csv_text(file, backend_of(r));
+    fprintf(file, ",%zu,%zu,%.2f,%.3f,%s,%ld,%" PRIu64 ",%.2f,%s,%s,%.6f,%.6f,%.6f,%d\n",
+            s->multiplications, s->weights, row->half ? s->half_ns : s->ns,
+            (row->half ? s->half_ns : s->ns) / r->rows[0].size.ns,
+            row->half   ? "half"
+            : row->full ? "full"
+                        : "short",
+            row->steps, row->seed, row->seconds, hnbrdf_sampler_name(r->sampler),
+            r->from_data ? "data" : "model", row->smape, row->worst, row->analytic, k == r->picked);
+}
+
 void report_bake_csv(const void *report, FILE *file)
 {
     const hnbrdf_bake_report *r = report;
-    char name[16];
-    fputs("net,latent,encoding,backend,mults,weights,ns_per_eval,ratio_to_ggx,fit,steps,seed,"
-          "seconds,sampler,reference,smape,smape_worst,smape_analytic,picked\n",
-          file);
-    for (int k = 0; k < r->row_count; k++) {
-        const hnbrdf_bake_row *row = &r->rows[k];
-        const hnbrdf_bake_size *s = &row->size;
-        fprintf(
-            file,
-            "%s,%d,%s,c-batch,%zu,%zu,%.2f,%.3f,%s,%ld,%" PRIu64 ",%.2f,%s,%s,%.6f,%.6f,%.6f,%d\n",
-            hnbrdf_bake_size_name(s, name), s->latent,
-            s->hidden ? hnbrdf_encoding_name(row->encoding) : "", s->multiplications, s->weights,
-            s->ns, ratio_to_ggx(r, s), row->full ? "full" : "short", row->steps, row->seed,
-            row->seconds, hnbrdf_sampler_name(r->sampler), r->from_data ? "data" : "model",
-            row->smape, row->worst, row->analytic, k == r->picked);
-    }
+    fprintf(file, "%s\n", columns);
+    for (int k = 0; k < r->row_count; k++)
+        write_csv_row(r, k, file);
+}
+
+void report_bake_front_csv(const void *of, FILE *file)
+{
+    const report_bake_front *front = of;
+    fprintf(file, "materials,%s\n", columns);
+    for (int n = 0; n < front->count; n++)
+        for (int k = 0; k < front->reports[n].row_count; k++) {
+            fprintf(file, "%d,", front->reports[n].material_count);
+            write_csv_row(&front->reports[n], k, file);
+        }
 }
 
 /* ---- JSON ------------------------------------------------------------------------------------ */
@@ -224,6 +261,8 @@ static const char *wish_name(hnbrdf_bake_wish wish)
         return "max-mults";
     case HNBRDF_BAKE_NET:
         return "net";
+    case HNBRDF_BAKE_FRONT:
+        return "front";
     }
     return "";
 }
@@ -234,10 +273,10 @@ void report_bake_json(const void *report, FILE *file)
     fprintf(file, "{\n  \"wish\": \"%s\", \"met\": %s, \"stopped\": %s, \"picked\": %d,\n",
             wish_name(r->wish), r->met ? "true" : "false",
             r->end != HNBRDF_BAKE_COMPLETE ? "true" : "false", r->picked);
-    fprintf(
-        file,
-        "  \"sampler\": \"%s\", \"pairs\": %zu, \"reference\": \"%s\", \"backend\": \"c-batch\",\n",
-        hnbrdf_sampler_name(r->sampler), r->pairs, r->from_data ? "data" : "model");
+    fprintf(file, "  \"sampler\": \"%s\", \"pairs\": %zu, \"reference\": \"%s\", \"backend\": ",
+            hnbrdf_sampler_name(r->sampler), r->pairs, r->from_data ? "data" : "model");
+    hnbrdf_write_json_text(file, backend_of(r));
+    fputs(",\n", file);
     fprintf(file, "  \"model\": {\"mults\": %zu, \"weights\": %zu, \"ns_per_eval\": %.2f",
             r->model.multiplications, r->model.weights, r->model.ns);
     if (r->from_data)
