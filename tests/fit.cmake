@@ -1,4 +1,5 @@
 hnbrdf_test(test_fit_gradients test_fit_gradients.c)
+hnbrdf_test(test_fit_soap test_fit_soap.c)
 hnbrdf_test(test_fit test_fit.c)
 hnbrdf_test(test_fit_choices test_fit_choices.c)
 hnbrdf_test(test_fit_alone test_fit_alone.c)

@@ -389,8 +389,8 @@ static void frozen_network_takes_a_new_material(void **state)
     assert_int_equal(
         hnbrdf_compare(three, &b.materials[0], data[2], HNBRDF_SAMPLER_GRID, 20000, 3, &c, NULL),
         HNBRDF_OK);
-    assert_true(worth.smape < worth.ggx_smape);
-    /* of GGX only rounding is left where its pictures were no better */
+    assert_true(worth.alone || worth.smape < worth.ggx_smape);
+    /* of GGX only rounding is left where the network made it no better */
     assert_true(worth.alone ? fabs(c.smape / c.smape_analytic - 1.0) < 1e-5
                             : c.smape < c.smape_analytic);
     hnbrdf_model_free(three);

@@ -107,11 +107,16 @@ static hnbrdf_result resume(hnbrdf_error *error)
 enum { SHARE = 40, PEAK = 48, RUNNING = 56, STEP = 64, ORDER_AT = 72, SINCE = 80, BEST_STEP = 88 };
 enum { BEST_DEAD = 96, SET_BACKS = 104, BEST_LOSS = 112, PARAMETERS = 120 };
 
-/* Parameters, their moments and squares, and the best ones: as many of each; then order and
- * cursor. */
+/* Means and eigenbases of the layers, two squares for the inputs with the bias and two for the
+ * outputs: 10 and 5, 6 and 5, 6 and 6. */
+enum { BASES = 2 * (100 + 25 + 36 + 25 + 36 + 36) };
+
+/* Parameters, their moments and squares, and the best ones: as many of each; then order and cursor,
+ * and the bases. */
 static size_t parameter_count(void)
 {
-    return (size - PARAMETERS - 2 * COUNT * sizeof(int)) / (4 * sizeof(float));
+    return (size - PARAMETERS - 2 * COUNT * sizeof(int) - BASES * sizeof(float)) /
+           (4 * sizeof(float));
 }
 
 static void refuse(size_t at, const void *value, size_t bytes)
@@ -179,6 +184,9 @@ static void numbers_that_no_training_has_are_refused(void **state)
 
     const size_t order = PARAMETERS + 4 * count * sizeof(float);
     const int outside[] = {-1, INT_MAX, COUNT, 32}; /* 2048 pairs are 32 tiles */
+    const float endless = INFINITY;
+    refuse(size - BASES * sizeof(float), &endless, sizeof endless);
+    refuse(size - sizeof(float), &endless, sizeof endless);
     for (size_t k = 0; k < 2 * COUNT; k++)
         for (size_t v = 0; v < 4; v++)
             if (k < COUNT || outside[v] != COUNT) /* the third tile is one */

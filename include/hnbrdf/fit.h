@@ -17,7 +17,7 @@
  * longer finite, or if the loss exceeds both that of the untrained start and twice the best plus
  * 0.1. It also does if more than an eighth of a layer's units (at least 4, or all) died since the
  * best state, unless the loss is at most 0.01 or the network is frozen. It is then set back to the
- * best state, and Adam and the warm-up start anew at 0.3 times the rate. So a rate that is 100
+ * best state, and moments and warm-up start anew at 0.3 times the rate. So a rate that is 100
  * times too large costs a few hundred steps. The report says how often that happened and what the
  * rate was at the end. The last state is returned, unless an earlier one was better by more than
  * 5 % plus 0.001: smaller differences are within the error of such a sample. A hybrid is never
@@ -50,8 +50,8 @@ typedef enum hnbrdf_fit_loss {
 
 /* The learning rate from its peak to the end, after 100 steps of warm-up. */
 typedef enum hnbrdf_fit_schedule {
-    HNBRDF_FIT_COSINE = 0, /* half a cosine down to 1 % */
-    HNBRDF_FIT_LINEAR,     /* a line down to 1 % */
+    HNBRDF_FIT_COSINE = 0, /* half a cosine down to 0.01 % */
+    HNBRDF_FIT_LINEAR,     /* a line down to 0.01 % */
     HNBRDF_FIT_CONSTANT
 } hnbrdf_fit_schedule;
 
@@ -155,7 +155,9 @@ typedef struct hnbrdf_fit_options {
     /* bytes of pairs, 72 each, that this process keeps; those of further materials are drawn again
      * whenever they are wanted: the same model, later. 0: no limit */
     size_t memory;
-    /* Adam's peak rate; 0 stands for 6e-2 min(1, 64/(HN)), HxN the network */
+    /* The peak rate of the latent codes, by Adam (Kingma and Ba 2015); the network's weights take
+     * twice that, by Adam in the eigenbases of their gradients (SOAP, Vyas et al. 2024). 0 stands
+     * for 6e-2 min(1, 64/(HN)), HxN the network */
     float learning_rate;
     hnbrdf_fit_loss loss;
     hnbrdf_fit_schedule schedule;
@@ -203,7 +205,9 @@ typedef struct hnbrdf_fit_times {
     double ggx;      /* the GGX fits */
     double encoding; /* what the network sees, and f_a where it is frozen */
     double network;  /* forward and backward passes */
-    double update;   /* choice of pairs, sum of the gradients, Adam, checkpoints: on one thread */
+    /* steps of the weights, on as many threads as there are layers; choice of pairs, sum of the
+     * gradients, steps of the codes, checkpoints, on one */
+    double update;
     double exchange; /* talking to other ranks and waiting for them: elapsed, of one thread */
     /* threads times elapsed time less all of these: idle, or taken by other programs */
     double waiting;
@@ -230,7 +234,7 @@ typedef struct hnbrdf_fit_report {
      * of the training pairs, SMAPE unless HNBRDF_FIT_LOG is minimised. */
     /* times that training had diverged and was set back to the best state before */
     int set_backs;
-    double rate; /* Adam's peak rate at the end: learning_rate times 0.3 for each of them */
+    double rate; /* the peak rate at the end: learning_rate times 0.3 for each of them */
     /* the step whose state was returned: `steps`, or an earlier one that was better by more than
      * 5 % plus 0.001 */
     long best_step;

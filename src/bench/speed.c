@@ -20,7 +20,7 @@ static void list_parts(const hnbrdf_fit_times *t, part parts[PARTS])
         {"ggx", "fitting GGX", t->ggx},
         {"encoding", "encoding", t->encoding},
         {"network", "forward and backward", t->network},
-        {"update", "gradient sum, Adam", t->update},
+        {"update", "gradient sum, steps", t->update},
         {"exchange", "talking to other processes", t->exchange},
         {"waiting", "waiting or other programs", t->waiting},
     };

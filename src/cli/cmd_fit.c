@@ -313,13 +313,14 @@ int cmd_fit(int argc, char **argv)
          "keep so much of pairs, 72 bytes each, in a process; the others are drawn again when they "
          "are wanted: the same model, later (default: keep all, 1.25 GB unless --pool is given)"},
         {"rate", 0, CLI_REAL, &rate, 1e-7, 10, "R",
-         "peak learning rate of Adam (default 0.06; beyond 64 hidden units in all, in inverse "
+         "peak learning rate, of the network's weights twice that (default 0.06; beyond 64 hidden "
+         "units in all, in inverse "
          "proportion to them)"},
         {"loss", 0, CLI_WORD, &loss, 0, 0, "NAME",
          "log-to-smape: log-L1 that turns into SMAPE between 30 and 70 %; log; smape (default the "
          "first)"},
         {"schedule", 0, CLI_WORD, &schedule, 0, 0, "NAME",
-         "of the rate: cosine or linear down to 1 %, or constant (default cosine)"},
+         "of the rate: cosine or linear down to 0.01 %, or constant (default cosine)"},
         {"uniform-share", 0, CLI_REAL, &uniform_share, 0, 1, "S",
          "of the other pairs, drawn uniformly, the rest on MERL's grid (default 0.667)"},
         {"bright-share", 0, CLI_REAL, &bright_share, 0, 1, "S",

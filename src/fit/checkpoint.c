@@ -24,7 +24,7 @@ typedef struct header {
     double best_loss;
 } header;
 
-static const char magic[16] = "hnbrdf-fit/2";
+static const char magic[16] = "hnbrdf-fit/3";
 
 static uint64_t hash_number(uint64_t h, double value)
 {
@@ -70,15 +70,16 @@ typedef struct block {
     size_t size;
 } block;
 
-enum { BLOCKS = 4 };
-#define BLOCKS_OF(t)                                                 \
-    {                                                                \
-        {(t)->parameters, 3 * (t)->layout.count * sizeof(float)},    \
-            {(t)->best, (t)->layout.count * sizeof(float)},          \
-            {(t)->schedule.order, (size_t)(t)->count * sizeof(int)}, \
-        {                                                            \
-            (t)->schedule.cursor, (size_t)(t)->count * sizeof(int)   \
-        }                                                            \
+enum { BLOCKS = 5 };
+#define BLOCKS_OF(t)                                                  \
+    {                                                                 \
+        {(t)->parameters, 3 * (t)->layout.count * sizeof(float)},     \
+            {(t)->best, (t)->layout.count * sizeof(float)},           \
+            {(t)->schedule.order, (size_t)(t)->count * sizeof(int)},  \
+            {(t)->schedule.cursor, (size_t)(t)->count * sizeof(int)}, \
+        {                                                             \
+            (t)->soap.state, (t)->soap.state_count * sizeof(float)    \
+        }                                                             \
     }
 
 /* One pass over all blocks of the file, reading or writing. */
@@ -144,6 +145,8 @@ static int is_sound(const trainer *t, const header *h)
                 t->schedule.cursor[m] >= 0 && t->schedule.cursor[m] < t->pool.tiles;
     for (size_t i = 0; i < t->layout.count; i++)
         good &= isfinite(t->best[i]) != 0;
+    for (size_t i = 0; i < t->soap.state_count; i++)
+        good &= isfinite(t->soap.state[i]) != 0;
     return good && numbers_are_sound(t->parameters, t->layout.count);
 }
 

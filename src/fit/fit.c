@@ -125,7 +125,7 @@ static int allocate(trainer *t)
     t->derived = calloc(l->derived_count + 1, sizeof(float));
     t->scratch = calloc(threads * l->scratch_count + 1, sizeof(float));
     t->moments = t->parameters ? t->parameters + l->count : NULL;
-    return allocate_pool(t) && hnbrdf_fit_sums_make(t) &&
+    return allocate_pool(t) && hnbrdf_fit_sums_make(t) && hnbrdf_fit_soap_make(&t->soap, l) &&
            hnbrdf_fit_schedule_start(&t->schedule, t->count, t->pool.tiles, t->options.seed) &&
            t->found && t->drawn && t->parameters && t->best && t->gradient && t->derived &&
            t->scratch;
@@ -136,6 +136,7 @@ static void release(trainer *t)
     hnbrdf_threads_stop(t->workers);
     hnbrdf_fit_supply_free(t);
     hnbrdf_fit_sums_free(t);
+    hnbrdf_fit_soap_free(&t->soap);
     hnbrdf_fit_schedule_free(&t->schedule);
     void *all[] = {t->pool.data, t->pool.sources, t->room,     t->owner,   t->held,
                    t->at,        t->known,        t->found,    t->drawn,   t->encoded,

@@ -1,7 +1,7 @@
 /* kernel.h: forward and backward pass over one tile of pairs, the arithmetic of the trainer.
  *
  * A tile is FIT_TILE direction pairs of one material. Parameters lie in one flat array (layout
- * below), gradients in another of the same layout, so that a step of Adam is one loop. Hidden
+ * below), gradients in another of the same layout, so that a sum is one loop. Hidden
  * layers are padded to a multiple of FIT_LANES units; padding is zero and stays zero.
  *
  * Every sum has one fixed order whatever the vector width: over inputs in index order, over pairs

@@ -1,4 +1,5 @@
-/* train.c: the network stage: Adam on the shared network and the latent codes, in fixed chunks. */
+/* train.c: the network stage: SOAP on the shared network, Adam on the latent codes, in fixed
+ * chunks. */
 #include "fit/trainer.h"
 
 #include "base/clock.h"
@@ -11,11 +12,13 @@
 #include <string.h>
 
 enum {
-    WARM_UP = 100,  /* steps */
-    LOG_EVERY = 100 /* steps between entries of a log */
+    WARM_UP = 100,   /* steps */
+    LOG_EVERY = 100, /* steps between entries of a log */
+    SHARED_STEPS = 4 /* threads from which on they share a step's layers; fewer lose by meeting */
 };
-#define LAST_RATE 0.01 /* schedules that fall end at this share of the peak rate */
+#define LAST_RATE 1e-4 /* schedules that fall end at this share of the peak rate */
 #define CHECKPOINT_SECONDS 30.0
+#define NETWORK_RATE 2.0 /* of the network's weights, in the rate of the rest */
 
 static float uniform(hnbrdf_rng *rng, double deviation)
 {
@@ -163,12 +166,38 @@ static float mix_now(const trainer *t)
     return t->options.loss == HNBRDF_FIT_SMAPE ? 1.0f : 0.0f;
 }
 
-/* One step of Adam. It leaves finite numbers: Adam passes over gradients beyond 1e18, so its
- * moments are floats. */
+static void step_layer(void *context, int k, int worker)
+{
+    trainer *t = context;
+    (void)worker;
+    hnbrdf_fit_soap_step(&t->soap, k, t->parameters, t->gradient, t->moments,
+                         t->moments + t->layout.count, t->step - t->since,
+                         NETWORK_RATE * rate_now(t));
+}
+
+/* One step: of the network, unless it is frozen, and of what the materials have of their own. It
+ * leaves finite numbers: gradients beyond 1e17 or 1e18 are passed over, so that moments are
+ * floats. */
+static void take_step(trainer *t)
+{
+    const size_t at = t->options.freeze ? 0 : t->layout.network_count;
+    if (!t->options.freeze) {
+        const double before = hnbrdf_threads_busy(t->workers);
+        if (hnbrdf_threads_count(t->workers) < SHARED_STEPS)
+            for (int k = 0; k < t->soap.count; k++)
+                step_layer(t, k, 0);
+        else
+            hnbrdf_threads_run(t->workers, t->soap.count, step_layer, t);
+        t->stepping += hnbrdf_threads_busy(t->workers) - before;
+    }
+    hnbrdf_fit_adam(t->parameters + at, t->gradient + at, t->moments + at,
+                    t->moments + t->layout.count + at, hnbrdf_fit_trained(&t->layout) - at,
+                    t->step - t->since, rate_now(t));
+}
+
 static void advance(trainer *t, double loss)
 {
-    hnbrdf_fit_adam(t->parameters, t->gradient, t->moments, t->moments + t->layout.count,
-                    hnbrdf_fit_trained(&t->layout), t->step - t->since, rate_now(t));
+    take_step(t);
     if (t->layout.train_analytic)
         settle_analytic(t);
     t->running = isfinite(t->running) ? 0.98 * t->running + 0.02 * loss : loss;
@@ -287,10 +316,11 @@ hnbrdf_result hnbrdf_fit_train(trainer *t, hnbrdf_fit_report *report, hnbrdf_err
     report->pairs = pairs;
     report->flops = pairs * hnbrdf_fit_pair_flops(&t->layout);
     report->times.drawing += t->redrawing;
-    report->times.network = hnbrdf_threads_busy(t->workers) - busy_before - t->redrawing;
+    report->times.network =
+        hnbrdf_threads_busy(t->workers) - busy_before - t->redrawing - t->stepping;
     /* of this thread; it waits for others awake */
     report->times.update =
-        fmax(0.0, hnbrdf_thread_seconds() - hnbrdf_threads_busy_here(t->workers) - alone_before -
-                      (t->exchange - exchange_before));
+        t->stepping + fmax(0.0, hnbrdf_thread_seconds() - hnbrdf_threads_busy_here(t->workers) -
+                                    alone_before - (t->exchange - exchange_before));
     return HNBRDF_OK;
 }

@@ -7,6 +7,7 @@
 #include "fit/pool.h"
 #include "fit/schedule.h"
 #include "fit/share.h"
+#include "fit/soap.h"
 #include "hnbrdf/fit.h"
 
 #include <stdatomic.h>
@@ -51,7 +52,8 @@ typedef struct trainer {
     float *room;               /* [threads][FIT_GGX_TILES] where some are not kept */
     /* [layout.count], twice for the moments, which follow on */
     float *parameters, *moments, *gradient;
-    float *best; /* parameters of the best state so far */
+    float *best;   /* parameters of the best state so far */
+    fit_soap soap; /* of the network; a frozen one has no use for it */
     float *derived, *scratch;
     /* A step: which tiles, where those of this rank lie, what comes of them (gradient.c). */
     fit_share shares;
@@ -62,6 +64,7 @@ typedef struct trainer {
     float mix;
     struct fit_supply *supply; /* where tiles come from (supply.c) */
     double redrawing;          /* processor seconds of it */
+    double stepping;           /* of SOAP's steps */
     /* State of the network stage besides the arrays: what a checkpoint holds. */
     fit_schedule schedule; /* of the step to come */
     long step, since; /* since: where it was last set back, or 0: Adam and warm-up start there */
