@@ -5,11 +5,17 @@
 #
 # DATA as for `hnbrdf fit`; quote several: "rgl=measured/rgl". STEPS (default 16000) and SEEDS (default "1") set how long
 # and how often each one is trained, NET (default 32x2) the network, CHANGES which of them, by name; PAIRS (default 200000)
-# a material for SMAPE and SIZE (default 64) of the spheres for PSNR, how closely they are measured.
+# a material for SMAPE and SIZE (default 64) of the spheres for PSNR, how closely they are measured. Where `neural` is among
+# CHANGES, a row more compares it with the default. The table of three seeds, hybrid and neural at equal steps:
+#
+#   TRIAL=1 sh examples/recipe.sh rgl=measured/rgl standins=standins
 set -eu
 hnbrdf=${HNBRDF:-$(dirname "$0")/../build/hnbrdf}
-steps=${STEPS:-16000} seeds=${SEEDS:-1} net=${NET:-32x2}
-pairs=${PAIRS:-200000} size=${SIZE:-64}
+if [ -n "${TRIAL:-}" ]; then
+    steps=${STEPS:-40000} seeds=${SEEDS:-1 2 3} pairs=${PAIRS:-30000} CHANGES=${CHANGES:-neural}
+fi
+steps=${steps:-${STEPS:-16000}} seeds=${seeds:-${SEEDS:-1}} net=${NET:-32x2}
+pairs=${pairs:-${PAIRS:-200000}} size=${SIZE:-64}
 [ $# -gt 0 ] || set -- builtin=builtin
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -46,34 +52,44 @@ mean_of() {
     tail -n 1 "$1" | cut -d, -f"${2:-2}"
 }
 
-# measure CHANGE DATA SEED: "grid uniform psnr analytic" of a model fitted with this change.
+# measure CHANGE DATA SEED: "uniform cosine grid psnr analytic alone" of a model fitted with this change; alone: how many
+# materials are left to GGX.
 measure() {
     # shellcheck disable=SC2046,SC2086 # options and DATA are several words
     {
         $hnbrdf fit $2 --net "$net" --seed "$3" $(options "$1") -o "$work/m.safetensors"
-        $hnbrdf compare "$work/m.safetensors" $2 --sampler grid --pairs "$pairs" --csv "$work/grid.csv"
-        $hnbrdf compare "$work/m.safetensors" $2 --sampler uniform --pairs "$pairs" --csv "$work/uniform.csv"
+        for sampler in uniform cosine grid; do
+            $hnbrdf compare "$work/m.safetensors" $2 --sampler $sampler --pairs "$pairs" --csv "$work/$sampler.csv"
+        done
         $hnbrdf sheet "$work/m.safetensors" $2 --size "$size" -o "$work/sheet.png"
-    } > "$work/log"
+    } > "$work/log" 2> "$work/notes" || { cat "$work/notes" >&2 && exit 1; }
     psnr=$(awk '/PSNR/ { reading = 1; next } reading && NF >= 3 && $NF + 0 > 0 { sum += $NF; n++ }
                 END { print sum / n }' "$work/log")
-    echo "$(mean_of "$work/grid.csv") $(mean_of "$work/uniform.csv") $psnr $(mean_of "$work/grid.csv" 3)"
+    alone=$(grep -c "worse than GGX alone" "$work/notes" || true)
+    echo "$(mean_of "$work/uniform.csv") $(mean_of "$work/cosine.csv") $(mean_of "$work/grid.csv") $psnr" \
+        "$(mean_of "$work/grid.csv" 3) $alone"
 }
 
 cat << END
 Networks of $net, l = 4, $steps steps of 2048 pairs or as many pairs, seeds $seeds (mean over them); SMAPE over $pairs
 pairs a material (0 is perfect, 2 the worst), PSNR in dB of spheres under the built-in sky, $size pixels wide, 32 samples a
-pixel; analytic: SMAPE (grid) of the model's GGX part alone. Written by \`STEPS=$steps SEEDS="$seeds"
+pixel; analytic: SMAPE (grid) of the model's GGX part alone; left: materials that are left to GGX, of all seeds. Written by \`STEPS=$steps SEEDS="$seeds"
 PAIRS=$pairs SIZE=$size sh examples/recipe.sh\` with the data named below.
 END
 for set in "$@"; do
-    printf '\n## %s\n\n| change | SMAPE grid | SMAPE uniform | PSNR | analytic |\n|---|---|---|---|---|\n' "${set%%=*}"
+    printf '\n## %s\n\n| change | SMAPE uniform | cosine | grid | PSNR | analytic | left |\n|---|---|---|---|---|---|---|\n' "${set%%=*}"
+    : > "$work/means"
     for change in default $changes; do
         options "$change" > "$work/options"
         for seed in $seeds; do
             measure "$change" "${set#*=}" "$seed"
         done > "$work/rows"
-        awk -v c="$change" '{ g += $1; u += $2; p += $3; a += $4 }
-            END { printf "| %s | %.4f | %.4f | %.2f | %.4f |\n", c, g / NR, u / NR, p / NR, a / NR }' "$work/rows"
+        awk -v c="$change" '{ u += $1; o += $2; g += $3; p += $4; a += $5; l += $6 }
+            END { print c, u / NR, o / NR, g / NR, p / NR, a / NR, l }' "$work/rows" | tee -a "$work/means" |
+            awk '{ printf "| %s | %.4f | %.4f | %.4f | %.2f | %.4f | %d |\n", $1, $2, $3, $4, $5, $6, $7 }'
     done
+    awk '{ for (k = 2; k <= 5; k++) of[$1, k] = $k; has[$1] = 1 }
+        END { if (has["neural"]) printf "| default beside neural | %.3f | %.3f | %.3f | %+.2f | | |\n",
+                  of["default", 2] / of["neural", 2], of["default", 3] / of["neural", 3],
+                  of["default", 4] / of["neural", 4], of["default", 5] - of["neural", 5] }' "$work/means"
 done
