@@ -519,6 +519,7 @@ static void options_of_0_stand_for_their_defaults(void **state)
     o.batch = 2048;
     o.learning_rate = 6e-2f;
     o.uniform_share = 0.667f;
+    o.horizon_share = 0.03f;
     o.bright_share = 0.25f;
     o.lift = 1.0f;
     o.encoding = "angles";

@@ -501,6 +501,8 @@ static void bad_options_are_refused_with_a_message(void **state)
         {{.bright_share = -0.1f}, "shares"},
         {{.bright_share = 1.1f}, "shares"},
         {{.bright_share = 0.5f, .bright_none = 1}, "bright_share is 0.5 and bright_none is"},
+        {{.horizon_share = 1.1f}, "shares"},
+        {{.horizon_share = 0.5f, .horizon_none = 1}, "horizon_share is 0.5 and horizon_none is"},
         {{.lift = -0.1f}, "lift"},
         {{.lift = 1.1f}, "lift"},
         {{.lift = 0.5f, .lift_none = 1}, "lift is 0.5 and lift_none is"},

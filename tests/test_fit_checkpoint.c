@@ -272,6 +272,9 @@ static void change_option(hnbrdf_fit_options *o, int k)
     case 17:
         o->lift = 0.5f;
         break;
+    case 18:
+        o->horizon_share = 0.5f;
+        break;
     default:
         o->materials = NULL;
         break;

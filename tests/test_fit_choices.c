@@ -144,7 +144,7 @@ static void pairs_are_drawn_from_both_samplers_in_the_share_asked_for(void **sta
         o.pool = 16384;
         o.uniform_share = shares[k];
         o.uniform_none = k == 5;
-        o.bright_none = 1;
+        o.horizon_none = o.bright_none = 1;
         o.drawn = &drawn;
         assert_int_equal(
             hnbrdf_fit((const hnbrdf_measured *const *)&data, 1, &o, &model, NULL, NULL),
@@ -374,7 +374,7 @@ static void search_of_diffuse_and_reflectance_finds_what_descent_misses(void **s
             hnbrdf_fit_options o = tiny(NULL);
             o.kind = HNBRDF_KIND_GGX;
             o.pool = 16384;
-            o.bright_none = 1;
+            o.horizon_none = o.bright_none = 1;
             o.search = &search;
             o.seed = 0;
             assert_int_equal(hnbrdf_measured_open_builtin(i, &data, NULL), HNBRDF_OK);

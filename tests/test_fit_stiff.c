@@ -320,7 +320,9 @@ static void wild_samples_do_not_pull(void **state)
         outcome r = fit_source(&s, &truth, &o);
         assert_true(r.smape <= GGX_BOUND);
         assert_true(fabs(r.drawn.valid - valid[k]) < 0.015);
-        assert_true(s.trouble == OUTLIERS ? r.drawn.cut > 0.0 && r.drawn.cut < 0.0025
+        /* one of 8 candidates of a bright pair is enough: 0.25 0.008 + 0.75 0.001 = 0.0027, and
+         * three deviations */
+        assert_true(s.trouble == OUTLIERS ? r.drawn.cut > 0.0 && r.drawn.cut < 0.0052
                                           : r.drawn.cut == 0.0);
     }
     source s = truth;

@@ -161,7 +161,13 @@ typedef struct hnbrdf_fit_options {
     float learning_rate;
     hnbrdf_fit_loss loss;
     hnbrdf_fit_schedule schedule;
-    /* of the pairs, drawn where a picture of the material is bright, about in proportion to
+    /* of the pairs, drawn within 6 degrees of the horizon, down to 0.57 degrees, as measurements
+     * end earlier: f is that of the nearest measurement. And all pairs within 11 degrees of it
+     * are multiplied by what keeps the albedo of the data below 1 there: readers go on beyond
+     * the last sample without end. At most 1; 0 stands for 0.03 */
+    float horizon_share;
+    int horizon_none; /* 1: neither; data as they are read */
+    /* of the other pairs, drawn where a picture of the material is bright, about in proportion to
      * f wi.z wo.z; at most 1; 0 stands for 0.25 */
     float bright_share;
     int bright_none; /* 1: no such pairs */

@@ -284,7 +284,7 @@ int cmd_fit(int argc, char **argv)
     cli_word analytic = {HNBRDF_FIT_FAITHFUL, cli_analytic_word};
     cli_word loss = {HNBRDF_FIT_LOG_TO_SMAPE, cli_loss_word};
     cli_word schedule = {HNBRDF_FIT_COSINE, cli_schedule_word};
-    double uniform_share = 0.667, bright_share = 0.25, lift = 1.0;
+    double uniform_share = 0.667, bright_share = 0.25, horizon_share = 0.03, lift = 1.0;
     int net[2] = {0, 0};
     long latent = 0, steps = 0, seed = 1, threads = 0, batch = 0, pool = 0;
     double seconds = 0.0, floor = 0.003, rate = 0.0, memory = 0.0;
@@ -322,9 +322,12 @@ int cmd_fit(int argc, char **argv)
         {"schedule", 0, CLI_WORD, &schedule, 0, 0, "NAME",
          "of the rate: cosine or linear down to 0.01 %, or constant (default cosine)"},
         {"uniform-share", 0, CLI_REAL, &uniform_share, 0, 1, "S",
-         "of the other pairs, drawn uniformly, the rest on MERL's grid (default 0.667)"},
+         "of the rest, drawn uniformly, the rest on MERL's grid (default 0.667)"},
+        {"horizon-share", 0, CLI_REAL, &horizon_share, 0, 1, "S",
+         "of the pairs, drawn near the horizon, beyond what was measured, where all are held to an "
+         "albedo below 1; 0: the data as they are read (default 0.03)"},
         {"bright-share", 0, CLI_REAL, &bright_share, 0, 1, "S",
-         "of the pairs, drawn where a picture of the material is bright (default 0.25)"},
+         "of the other pairs, drawn where a picture of the material is bright (default 0.25)"},
         {"lift", 0, CLI_REAL, &lift, 0, 1, "L",
          "how strongly the correction is pulled up where GGX is too low: as if it were at least L "
          "of GGX; 0: the plain gradient (default 1)"},
@@ -379,6 +382,8 @@ int cmd_fit(int argc, char **argv)
     j.fit.schedule = (hnbrdf_fit_schedule)schedule.value;
     j.fit.uniform_share = (float)uniform_share;
     j.fit.uniform_none = j.fit.uniform_share == 0.0f;
+    j.fit.horizon_share = (float)horizon_share;
+    j.fit.horizon_none = j.fit.horizon_share == 0.0f;
     j.fit.bright_share = (float)bright_share;
     j.fit.bright_none = j.fit.bright_share == 0.0f;
     j.fit.lift = (float)lift;

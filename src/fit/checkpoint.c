@@ -53,6 +53,7 @@ static uint64_t fingerprint(const trainer *t)
                               o->loss,
                               o->schedule,
                               (double)o->uniform_share,
+                              (double)o->horizon_share,
                               (double)o->bright_share,
                               (double)o->lift,
                               o->materials != NULL};

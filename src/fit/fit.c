@@ -289,6 +289,7 @@ static hnbrdf_result set_up(trainer *t, hnbrdf_error *error)
                                       t->ranks.size, hnbrdf_threads_count(t->workers));
     t->pool.tiles = (o->pool + FIT_TILE - 1) / FIT_TILE;
     t->pool.tiles = t->pool.tiles > 0 ? t->pool.tiles : 1;
+    t->pool.horizon_share = o->horizon_share;
     t->pool.bright_share = o->bright_share;
     t->pool.uniform_share = o->uniform_share;
     t->pool.seed = o->seed;

@@ -45,6 +45,7 @@ static uint64_t hash_options(const trainer *t)
                               o->loss,
                               o->schedule,
                               (double)o->uniform_share,
+                              (double)o->horizon_share,
                               (double)o->bright_share,
                               (double)o->lift,
                               (double)o->seed,

@@ -21,6 +21,7 @@ enum {
 #define DEFAULT_FLOOR 0.003f
 #define DEFAULT_UNIFORM_SHARE 0.667f
 #define DEFAULT_BRIGHT_SHARE 0.25f
+#define DEFAULT_HORIZON_SHARE 0.03f
 #define DEFAULT_LIFT 1.0f
 #define POOL_LIMIT 1.25e9 /* bytes of training data; beyond, fewer pairs a material */
 
@@ -64,6 +65,7 @@ static hnbrdf_result check_flags(const hnbrdf_fit_options *o, hnbrdf_error *erro
                  {"floor", "floor_none", (double)o->floor, o->floor_none},
                  {"uniform_share", "uniform_none", (double)o->uniform_share, o->uniform_none},
                  {"bright_share", "bright_none", (double)o->bright_share, o->bright_none},
+                 {"horizon_share", "horizon_none", (double)o->horizon_share, o->horizon_none},
                  {"lift", "lift_none", (double)o->lift, o->lift_none}};
     hnbrdf_encoding encoding;
     for (size_t k = 0; k < sizeof pairs / sizeof pairs[0]; k++)
@@ -105,6 +107,8 @@ hnbrdf_result hnbrdf_fit_fill_options(hnbrdf_fit_options *o, int count, hnbrdf_e
         o->uniform_share = DEFAULT_UNIFORM_SHARE;
     if (o->bright_share == 0.0f && !o->bright_none)
         o->bright_share = DEFAULT_BRIGHT_SHARE;
+    if (o->horizon_share == 0.0f && !o->horizon_none)
+        o->horizon_share = DEFAULT_HORIZON_SHARE;
     if (o->lift == 0.0f && !o->lift_none)
         o->lift = DEFAULT_LIFT;
     if (o->hidden < 1 || o->hidden > HNBRDF_MAX_HIDDEN || o->layers < 1 ||
@@ -120,6 +124,7 @@ hnbrdf_result hnbrdf_fit_fill_options(hnbrdf_fit_options *o, int count, hnbrdf_e
         !(o->floor >= 0.0f && o->floor < 1.0f) ||
         !(o->uniform_share >= 0.0f && o->uniform_share <= 1.0f) ||
         !(o->bright_share >= 0.0f && o->bright_share <= 1.0f) ||
+        !(o->horizon_share >= 0.0f && o->horizon_share <= 1.0f) ||
         !(o->lift >= 0.0f && o->lift <= 1.0f) || (unsigned)o->loss > HNBRDF_FIT_SMAPE ||
         (unsigned)o->schedule > HNBRDF_FIT_CONSTANT || !hnbrdf_kind_name(o->kind))
         return hnbrdf_fail(

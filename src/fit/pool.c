@@ -64,9 +64,13 @@ static int is_turn(double k, double share)
 static int draw_pair(const fit_pool *pool, const fit_source *source, double k, drawing *d,
                      float wi[3], float wo[3], float f[3])
 {
-    const double bright = (double)pool->bright_share, others = k - floor(bright * k);
+    const double low = (double)pool->horizon_share, above = k - floor(low * k);
+    const double bright = (double)pool->bright_share, others = above - floor(bright * above);
     int valid;
-    if (is_turn(k, bright)) {
+    if (is_turn(k, low)) {
+        valid = hnbrdf_fit_horizon_draw(&source->horizon, source->measured, &d->rng, wi, wo, f);
+        d->looked++;
+    } else if (is_turn(above, bright)) {
         valid = hnbrdf_fit_bright_draw(source->measured, &d->rng, wi, wo, f);
         d->looked += FIT_BRIGHT_CANDIDATES;
     } else {
@@ -77,6 +81,8 @@ static int draw_pair(const fit_pool *pool, const fit_source *source, double k, d
         d->looked++;
     }
     d->valid += valid;
+    if (valid && pool->horizon_share > 0.0f)
+        hnbrdf_fit_horizon_hold(&source->horizon, wi, wo, f);
     return valid;
 }
 
@@ -97,11 +103,13 @@ static int draw_tile(const fit_pool *pool, const fit_source *source, int index, 
 
 int hnbrdf_fit_pool_draw(const fit_pool *pool, int at, hnbrdf_fit_drawn *drawn)
 {
-    const fit_source *source = &pool->sources[at];
+    fit_source *source = &pool->sources[at];
     const long pairs = (long)pool->tiles * FIT_TILE;
     float room[FIT_POOL_TILE];
     drawing d = {.most = 100 * pairs};
     hnbrdf_rng_seed(&d.rng, pool->seed, source->sequence);
+    if (pool->horizon_share > 0.0f)
+        hnbrdf_fit_horizon_make(source->measured, &source->horizon);
     for (int t = 0; t < pool->tiles; t++) {
         int done = draw_tile(pool, source, t, &d, at < pool->kept ? kept_tile(pool, at, t) : room);
         if (done < FIT_TILE) {

@@ -7,6 +7,7 @@
 #ifndef HNBRDF_FIT_POOL_H
 #define HNBRDF_FIT_POOL_H
 
+#include "fit/horizon.h"
 #include "fit/kernel.h"
 #include "hnbrdf/fit.h"
 
@@ -24,6 +25,7 @@ enum {
 /* One material held. */
 typedef struct fit_source {
     const hnbrdf_measured *measured;
+    fit_horizon horizon;    /* set when its tiles are first drawn */
     uint64_t sequence;      /* of its random numbers: its number among the materials of all */
     hnbrdf_material fitted; /* whose frame and f_a the tiles are encoded with */
     hnbrdf_rng rng;         /* of one that is not kept: before tile `next` */
@@ -34,7 +36,7 @@ typedef struct fit_pool {
     float *data; /* [kept][tiles][FIT_POOL_TILE] */
     int kept;    /* of the materials held, the first ones */
     int tiles;   /* per material */
-    float bright_share, uniform_share;
+    float horizon_share, bright_share, uniform_share;
     uint64_t seed;
     hnbrdf_encoding encoding;
     fit_source *sources; /* [held] */
@@ -48,10 +50,11 @@ fit_tile hnbrdf_fit_tile_view(const float *tile);
 /* The same of a material that is kept. */
 fit_tile hnbrdf_fit_pool_view(const fit_pool *pool, int at, int tile);
 
-/* Draw all tiles of material `at` of those held, bright_share of the pairs where it is bright,
- * uniform_share of the others by the uniform sampler;
- * depends on (seed, sequence) only. 0 if less than 1 % of the drawn pairs were valid
- * measurements, 1 otherwise. drawn says what was found. */
+/* Draw all tiles of material `at` of those held, horizon_share of the pairs near the horizon, where
+ * all are held to an albedo of at most 1 (unless that is 0); bright_share of the others where it is
+ * bright, uniform_share of the rest by the uniform sampler; depends on (seed, sequence) only. 0
+ * if less than 1 % of the drawn pairs were valid measurements, 1 otherwise. drawn says what was
+ * found. */
 int hnbrdf_fit_pool_draw(const fit_pool *pool, int at, hnbrdf_fit_drawn *drawn);
 
 /* The first tiles of it as a pool of one material: those kept, or drawn into `room`, which has

@@ -29,14 +29,14 @@ def fit(data: Union[Measured, Sequence[Measured]], *, kind: str = "hybrid", net:
         **numbers: Any) -> tuple[Model, dict[str, Any]]:
     """One model of all these materials, and hnbrdf_fit_report as a dict.
 
-    numbers: steps, seconds, batch, pool, learning_rate, bright_share, uniform_share, lift, seed
-    and threads, as in hnbrdf_fit_options; what is left out is the default of the library. latent=0
+    numbers: steps, seconds, batch, pool, learning_rate, horizon_share, bright_share, uniform_share,
+    lift, seed and threads, as in hnbrdf_fit_options; what is left out is the default of the library. latent=0
     and floor=0 ask for none. progress is called ten times a second; when it returns something true, or Ctrl-C is
     pressed, training ends (the latter raises KeyboardInterrupt). Bits depend on data, options and
     seed alone."""
     data = [data] if isinstance(data, Measured) else list(data)
-    allowed = {"steps", "seconds", "batch", "pool", "learning_rate", "bright_share",
-               "uniform_share", "lift", "seed", "threads"}
+    allowed = {"steps", "seconds", "batch", "pool", "learning_rate", "horizon_share",
+               "bright_share", "uniform_share", "lift", "seed", "threads"}
     if set(numbers) - allowed:
         raise TypeError(f"no option {', '.join(sorted(set(numbers) - allowed))}, expected one of "
                         f"{', '.join(sorted(allowed))}")
