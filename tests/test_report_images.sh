@@ -91,6 +91,14 @@ for name in ggx hybrid-8x1-l4; do
         '{ d = $6 / mae - 1; e = $12 / flip - 1; exit d * d > 1e-10 || e * e > 1e-8 }' ||
         fail "$name: compare --images says $mae, FLIP $flip"
 done
+# A report that ends early has the figures of what is done, and compares nothing.
+mkdir -p p/pictures/velvet-crimson-ggx.exr # no picture can be written there
+run "$HNBRDF" report images $materials $small --spp $samples --from r -o p
+[ "$rc" -eq 1 ] && grep -q '1 of 2 materials done' p/images.md && [ "$(wc -l <p/images.csv)" -eq 5 ] ||
+    fail "a report that ended early: exit $rc"
+grep -q '^| hybrid-8x1-l4 | .* +- .* |$' p/images.md && ! grep -q '[+-][0-9.]* +- [0-9.]*, [0-9]* of' p/images.md ||
+    fail "an incomplete report names winners"
+grep -q '[+-][0-9.]* +- [0-9.]*, [0-9]* of 2 |' s/images.md || fail "a complete one names none"
 rm s/pictures/velvet-crimson-reference.exr
 report -o s --from r --seed 2 --resume
 [ -s s/pictures/velvet-crimson-reference.exr ] || fail "--resume did not make a lost picture again"
