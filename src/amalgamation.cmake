@@ -15,6 +15,7 @@ endif()
 get_target_property(_sources hnbrdf_objects SOURCES)
 list(FILTER _sources EXCLUDE REGEX "src/core/kernel_")
 file(GLOB _kernels RELATIVE ${PROJECT_SOURCE_DIR} CONFIGURE_DEPENDS src/core/kernel_*.c)
+list(FILTER _kernels EXCLUDE REGEX "_fused") # one file has one way to round
 file(GLOB_RECURSE _headers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/*.h)
 list(TRANSFORM HNBRDF_PUBLIC_HEADERS PREPEND include/hnbrdf/ OUTPUT_VARIABLE _public)
 list(TRANSFORM _public APPEND .h)

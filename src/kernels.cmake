@@ -1,5 +1,6 @@
 # kernels.cmake: the evaluation and training kernels. One file an instruction set, compiled where
 # compiler and target know it, chosen at run time. They live from vectorisation, the plain ones too.
+# Those called fused round a product together with its sum, which no other file may.
 # Sets HNBRDF_VARIANT_SOURCES and HNBRDF_VARIANT_DEFINITIONS for libhnbrdf.
 include(CheckCSourceCompiles)
 include(CMakePushCheckState)
@@ -57,6 +58,10 @@ if(HNBRDF_WITH_VARIANTS AND NOT MSVC)
     hnbrdf_variant(avx2 "${_x86}" -mavx2 -mfpmath=sse)
     hnbrdf_variant(avx512 "${_x86}"
       -mavx512f -mavx512dq -mavx512vl -mprefer-vector-width=512 -mfpmath=sse)
+    hnbrdf_variant(avx2_fused "${_x86}" -mavx2 -mfma -mfpmath=sse -ffp-contract=fast)
+    hnbrdf_variant(avx512_fused "${_x86}" -mavx512f -mavx512dq -mavx512vl -mfma
+      -mprefer-vector-width=512 -mfpmath=sse -ffp-contract=fast)
   endif()
   hnbrdf_variant(neon "defined(__aarch64__)")
+  hnbrdf_variant(neon_fused "defined(__aarch64__)" -ffp-contract=fast)
 endif()

@@ -3,6 +3,8 @@ hnbrdf_test(test_oracle test_oracle.c core_support.c)
 target_link_libraries(hnbrdf_test_oracle PRIVATE hnbrdf_check)
 hnbrdf_test(test_stability test_stability.c core_support.c)
 target_link_libraries(hnbrdf_test_stability PRIVATE hnbrdf_check)
+hnbrdf_test(test_core_fused test_core_fused.c core_support.c)
+target_link_libraries(hnbrdf_test_core_fused PRIVATE hnbrdf_check)
 add_test(NAME test_stability_cli COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/test_stability_cli.sh
   $<TARGET_FILE:hnbrdf_cli> ${PROJECT_SOURCE_DIR}/examples/models/rgl_32x2.safetensors
   $<TARGET_FILE:hnbrdf_glsl_scenes>)

@@ -161,7 +161,8 @@ static void every_item_has_the_bits_of_the_single_call(void **state)
                                            models[m].layers, models[m].latent);
         fill(&r, &in);
         for (int v = HNBRDF_VARIANT_PLAIN; hnbrdf_variant_name((hnbrdf_variant)v); v++) {
-            if (!hnbrdf_variant_available((hnbrdf_variant)v))
+            if (!hnbrdf_variant_available((hnbrdf_variant)v) ||
+                !hnbrdf_variant_is_exact((hnbrdf_variant)v))
                 continue;
             hnbrdf_model *own = in_variant(model, (hnbrdf_variant)v);
             for (int k = 0; k < 6; k++)

@@ -155,7 +155,7 @@ static void files_of_version_0_1_keep_their_numbers_and_values(void **state)
 {
     (void)state;
     for (hnbrdf_variant v = HNBRDF_VARIANT_PLAIN; hnbrdf_variant_name(v); v++)
-        if (hnbrdf_variant_available(v))
+        if (hnbrdf_variant_available(v) && hnbrdf_variant_is_exact(v))
             assert_int_equal(check_all(v), 12);
 }
 

@@ -78,7 +78,7 @@ static void every_available_variant_is_used_when_asked_for(void **state)
 {
     (void)state;
     for (int m = 0; m < 2; m++)
-        for (int v = HNBRDF_VARIANT_PLAIN; v <= HNBRDF_VARIANT_NEON; v++) {
+        for (int v = HNBRDF_VARIANT_PLAIN; v <= HNBRDF_VARIANT_NEON_FUSED; v++) {
             hnbrdf_variant used = HNBRDF_VARIANT_AUTO;
             hnbrdf_error error = {""};
             hnbrdf_result result = makers[m]((hnbrdf_variant)v, &used, &error);
@@ -96,10 +96,11 @@ static void every_available_variant_is_used_when_asked_for(void **state)
 static void the_environment_has_no_say(void **state)
 {
     (void)state;
-    static const char *const values[] = {"plain", "", "no such variant"};
+    static const char *const values[] = {"plain", "avx2-fused", "no such variant"};
     hnbrdf_variant fastest = HNBRDF_VARIANT_AUTO, used = HNBRDF_VARIANT_AUTO;
     assert_int_equal(create(HNBRDF_VARIANT_AUTO, &fastest, NULL), HNBRDF_OK);
     assert_true(fastest != HNBRDF_VARIANT_AUTO && hnbrdf_variant_available(fastest));
+    assert_true(hnbrdf_variant_is_exact(fastest));
     for (int k = 0; k < 3; k++) {
         setenv("HNBRDF_VARIANT", values[k], 1);
         for (int m = 0; m < 2; m++) {
@@ -124,6 +125,8 @@ static void a_number_that_is_no_variant_is_an_error(void **state)
     assert_null(hnbrdf_variant_name((hnbrdf_variant)77));
     assert_null(hnbrdf_variant_name((hnbrdf_variant)-1));
     assert_int_equal(hnbrdf_variant_available((hnbrdf_variant)77), 0);
+    assert_int_equal(hnbrdf_variant_is_exact((hnbrdf_variant)77), 0);
+    assert_int_equal(hnbrdf_variant_is_exact(HNBRDF_VARIANT_AVX2_FUSED), 0);
 }
 
 static void every_name_leads_back(void **state)

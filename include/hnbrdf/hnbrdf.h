@@ -225,24 +225,38 @@ HNBRDF_API int hnbrdf_encoding_is_reciprocal(hnbrdf_encoding encoding);
 /* 1 if turning both directions about the normal changes what the network sees. */
 HNBRDF_API int hnbrdf_encoding_sees_azimuth(hnbrdf_encoding encoding);
 
-/* Which instructions evaluation uses. All give the same bits; only the time differs. Chosen once,
- * when a model is made: HNBRDF_VARIANT_AUTO takes the fastest that this machine runs. */
+/* Which instructions evaluation uses. All but the fused ones give the same bits; only the time
+ * differs. Chosen once, when a model is made: HNBRDF_VARIANT_AUTO takes the fastest exact one that
+ * this machine runs.
+ *
+ * The fused ones round a product together with the sum that it goes into. That is half of the
+ * instructions of a network, where the processor starts as many fused operations as others, and no
+ * larger an error; but the values differ by rounding from those of all other variants and of
+ * shaders, and between the calls for one pair, for batches and for many materials. A bound is
+ * derived for every pair of directions, and tested. They are used where they are asked for, never
+ * by AUTO. */
 typedef enum hnbrdf_variant {
     HNBRDF_VARIANT_AUTO = 0,
     HNBRDF_VARIANT_PLAIN, /* portable C, the reference; always there */
     HNBRDF_VARIANT_SSE2,
     HNBRDF_VARIANT_AVX2,
-    HNBRDF_VARIANT_AVX512, /* F, DQ and VL */
-    HNBRDF_VARIANT_NEON    /* 64-bit Arm */
+    HNBRDF_VARIANT_AVX512,     /* F, DQ and VL */
+    HNBRDF_VARIANT_NEON,       /* 64-bit Arm */
+    HNBRDF_VARIANT_AVX2_FUSED, /* AVX2 and FMA */
+    HNBRDF_VARIANT_AVX512_FUSED,
+    HNBRDF_VARIANT_NEON_FUSED
 } hnbrdf_variant;
 
-/* "auto", "plain", "sse2", "avx2", "avx512", "neon"; NULL for any other value. */
+/* "auto", "plain", "sse2", "avx2", "avx512", "neon", "avx2-fused", "avx512-fused", "neon-fused";
+ * NULL for any other value. */
 HNBRDF_API const char *hnbrdf_variant_name(hnbrdf_variant variant);
 /* The way back: 1 and *variant, or 0 for any other name, *variant untouched. */
 HNBRDF_API int hnbrdf_variant_from_name(const char *name, hnbrdf_variant *variant);
 /* 1 if this build holds the variant and this machine runs it (HNBRDF_VARIANT_AUTO: always), else
  * 0. */
 HNBRDF_API int hnbrdf_variant_available(hnbrdf_variant variant);
+/* 1 for variants that all give the same bits; 0 for the fused ones and any other value. */
+HNBRDF_API int hnbrdf_variant_is_exact(hnbrdf_variant variant);
 
 /* An immutable network with its materials. */
 typedef struct hnbrdf_model hnbrdf_model;

@@ -107,12 +107,20 @@ static int is_available(const peak_chains *chains)
     return chains->name != NULL;
 }
 
-/* By name, or the widest; NULL: none. */
+/* 1: `name` is that of a variant with these instructions, fused or not. */
+static int is_of(const peak_chains *chains, const char *name)
+{
+    size_t length = strlen(chains->name);
+    return strncmp(chains->name, name, length) == 0 &&
+           (name[length] == '\0' || strcmp(name + length, "-fused") == 0);
+}
+
+/* By the name of a variant, or the widest; NULL: none. */
 static const peak_chains *choose(const char *name)
 {
     const peak_chains *found = NULL;
     for (size_t k = 0; k < sizeof all_chains / sizeof all_chains[0]; k++)
-        if (is_available(&all_chains[k]) && (!name || strcmp(all_chains[k].name, name) == 0))
+        if (is_available(&all_chains[k]) && (!name || is_of(&all_chains[k], name)))
             found = &all_chains[k];
     return found;
 }

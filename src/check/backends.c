@@ -243,7 +243,8 @@ int stability_c_backends(stability_backend backends[STABILITY_C_BACKENDS])
     int count = 0;
     hnbrdf_variant fastest = HNBRDF_VARIANT_PLAIN;
     for (int v = HNBRDF_VARIANT_PLAIN; hnbrdf_variant_name((hnbrdf_variant)v); v++) {
-        if (!hnbrdf_variant_available((hnbrdf_variant)v))
+        if (!hnbrdf_variant_available((hnbrdf_variant)v) ||
+            !hnbrdf_variant_is_exact((hnbrdf_variant)v))
             continue;
         fastest = (hnbrdf_variant)v;
         for (int f = 0; f < FORMS; f++)

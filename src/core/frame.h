@@ -11,14 +11,19 @@ typedef struct hnbrdf_frame {
 } hnbrdf_frame;
 
 /* In double, rounded once: the exporter writes these same floats into the shader. */
-static inline hnbrdf_frame hnbrdf_frame_of(const hnbrdf_material *material)
+static inline hnbrdf_frame hnbrdf_frame_of_angle(float rotation)
 {
     hnbrdf_frame frame = {1.0f, 0.0f};
-    if (material->rotation != 0.0f && isfinite(material->rotation)) {
-        frame.cosine = (float)cos((double)material->rotation);
-        frame.sine = (float)sin((double)material->rotation);
+    if (rotation != 0.0f && isfinite(rotation)) {
+        frame.cosine = (float)cos((double)rotation);
+        frame.sine = (float)sin((double)rotation);
     }
     return frame;
+}
+
+static inline hnbrdf_frame hnbrdf_frame_of(const hnbrdf_material *material)
+{
+    return hnbrdf_frame_of_angle(material->rotation);
 }
 
 static inline void hnbrdf_to_tangent(hnbrdf_frame frame, const float w[3], float t[3])

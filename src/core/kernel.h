@@ -1,6 +1,6 @@
 /* kernel.h: the evaluation kernels, one table an instruction set, all compiled from kernel_body.h.
  * Every sum and every other operation has one order whatever the width, so all give the same
- * bits. */
+ * bits; the fused ones have that order too, but round a product together with its sum. */
 #ifndef HNBRDF_CORE_KERNEL_H
 #define HNBRDF_CORE_KERNEL_H
 
@@ -52,7 +52,8 @@ typedef struct hnbrdf_kernel {
 
 /* Which of these exist is the build's choice, see HNBRDF_WITH_VARIANTS. */
 extern const hnbrdf_kernel hnbrdf_kernel_plain, hnbrdf_kernel_sse2, hnbrdf_kernel_avx2,
-    hnbrdf_kernel_avx512, hnbrdf_kernel_neon;
+    hnbrdf_kernel_avx512, hnbrdf_kernel_neon, hnbrdf_kernel_avx2_fused, hnbrdf_kernel_avx512_fused,
+    hnbrdf_kernel_neon_fused;
 
 /* As `single` of an edited material; only a hybrid has those. */
 void hnbrdf_edited_eval(const hnbrdf_prepared *prepared, const float wi[3], const float wo[3],

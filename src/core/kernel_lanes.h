@@ -12,7 +12,7 @@ typedef struct lane_materials {
 /* Pairs in the tangent frames of their materials, and what comes of them. Lanes that have no pair
  * above the horizon hold wi = wo = n, and 0 in `above`. */
 typedef struct lane_pairs {
-    lane wi[3], wo[3], sx, sy, sz, length2, c, f[3];
+    lane wi[3], wo[3], sx, sy, sz, length2, c, specular, f[3];
     lane x[HNBRDF_MAX_LATENT + HNBRDF_ENCODING_SIZE]; /* the latent code, then what is encoded */
     lane out[HNBRDF_MAX_OUTPUTS];
     int above[LANES];
@@ -90,34 +90,59 @@ static const float *at(const float *first, size_t stride, size_t index)
     return (const float *)((const char *)first + index * stride);
 }
 
-KERNEL_APART void gather(const hnbrdf_pairs *pairs, size_t first, size_t count, lane_pairs *b)
+/* Lanes without a pair above the horizon: wi = wo = n. */
+KERNEL_APART void mark_lanes(lane_pairs *b)
 {
-    static const float normal[3] = {0.0f, 0.0f, 1.0f};
-    for (size_t l = 0; l < LANES; l++) {
-        const float *wi = normal, *wo = normal;
-        b->above[l] = 0;
-        if (l < count) {
-            const float *i = at(pairs->wi, pairs->wi_stride, first + l);
-            const float *o = at(pairs->wo, pairs->wo_stride, first + l);
-            int above = hnbrdf_above_horizon(i, o);
-            b->above[l] = above;
-            wi = above ? i : normal;
-            wo = above ? o : normal;
-        }
+    for (int l = 0; l < LANES; l++) {
+        int above = (b->wi[2][l] > 0.0f) & (b->wo[2][l] > 0.0f);
+        b->above[l] = above;
         for (int k = 0; k < 3; k++) {
-            b->wi[k][l] = wi[k];
-            b->wo[k][l] = wo[k];
+            b->wi[k][l] = above ? b->wi[k][l] : k == 2 ? 1.0f : 0.0f;
+            b->wo[k][l] = above ? b->wo[k][l] : k == 2 ? 1.0f : 0.0f;
         }
     }
 }
 
-KERNEL_APART void scatter(const hnbrdf_pairs *pairs, size_t first, size_t count,
-                          const lane_pairs *b)
+/* Directions first to first + count. */
+KERNEL_APART void gather_directions(const float *w, size_t stride, size_t first, size_t count,
+                                    lane to[3])
 {
+    if (stride == 3 * sizeof(float) && count == LANES) {
+        w += 3 * first; /* without gaps, as most are: a loop of its own, in vectors */
+        for (int l = 0; l < LANES; l++)
+            for (int k = 0; k < 3; k++)
+                to[k][l] = w[3 * l + k];
+        return;
+    }
+    for (size_t l = 0; l < LANES; l++) {
+        const float *from = at(w, stride, first + (l < count ? l : 0));
+        for (int k = 0; k < 3; k++)
+            to[k][l] = l < count ? from[k] : 0.0f;
+    }
+}
+
+static void gather(const hnbrdf_pairs *pairs, size_t first, size_t count, lane_pairs *b)
+{
+    gather_directions(pairs->wi, pairs->wi_stride, first, count, b->wi);
+    gather_directions(pairs->wo, pairs->wo_stride, first, count, b->wo);
+}
+
+KERNEL_APART void scatter(const hnbrdf_pairs *pairs, size_t first, size_t count, lane_pairs *b)
+{
+    for (int c = 0; c < 3; c++)
+        for (int l = 0; l < LANES; l++)
+            b->f[c][l] = b->above[l] ? b->f[c][l] : 0.0f;
+    if (pairs->f_stride == 3 * sizeof(float) && count == LANES) {
+        float *to = pairs->f + 3 * first;
+        for (int l = 0; l < LANES; l++)
+            for (int c = 0; c < 3; c++)
+                to[3 * l + c] = b->f[c][l];
+        return;
+    }
     for (size_t l = 0; l < count; l++) {
         float *to = (float *)((char *)pairs->f + (first + l) * pairs->f_stride);
         for (int c = 0; c < 3; c++)
-            to[c] = b->above[l] ? b->f[c][l] : 0.0f;
+            to[c] = b->f[c][l];
     }
 }
 
@@ -207,8 +232,8 @@ KERNEL_APART void choose_lanes(const lane_lobes *restrict s, const lane_pairs *r
     }
 }
 
-/* wi from what was chosen and the second number; `above` falls to 0 where nothing above the
- * horizon comes out, and wi is n there. */
+/* wi from what was chosen and the second number; `above` falls to 0 where nothing above the horizon
+ * comes out, and wi is n there. */
 KERNEL_APART void draw_lanes(const lane_materials *restrict m, const lane_choices *restrict from,
                              lane_pairs *restrict b)
 {
@@ -229,15 +254,21 @@ KERNEL_APART void draw_lanes(const lane_materials *restrict m, const lane_choice
     }
 }
 
-/* f = f_a */
-KERNEL_APART void analytic_lanes(const lane_materials *restrict m, lane_pairs *restrict b)
+/* What the Fresnel factors multiply, then f = f_a. */
+KERNEL_APART void specular_lanes(const lane_materials *restrict m, lane_pairs *restrict b)
 {
     for (int l = 0; l < LANES; l++) {
         hnbrdf_pair pair = pair_of(b, l);
-        float specular = hnbrdf_specular_of_area(&pair, m->ax[l], m->ay[l], m->area[l]);
-        for (int c = 0; c < 3; c++)
-            b->f[c][l] = hnbrdf_microfacet_of(m->diffuse[c][l], m->e[c][l], pair.c, specular);
+        b->specular[l] = hnbrdf_specular_of_area(&pair, m->ax[l], m->ay[l], m->area[l]);
     }
+}
+
+KERNEL_APART void fresnel_lanes(const lane_materials *restrict m, lane_pairs *restrict b)
+{
+    for (int l = 0; l < LANES; l++)
+        for (int c = 0; c < 3; c++)
+            b->f[c][l] =
+                hnbrdf_microfacet_of(m->diffuse[c][l], m->e[c][l], b->c[l], b->specular[l]);
 }
 
 KERNEL_APART void finish_lanes(lane_pairs *b)
@@ -342,18 +373,53 @@ KERNEL_APART void fitted_lanes(const lane_edits *restrict edits, lane_shine *res
     }
 }
 
-static void compose_edited_lanes(const hnbrdf_model_desc *desc, const lane_edits *edits,
-                                 const lane_pairs *seen, lane_pairs *b)
+/* One channel. */
+KERNEL_APART void compose_edited_lanes(const hnbrdf_model_desc *desc, int c,
+                                       const lane_edits *edits, const lane_pairs *seen,
+                                       lane_pairs *b)
 {
     const float scale = desc->scale, shift = desc->shift, lowest = desc->floor;
-    for (int c = 0; c < 3; c++)
-        for (int l = 0; l < LANES; l++)
-            b->f[c][l] =
-                hnbrdf_compose_edited(b->out[c][l], b->out[c + 3][l], b->f[c][l], seen->f[c][l],
-                                      edits->added[c][l], scale, shift, lowest);
+    for (int l = 0; l < LANES; l++)
+        b->f[c][l] = hnbrdf_compose_edited(b->out[c][l], b->out[c + 3][l], b->f[c][l],
+                                           seen->f[c][l], edits->added[c][l], scale, shift, lowest);
 }
 
-static void compose_lanes(const hnbrdf_model_desc *desc, lane_pairs *b)
+#if KERNEL_WIDTH > 1
+
+enum { COMPOSE_SIDE = KERNEL_WIDTH == 16 ? 6 : 3 };
+
+/* exp() of the exponents of three channels, c, and of their gates, g; of neural models of c. */
+KERNEL_INLINE void compose_vectors(const hnbrdf_model_desc *desc, int hybrid, int l, lane_pairs *b)
+{
+    const float scale = desc->scale, shift = desc->shift, lowest = desc->floor;
+    tile_vector e[6], f;
+    for (int c = 0; c < 3; c++) {
+        e[c] = scale * *(const tile_memory *)(b->out[c] + l) + shift;
+        if (hybrid)
+            e[c + 3] = -*(const tile_memory *)(b->out[c + 3] + l);
+    }
+    tile_exp(e, hybrid ? COMPOSE_SIDE : 3);
+    if (hybrid && COMPOSE_SIDE == 3)
+        tile_exp(e + 3, 3);
+    for (int c = 0; c < 3; c++) {
+        tile_memory *to = (tile_memory *)(b->f[c] + l);
+        f = hybrid ? e[c] + (1.0f / (1.0f + e[c + 3])) * *to : e[c];
+        *to = tile_clamp(f - lowest, 0.0f, HNBRDF_MAX_VALUE);
+    }
+}
+
+KERNEL_APART void compose_lanes(const hnbrdf_model_desc *desc, lane_pairs *b)
+{
+    for (int l = 0; l < LANES; l += KERNEL_WIDTH)
+        if (desc->kind == HNBRDF_KIND_HYBRID)
+            compose_vectors(desc, 1, l, b);
+        else
+            compose_vectors(desc, 0, l, b);
+}
+
+#else
+
+KERNEL_APART void compose_lanes(const hnbrdf_model_desc *desc, lane_pairs *b)
 {
     const float scale = desc->scale, shift = desc->shift, lowest = desc->floor;
     if (desc->kind == HNBRDF_KIND_HYBRID)
@@ -366,3 +432,5 @@ static void compose_lanes(const hnbrdf_model_desc *desc, lane_pairs *b)
             for (int l = 0; l < LANES; l++)
                 b->f[c][l] = hnbrdf_compose_neural(b->out[c][l], scale, shift, lowest);
 }
+
+#endif

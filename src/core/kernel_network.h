@@ -36,9 +36,9 @@ typedef float unit_memory
 #define KERNEL_FOR(name, width) KERNEL_JOIN(name, width)
 #endif
 
-/* hnbrdf_hard_gelu() of every number of a vector. maxps and minps give the second operand where
- * one is NaN and where both are 0, as its comparisons do; elsewhere the comparisons themselves,
- * as masks. */
+/* hnbrdf_hard_gelu() of every number of a vector. maxps and minps give the second operand where one
+ * is NaN and where both are 0, as its comparisons do; elsewhere the comparisons themselves, as
+ * masks. */
 #if defined(__SSE2__)
 #define KERNEL_CLAMP_01(t, zero, one, width) \
     KERNEL_FOR(KERNEL_MIN_, width)(one, KERNEL_FOR(KERNEL_MAX_, width)(zero, t))
@@ -192,6 +192,13 @@ KERNEL_APART void network_single(const hnbrdf_prepared *prepared, const float *x
 
 typedef float lane[LANES];
 
+/* What else is to be done while a network keeps the units for sums and products busy: steps of
+ * another block, which wait for divisions, roots and memory. NULL: nothing. */
+typedef struct lane_work lane_work;
+
+/* After so many products of each lane: does the steps that are due. */
+static void work_beside(lane_work *work, int products);
+
 #if KERNEL_WIDTH > 1
 
 /* y[r][l] = biases[r] + sum over k of w[k][r] x[k][l] for `rows` rows and KERNEL_WIDE vectors of
@@ -220,14 +227,17 @@ KERNEL_INLINE void tile(const float *w, int stride, int depth, lane *x, const fl
 
 /* y is [count], of HardGELU if `activate`; inlined where that is known. */
 KERNEL_INLINE void layer(const float *w, int stride, int depth, lane *x, const float *biases,
-                         int count, int activate, lane *y)
+                         int count, int activate, lane *y, lane_work *work)
 {
     for (int l = 0; l < LANES; l += KERNEL_WIDE * KERNEL_WIDTH) {
         lane *from = (lane *)(void *)((float *)x + l);
         lane *to = (lane *)(void *)((float *)y + l);
         int r = 0;
-        for (; r + KERNEL_ROWS <= count; r += KERNEL_ROWS)
+        for (; r + KERNEL_ROWS <= count; r += KERNEL_ROWS) {
             tile(w + r, stride, depth, from, biases + r, activate, KERNEL_ROWS, to + r);
+            if (work)
+                work_beside(work, depth * KERNEL_ROWS * KERNEL_WIDE * KERNEL_WIDTH / LANES);
+        }
 #if KERNEL_ROWS > 6
         for (; r + 6 <= count; r += 6)
             tile(w + r, stride, depth, from, biases + r, activate, 6, to + r);
@@ -245,7 +255,8 @@ KERNEL_INLINE void layer(const float *w, int stride, int depth, lane *x, const f
 
 /* Two rows at a time: every input is loaded once for both. */
 KERNEL_APART void layer(const float *w, int stride, int depth, lane *restrict x,
-                        const float *biases, int count, int activate, lane *restrict y)
+                        const float *biases, int count, int activate, lane *restrict y,
+                        lane_work *work)
 {
     for (int r = 0; r < count; r += 2) {
         int next = r + 1 < count ? r + 1 : r; /* an odd last row is computed twice */
@@ -265,42 +276,44 @@ KERNEL_APART void layer(const float *w, int stride, int depth, lane *restrict x,
         }
         memcpy(y[r], s, sizeof s);
         memcpy(y[next], t, sizeof t);
+        if (work)
+            work_beside(work, 2 * depth);
     }
 }
 
 #endif
 
 KERNEL_APART void hidden_layer(const float *w, int stride, int depth, lane *x, const float *biases,
-                               int count, lane *y)
+                               int count, lane *y, lane_work *work)
 {
-    layer(w, stride, depth, x, biases, count, 1, y);
+    layer(w, stride, depth, x, biases, count, 1, y, work);
 }
 
 /* The first layer sums `depth` inputs from `biases` with the weights w. */
 KERNEL_APART void network_lanes(const hnbrdf_model *model, const float *w, int depth, lane *x,
-                                const float *biases, lane *out)
+                                const float *biases, lane *out, lane_work *work)
 {
     const hnbrdf_model_desc *desc = &model->desc;
     const int stride = hnbrdf_packed_outputs(desc, 0), hidden = desc->hidden, last = desc->layers;
     lane buffers[2][HNBRDF_MAX_HIDDEN];
-    hidden_layer(w, stride, depth, x, biases, hidden, buffers[0]);
+    hidden_layer(w, stride, depth, x, biases, hidden, buffers[0], work);
     for (int k = 1; k < last; k++)
         hidden_layer(model->packed[k], stride, hidden, buffers[(k - 1) & 1],
-                     model->packed_biases[k], hidden, buffers[k & 1]);
+                     model->packed_biases[k], hidden, buffers[k & 1], work);
     layer(model->packed[last], HNBRDF_PACK, hidden, buffers[(last - 1) & 1],
-          model->packed_biases[last], hnbrdf_layer_outputs(desc, last), 0, out);
+          model->packed_biases[last], hnbrdf_layer_outputs(desc, last), 0, out, work);
 }
 
-static void network_folded(const hnbrdf_prepared *prepared, lane *x, lane *out)
+static void network_folded(const hnbrdf_prepared *prepared, lane *x, lane *out, lane_work *work)
 {
     const hnbrdf_model *model = prepared->model;
     const float *w = model->packed[0] + model->desc.latent * hnbrdf_packed_outputs(&model->desc, 0);
-    network_lanes(model, w, HNBRDF_ENCODING_SIZE, x, prepared->first, out);
+    network_lanes(model, w, HNBRDF_ENCODING_SIZE, x, prepared->first, out, work);
 }
 
 static void kernel_network(const hnbrdf_prepared *prepared,
                            float x[HNBRDF_ENCODING_SIZE][HNBRDF_LANES],
                            float out[HNBRDF_MAX_OUTPUTS][HNBRDF_LANES])
 {
-    network_folded(prepared, x, out);
+    network_folded(prepared, x, out, NULL);
 }

@@ -1,14 +1,15 @@
 /* kernel_single.h: one evaluation in vectors of four: what a pair of directions has several of
  * (directions, squares, quotients, logarithms, channels) side by side. A renderer waits for the
- * result, so that operations count by how long they keep the next one waiting. Every number has
- * the bits of the inline functions that define it. Part of kernel_body.h. */
+ * result, so that operations count by how long they keep the next one waiting. Every number has the
+ * bits of the inline functions that define it. Part of kernel_body.h. */
 
 /* One pair in the tangent frame; terms of hnbrdf_pair, microfacet.h and encoding.h. */
 typedef struct single_pair {
     quad xy;    /* wi.x, wi.y, wo.x, wo.y */
     quad sum;   /* s.x, s.y, twice */
     quad z;     /* s.z, wi.z - wo.z, wi.z, wo.z */
-    quad root;  /* lengths: |s|, |wi - wo|, of (ax wi.x, ay wi.y, wi.z), of wo likewise */
+    quad root;  /* lengths: |s|, |wi - wo|, of (ax wi.x, ay wi.y, wi.z), of wo
+                 likewise */
     quad ratio; /* t of hnbrdf_ggx_d(), 1 - c, tan^2 th, sin^2 th */
 } single_pair;
 
@@ -106,11 +107,9 @@ KERNEL_INLINE void single_exponentials(const hnbrdf_model_desc *desc, const floa
     const unit_vector factors[] = {{s, s, s, -1.0f}, {-1.0f, -1.0f, -1.0f, -1.0f}};
     const unit_vector terms[] = {{m, m, m, 0.0f}, {0.0f, 0.0f, 0.0f, 0.0f}};
 #endif
-    for (int v = 0; v < SINGLE_VECTORS; v++) {
-        unit_vector x = *(const unit_memory *)(out + v * KERNEL_SINGLE);
-        e[v] = units_exp(
-            units_clamp(factors[v] * x + terms[v], -HNBRDF_MAX_EXPONENT, HNBRDF_MAX_EXPONENT));
-    }
+    for (int v = 0; v < SINGLE_VECTORS; v++)
+        e[v] = factors[v] * *(const unit_memory *)(out + v * KERNEL_SINGLE) + terms[v];
+    units_exp(e, SINGLE_VECTORS);
 }
 
 /* The first three channels, and the fourth to sixth. */

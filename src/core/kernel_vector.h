@@ -5,6 +5,7 @@
 typedef float quad __attribute__((vector_size(16)));
 typedef int32_t quad_bits __attribute__((vector_size(16)));
 typedef float quad_memory __attribute__((vector_size(16), aligned(4), may_alias));
+typedef int32_t tile_bits __attribute__((vector_size(KERNEL_WIDTH * sizeof(int32_t))));
 typedef int32_t unit_bits __attribute__((vector_size(KERNEL_SINGLE * sizeof(int32_t))));
 
 /* Numbers of a and b as a vector, by their places: those of b come after those of a. */
@@ -36,50 +37,64 @@ KERNEL_INLINE quad quad_root(quad x)
 }
 
 /* hnbrdf_clamp(): a comparison that fails, one with a NaN too, gives the bound. */
-KERNEL_INLINE unit_vector units_clamp(unit_vector x, float low, float high)
-{
-    const unit_vector zero = {0}, lowest = zero + low, highest = zero + high;
 #if defined(__SSE2__)
-    return KERNEL_FOR(KERNEL_MIN_, KERNEL_SINGLE)(KERNEL_FOR(KERNEL_MAX_, KERNEL_SINGLE)(x, lowest),
-                                                  highest);
+#define CLAMP_VECTOR(vector, bits, width)                                                \
+    const vector zero = {0};                                                             \
+    return KERNEL_FOR(KERNEL_MIN_, width)(KERNEL_FOR(KERNEL_MAX_, width)(x, zero + low), \
+                                          zero + high);
 #else
-    unit_bits above = (unit_bits)(x > lowest);
-    x = (unit_vector)((above & (unit_bits)x) | (~above & (unit_bits)lowest));
-    unit_bits below = (unit_bits)(x < highest);
-    return (unit_vector)((below & (unit_bits)x) | (~below & (unit_bits)highest));
+#define CLAMP_VECTOR(vector, bits, width)                                \
+    const vector zero = {0}, lowest = zero + low, highest = zero + high; \
+    bits above = (bits)(x > lowest);                                     \
+    x = (vector)((above & (bits)x) | (~above & (bits)lowest));           \
+    bits below = (bits)(x < highest);                                    \
+    return (vector)((below & (bits)x) | (~below & (bits)highest));
 #endif
+
+KERNEL_INLINE quad quad_clamp(quad x, float low, float high){CLAMP_VECTOR(quad, quad_bits, 4)}
+
+KERNEL_INLINE unit_vector units_clamp(unit_vector x, float low, float high){
+    CLAMP_VECTOR(unit_vector, unit_bits, KERNEL_SINGLE)}
+
+KERNEL_INLINE tile_vector tile_clamp(tile_vector x, float low, float high)
+{
+    CLAMP_VECTOR(tile_vector, tile_bits, KERNEL_WIDTH)
 }
 
-KERNEL_INLINE quad quad_clamp(quad x, float low, float high)
-{
-    const quad zero = {0}, lowest = zero + low, highest = zero + high;
-#if defined(__SSE2__)
-    return _mm_min_ps(_mm_max_ps(x, lowest), highest);
-#else
-    quad_bits above = (quad_bits)(x > lowest);
-    x = (quad)((above & (quad_bits)x) | (~above & (quad_bits)lowest));
-    quad_bits below = (quad_bits)(x < highest);
-    return (quad)((below & (quad_bits)x) | (~below & (quad_bits)highest));
-#endif
-}
+/* hnbrdf_exp() of `count` vectors, each exponent clamped to what those of the network are. One is a
+ * long wait, so that each step is done for all before the next. */
+static const float exp_steps[] = {1.39336410e-3f, 8.33331093e-3f, 4.16664650e-2f, 1.66666667e-1f,
+                                  0.5f};
+#define EXP_VECTORS(vector, bits, clamp)                               \
+    vector y[6], q[6];                                                 \
+    bits k[6];                                                         \
+    for (int v = 0; v < count; v++)                                    \
+        x[v] = clamp(x[v], -HNBRDF_MAX_EXPONENT, HNBRDF_MAX_EXPONENT); \
+    for (int v = 0; v < count; v++)                                    \
+        y[v] = x[v] * 1.44269504f;                                     \
+    for (int v = 0; v < count; v++)                                    \
+        y[v] = y[v] + (vector)(((bits)y[v] & INT32_MIN) | 0x3f000000); \
+    for (int v = 0; v < count; v++)                                    \
+        k[v] = __builtin_convertvector(y[v], bits);                    \
+    for (int v = 0; v < count; v++)                                    \
+        y[v] = __builtin_convertvector(k[v], vector);                  \
+    for (int v = 0; v < count; v++)                                    \
+        x[v] = (x[v] - y[v] * 0.693359375f) - y[v] * -2.12194440e-4f;  \
+    for (int v = 0; v < count; v++)                                    \
+        q[v] = x[v] * 1.98909809e-4f + exp_steps[0];                   \
+    for (int i = 1; i < 5; i++)                                        \
+        for (int v = 0; v < count; v++)                                \
+            q[v] = q[v] * x[v] + exp_steps[i];                         \
+    for (int v = 0; v < count; v++)                                    \
+        q[v] = (q[v] * (x[v] * x[v]) + x[v]) + 1.0f;                   \
+    for (int v = 0; v < count; v++)                                    \
+        x[v] = q[v] * (vector)((k[v] + 127) << 23);
 
-/* hnbrdf_exp(). */
-KERNEL_INLINE unit_vector units_exp(unit_vector x)
-{
-    unit_vector y = x * 1.44269504f;
-    unit_vector half = (unit_vector)(((unit_bits)y & INT32_MIN) | 0x3f000000);
-    unit_bits k = __builtin_convertvector(y + half, unit_bits);
-    unit_vector fk = __builtin_convertvector(k, unit_vector);
-    unit_vector r = (x - fk * 0.693359375f) - fk * -2.12194440e-4f;
-    unit_vector q = r * 1.98909809e-4f;
-    q = (q + 1.39336410e-3f) * r;
-    q = (q + 8.33331093e-3f) * r;
-    q = (q + 4.16664650e-2f) * r;
-    q = (q + 1.66666667e-1f) * r;
-    q = q + 0.5f;
-    unit_vector e = (q * (r * r) + r) + 1.0f;
-    return e * (unit_vector)((k + 127) << 23);
-}
+KERNEL_INLINE void units_exp(unit_vector *x,
+                             int count){EXP_VECTORS(unit_vector, unit_bits, units_clamp)}
+
+KERNEL_INLINE
+    void tile_exp(tile_vector *x, int count){EXP_VECTORS(tile_vector, tile_bits, tile_clamp)}
 
 /* hnbrdf_log(). */
 KERNEL_INLINE quad quad_log(quad x)

@@ -14,7 +14,7 @@ hnbrdf_result hnbrdf_choose_kernel(hnbrdf_variant variant, const hnbrdf_kernel *
         return HNBRDF_OK;
     }
     const char *name = hnbrdf_variant_name(variant);
-    char names[64] = "";
+    char names[96] = "";
     for (int v = HNBRDF_VARIANT_AUTO; hnbrdf_variant_name((hnbrdf_variant)v); ++v) {
         if (hnbrdf_variant_available((hnbrdf_variant)v)) {
             if (names[0])
