@@ -3,7 +3,7 @@
 #include "base/clock.h"
 #include "base/error.h"
 #include "bench/bench.h"
-#include "core/network.h"
+#include "core/kernel.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -27,7 +27,8 @@ struct bench_cpu {
     float wi[PAIRS][3], wo[PAIRS][3], f[PAIRS][3], u[PAIRS][2], pdf[PAIRS];
     float inputs[BLOCKS][HNBRDF_ENCODING_SIZE][HNBRDF_LANES],
         outputs[HNBRDF_MAX_OUTPUTS][HNBRDF_LANES];
-    cpu_work *works; /* all that were made */
+    float input[PAIRS][HNBRDF_ENCODING_SIZE], output[HNBRDF_MAX_HIDDEN]; /* one at a time */
+    cpu_work *works;                                                     /* all that were made */
 };
 
 /* ---- What is timed --------------------------------------------------------------------------- */
@@ -108,6 +109,17 @@ static double run_network(void *context, long repeats)
     return 1e9 * (hnbrdf_thread_seconds() - started);
 }
 
+static double run_network_singly(void *context, long repeats)
+{
+    cpu_work *w = context;
+    struct bench_cpu *cpu = w->cpu;
+    double started = hnbrdf_thread_seconds();
+    for (long n = 0; n < repeats; n++)
+        for (int k = 0; k < PAIRS; k++)
+            w->model->kernel->outputs(&w->prepared, cpu->input[k], cpu->output);
+    return 1e9 * (hnbrdf_thread_seconds() - started);
+}
+
 /* ---- Rows ------------------------------------------------------------------------------------ */
 
 /* Directions as a renderer has them, and inputs as a network sees them: numbers between -1 and 1.
@@ -121,7 +133,7 @@ static void fill(struct bench_cpu *cpu)
         cpu->u[k][0] = hnbrdf_rng_float(&rng);
         cpu->u[k][1] = hnbrdf_rng_float(&rng);
         for (int i = 0; i < HNBRDF_ENCODING_SIZE; i++)
-            cpu->inputs[k / HNBRDF_LANES][i][k % HNBRDF_LANES] =
+            cpu->inputs[k / HNBRDF_LANES][i][k % HNBRDF_LANES] = cpu->input[k][i] =
                 2.0f * hnbrdf_rng_float(&rng) - 1.0f;
     }
 }
@@ -162,7 +174,7 @@ typedef double (*runner)(void *context, long repeats);
 
 static hnbrdf_result add_row(bench *b, const bench_model *model, cpu_work *work,
                              hnbrdf_variant variant, const char *backend, runner whole,
-                             int with_network, hnbrdf_error *error)
+                             runner network, hnbrdf_error *error)
 {
     bench_row *row;
     hnbrdf_result result = bench_add_row(b, model, backend, hnbrdf_variant_name(variant), "model",
@@ -172,8 +184,8 @@ static hnbrdf_result add_row(bench *b, const bench_model *model, cpu_work *work,
     row->threads = 1;
     row->bytes = hnbrdf_model_weight_count(model->model) * sizeof(float);
     row->whole = hnbrdf_probe_make(whole, work, PAIRS);
-    if (with_network && model->desc.kind != HNBRDF_KIND_GGX)
-        row->network = hnbrdf_probe_make(run_network, work, PAIRS);
+    if (network && model->desc.kind != HNBRDF_KIND_GGX)
+        row->network = hnbrdf_probe_make(network, work, PAIRS);
     if (whole == run_prepared) {
         row->draw = hnbrdf_probe_make(run_draw, work, PAIRS);
         row->density = hnbrdf_probe_make(run_density, work, PAIRS);
@@ -194,13 +206,14 @@ static hnbrdf_result add_model(bench *b, struct bench_cpu *cpu, const bench_mode
         cpu_work *work;
         result = add_work(cpu, model, variant, &work, error);
         if (in_use && !result)
-            result = add_row(b, model, work, variant, "c-single", run_single, 0, error);
+            result = add_row(b, model, work, variant, "c-single", run_single, NULL, error);
         if (in_use && !result)
-            result = add_row(b, model, work, variant, "c-single-prepared", run_prepared, 0, error);
+            result = add_row(b, model, work, variant, "c-single-prepared", run_prepared,
+                             run_network_singly, error);
         if (!result)
-            result = add_row(b, model, work, variant, "c-batch", run_batch, 1, error);
+            result = add_row(b, model, work, variant, "c-batch", run_batch, run_network, error);
         if (in_use && !result)
-            result = add_row(b, model, work, variant, "c-many", run_many, 1, error);
+            result = add_row(b, model, work, variant, "c-many", run_many, run_network, error);
     }
     return result;
 }

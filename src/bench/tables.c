@@ -102,6 +102,20 @@ static void print_heading(const bench *b, FILE *file)
     fprintf(file, "\n");
 }
 
+/* The batches that a row of the CPU is compared with: of one material, without fusing; or NULL. */
+static const bench_row *exact_batch(const bench *b, const bench_row *row)
+{
+    for (int k = 0; k < b->row_count && strncmp(row->backend, "c-", 2) == 0; k++) {
+        const bench_row *peer = &b->rows[k];
+        const size_t length = strlen(peer->variant);
+        if (peer != row && peer->model == row->model && strcmp(peer->backend, "c-batch") == 0 &&
+            strncmp(peer->variant, row->variant, length) == 0 &&
+            (row->variant[length] == '\0' || row->variant[length] == '-'))
+            return peer;
+    }
+    return NULL;
+}
+
 /* How the rows of one model stand against each other, which is what engineers compare. */
 static void print_ratios(const bench *b, const bench_row *row, FILE *file)
 {
@@ -113,6 +127,9 @@ static void print_ratios(const bench *b, const bench_row *row, FILE *file)
     if (isfinite(f.network_peak_fraction))
         fprintf(file, ", network at %.1f %% of the peak (%.1f %% of that without fusing)",
                 100.0 * f.network_peak_fraction, 100.0 * f.network_muladd_fraction);
+    const bench_row *batch = exact_batch(b, row);
+    if (batch)
+        fprintf(file, ", %.2f times c-batch %s", f.ns / bench_ns(batch), batch->variant);
     for (int k = 0; k < b->row_count; k++) {
         const bench_row *peer = &b->rows[k];
         if (strcmp(peer->weights, "published-style") == 0 && peer != row &&

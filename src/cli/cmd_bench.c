@@ -40,10 +40,11 @@ static const cli_command command = {
     "to SPIR-V; bytes: of the weights; of a shader: of the SPIR-V with evaluation alone in\n"
     "it, and of the uniform block; mults: of the network, an evaluation; smape, psnr: means\n"
     "over the materials that DATA has, blank without; io_ns: of the buffers; net_ns and\n"
-    "net_peak_fraction: of the network alone; first_dispatch_ms: pipeline and first run;\n"
-    "threads; net_muladd_fraction: of the peak without fusing; sample_ns, density_ns: one\n"
-    "direction with its density, one density; scene_bytes: of all materials of DATA, the\n"
-    "network, kd, eta, alpha, rotation and latent codes in single precision.",
+    "net_peak_fraction: of the network alone, in batches, of c-single-prepared one pair at a\n"
+    "time; first_dispatch_ms: pipeline and first run; threads; net_muladd_fraction: of the\n"
+    "peak without fusing; sample_ns, density_ns: one direction with its density, one density;\n"
+    "scene_bytes: of all materials of DATA, the network, kd, eta, alpha, rotation and latent\n"
+    "codes in single precision.",
     "hnbrdf bench --quick\n"
     "hnbrdf bench model.safetensors\n"
     "hnbrdf bench a.safetensors b.safetensors --data rgl/ --csv b.csv --plot b.svg\n"
