@@ -89,7 +89,7 @@ for model in ggx ours paper; do
     for backend in c-single c-single-prepared c-many; do
         [ "$(grep -c "^$model,.*,$backend," b.csv)" -eq 1 ] || fail "$model: rows of $backend"
     done
-    [ "$(grep -c "^$model,.*,c-batch," b.csv)" -eq "$(grep -o '"variant": "[a-z0-9]*", "fma"' b.json | wc -l)" ] ||
+    [ "$(grep -c "^$model,.*,c-batch," b.csv)" -eq "$(grep -o '"variant": "[a-z0-9-]*", "fma"' b.json | wc -l)" ] ||
         fail "$model: rows of c-batch"
 done
 # The error is that of `compare`.

@@ -1,6 +1,11 @@
 /* kernel_blocks.h: a batch in blocks of LANES, each in steps, and which steps of one block are done
  * beside the network of another. Part of kernel_body.h, after kernel_lanes.h. */
 
+static size_t smaller(size_t a, size_t b)
+{
+    return a < b ? a : b;
+}
+
 /* ---- The materials of a block ---------------------------------------------------------------- */
 
 typedef struct block_materials {
@@ -51,7 +56,7 @@ static void find_materials(block_materials *m, size_t first, size_t count)
     if (of->prepared)
         return;
     for (size_t l = 0; l < LANES; l++) {
-        size_t item = first + (l < count ? l : count - 1);
+        size_t item = first + smaller(l, count - 1);
         m->own[l] = of->index ? of->materials + of->index[item] : of->materials + item;
         same &= m->own[l] == m->own[0];
     }
@@ -275,7 +280,7 @@ static void begin_items(lane_work *work)
 {
     size_t left = work->pairs->count - work->next;
     work->block->first = work->next;
-    work->block->count = left < LANES ? left : LANES;
+    work->block->count = smaller(LANES, left);
     work->next += work->block->count;
     if (work->block->count == 0)
         work->step = STEPS;

@@ -48,11 +48,6 @@ static void kernel_single(const hnbrdf_prepared *prepared, const float wi[3], co
 }
 #endif
 
-static size_t smaller(size_t a, size_t b)
-{
-    return a < b ? a : b;
-}
-
 /* ---- Batches --------------------------------------------------------------------------------- */
 
 static void kernel_analytic(const hnbrdf_prepared *prepared, const hnbrdf_pairs *pairs)
