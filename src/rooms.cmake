@@ -45,9 +45,9 @@ hnbrdf_room(hdf5
 hnbrdf_room(metrics
   compare.c flip.c flip_colour.c flip_hdr.c image.c physics.c)
 hnbrdf_room(fit
-  kernel_avx2.c kernel_avx512.c adam.c agree.c alone.c bright.c checkpoint.c fit.c ggx.c gradient.c
-  hold.c horizon.c judge.c kernel.c kernel_double.c options.c pool.c ranks.c result.c schedule.c
-  share.c soap.c stage.c supply.c switch.c traffic.c train.c worth.c)
+  kernel_avx2.c kernel_avx512.c adam.c agree.c alone.c axis.c bright.c checkpoint.c fit.c ggx.c
+  gradient.c hold.c horizon.c judge.c kernel.c kernel_double.c options.c pool.c ranks.c result.c
+  schedule.c share.c soap.c stage.c supply.c switch.c traffic.c train.c worth.c)
 hnbrdf_room(check
   backends.c bounds.c bounds_draw.c bounds_edit.c cases.c compare.c comparison.c exchange_in.c
   exchange_out.c half.c maps.c oracle.c pairs.c parity.c probe.c reference.c rounding.c rules.c

@@ -5,6 +5,7 @@
 #include "base/clock.h"
 #include "base/error.h"
 #include "core/encoding.h"
+#include "fit/axis.h"
 #include "fit/ggx.h"
 
 #include <math.h>
@@ -45,8 +46,9 @@ static void fit_ggx(trainer *t, int k, int worker, hnbrdf_material *fitted)
     fit_found *found = &t->found[t->held[k]];
     float *room = t->room ? t->room + (size_t)worker * FIT_GGX_TILES * FIT_POOL_TILE : NULL;
     const fit_pool head = hnbrdf_fit_pool_head(&t->pool, k, FIT_GGX_TILES, room);
-    hnbrdf_fit_ggx(t->kernel, &head, 0, t->known[t->held[k]].isotropic, found->parameters,
-                   &found->search);
+    const int isotropic = t->known[t->held[k]].isotropic;
+    const double axis = isotropic ? 0.0 : hnbrdf_fit_axis(t->data[t->held[k]]);
+    hnbrdf_fit_ggx(t->kernel, &head, 0, isotropic, axis, found->parameters, &found->search);
     hnbrdf_fit_ggx_material(found->parameters, fitted);
 }
 

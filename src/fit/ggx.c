@@ -16,6 +16,14 @@ enum {
     REFINE_TILES = FIT_GGX_TILES
 };
 
+/* Isotropic: the alphas tied, no rotation; all; all but the rotation. */
+typedef enum ggx_freedom { GGX_FREE, GGX_TIED, GGX_HELD } ggx_freedom;
+
+/* Nearer than this, in radians, a lobe lies along the axis anyway, and is the better judge. */
+#define AXIS_NEAR 0.03
+/* Times the loss of the best lobe: what one along the axis may have. */
+#define AXIS_COST 1.03
+
 /* SMAPE saturates: far from the data it is flat, and the channels of a grey lobe then settle on
  * different colours. A share of log-L1, which never does, decides. */
 #define FINAL_MIX 0.7f
@@ -77,8 +85,8 @@ static double loss_of(const fit_kernel *kernel, const fit_pool *pool, int materi
 }
 
 /* Adam from p on; p ends as the best state seen. Returns its loss. */
-static double descend(const fit_kernel *kernel, const fit_pool *pool, int material, int isotropic,
-                      int tiles, int steps, double rate, float *p)
+static double descend(const fit_kernel *kernel, const fit_pool *pool, int material,
+                      ggx_freedom freedom, int tiles, int steps, double rate, float *p)
 {
     float moments[2 * FIT_ANALYTIC] = {0}, gradient[FIT_ANALYTIC], best[FIT_ANALYTIC];
     memcpy(best, p, sizeof best);
@@ -91,17 +99,37 @@ static double descend(const fit_kernel *kernel, const fit_pool *pool, int materi
             least = loss;
             memcpy(best, p, sizeof best);
         }
-        if (isotropic) {
+        if (freedom == GGX_TIED)
             gradient[FIT_ALPHA] = gradient[FIT_ALPHA + 1] =
                 0.5f * (gradient[FIT_ALPHA] + gradient[FIT_ALPHA + 1]);
+        if (freedom != GGX_FREE)
             gradient[FIT_ROTATION] = 0.0f;
-        }
         hnbrdf_fit_adam(p, gradient, moments, moments + FIT_ANALYTIC, FIT_ANALYTIC, step,
                         rate * (1.02 - fmin(1.0, share)));
-        hnbrdf_fit_ggx_project(p, isotropic);
+        hnbrdf_fit_ggx_project(p, freedom == GGX_TIED);
     }
     memcpy(p, best, sizeof best);
     return least;
+}
+
+/* The same lobe with its rotation at the nearest of the axis and what is across it, if that costs
+ * nearly nothing: a lobe about as wide along as across lies anywhere, but what the network learns
+ * does not. */
+static double turn_to_axis(const fit_kernel *kernel, const fit_pool *pool, int material, int tiles,
+                           double axis, double loss, float *parameters)
+{
+    const double quarter = 1.57079632679489662;
+    double off = remainder(axis - (double)parameters[FIT_ROTATION], quarter);
+    float p[FIT_ANALYTIC];
+    if (fabs(off) < AXIS_NEAR)
+        return loss;
+    memcpy(p, parameters, sizeof p);
+    p[FIT_ROTATION] += (float)off;
+    double turned = descend(kernel, pool, material, GGX_HELD, tiles, REFINE_STEPS, 0.03, p);
+    if (!(turned <= AXIS_COST * loss))
+        return loss;
+    memcpy(parameters, p, sizeof p);
+    return turned;
 }
 
 /* ---- Diffuse and reflectance of one channel -----------------------------------------------------
@@ -246,8 +274,9 @@ static void mean_albedo(const fit_pool *pool, int material, int tiles, float mea
 }
 
 double hnbrdf_fit_ggx(const fit_kernel *kernel, const fit_pool *pool, int material, int isotropic,
-                      float *parameters, hnbrdf_fit_search *search)
+                      double axis, float *parameters, hnbrdf_fit_search *search)
 {
+    const ggx_freedom freedom = isotropic ? GGX_TIED : GGX_FREE;
     int scouts = SCOUT_TILES < pool->tiles ? SCOUT_TILES : pool->tiles;
     int refiners = REFINE_TILES < pool->tiles ? REFINE_TILES : pool->tiles, starts;
     float p[FIT_ANALYTIC], mean[3];
@@ -256,14 +285,13 @@ double hnbrdf_fit_ggx(const fit_kernel *kernel, const fit_pool *pool, int materi
     rank_nothing(&refined);
     mean_albedo(pool, material, scouts, mean);
     for (starts = 0; start(starts, isotropic, mean, p); starts++) {
-        double loss = descend(kernel, pool, material, isotropic, scouts, SCOUT_STEPS, 0.1, p);
+        double loss = descend(kernel, pool, material, freedom, scouts, SCOUT_STEPS, 0.1, p);
         rank(&scouted, loss, p);
     }
     for (int i = 0; i < KEEP && scouted.losses[i] < INFINITY; i++) {
         float *kept = scouted.states[i];
         search_channels(pool, material, scouts, kept);
-        double loss =
-            descend(kernel, pool, material, isotropic, refiners, REFINE_STEPS, 0.03, kept);
+        double loss = descend(kernel, pool, material, freedom, refiners, REFINE_STEPS, 0.03, kept);
         rank(&refined, loss, kept);
     }
     if (search) {
@@ -276,5 +304,7 @@ double hnbrdf_fit_ggx(const fit_kernel *kernel, const fit_pool *pool, int materi
         return NAN;
     }
     memcpy(parameters, refined.states[0], sizeof refined.states[0]);
-    return refined.losses[0];
+    return isotropic ? refined.losses[0]
+                     : turn_to_axis(kernel, pool, material, refiners, axis, refined.losses[0],
+                                    parameters);
 }
