@@ -31,7 +31,8 @@ for set in "$@"; do
     printf '## %s\n\n| encoding | floor | SMAPE grid | SMAPE uniform | PSNR | reciprocal | cost |\n|---|---|---|---|---|---|---|\n' "$name"
     for entry in "directions 0 no none" "directions 0.003 no none" \
         "half-difference 0.003 yes log,_3_sqrt,_3_divisions" "angles-directed 0.003 no 2_log,_1_sqrt,_3_divisions" \
-        "angles 0.003 yes 2_log,_1_sqrt,_3_divisions" "angles-anisotropic 0.003 yes 2_log,_2_sqrt,_5_divisions"; do
+        "angles 0.003 yes 2_log,_1_sqrt,_3_divisions" "angles-anisotropic 0.003 yes 2_log,_2_sqrt,_5_divisions" \
+        "angles-azimuths 0.003 yes 2_log,_1_sqrt,_3_divisions"; do
         # shellcheck disable=SC2086 # the entry is four words
         set -- $entry
         : > "$work/rows"

@@ -391,6 +391,17 @@ void hnbrdf_encode_angles_anisotropic(hnbrdf_pair p, out vec3 x_0, out vec3 x_1)
     x_1.x = y;
 }
 
+// |h.x| for sin th and |wi.x - wo.x|/2 for the larger cosine: sees the azimuths of h and of wi - wo; reciprocal, and
+// mirror-symmetric about the tangent frame.
+void hnbrdf_encode_angles_azimuths(hnbrdf_pair p, out vec3 x_0, out vec3 x_1)
+{
+    hnbrdf_encode_angles(p, x_0, x_1);
+    HNBRDF_PRECISE float x = abs(p.s.x) / sqrt(p.length_2);
+    HNBRDF_PRECISE float y = 0.5 * abs(p.wi.x - p.wo.x);
+    x_0.y = x;
+    x_1.z = y;
+}
+
 // ---- Composition ---------------------------------------------------------------------------------------
 
 // [0, HNBRDF_MAX_VALUE]. A NaN becomes 0.
@@ -568,6 +579,22 @@ hnbrdf_pair hnbrdf_raise_pair(hnbrdf_pair p, hnbrdf_pair q)
         q.wo = vec3(-x_half, 0.0, z_o);
     }
     return q;
+}
+
+// For an encoding that sees the azimuth of wi - wo: what is left of wi - wo is laid along that instead.
+hnbrdf_pair hnbrdf_raise_along(hnbrdf_pair p, hnbrdf_pair q)
+{
+    hnbrdf_pair raised_pair = hnbrdf_raise_pair(p, q);
+    HNBRDF_PRECISE vec3 d_pair = p.wi - p.wo;
+    HNBRDF_PRECISE vec3 d_raised = raised_pair.wi - raised_pair.wo;
+    HNBRDF_PRECISE float d_2 = d_pair.x * d_pair.x + d_pair.y * d_pair.y;
+    HNBRDF_PRECISE float q_2 = d_raised.x * d_raised.x + d_raised.y * d_raised.y;
+    HNBRDF_PRECISE float k_half = 0.5 * sqrt(d_2 > 0.0 ? q_2 / d_2 : 1.0);
+    HNBRDF_PRECISE float x_half = k_half * d_pair.x;
+    HNBRDF_PRECISE float y_half = k_half * d_pair.y;
+    raised_pair.wi = vec3(x_half, y_half, raised_pair.wi.z);
+    raised_pair.wo = vec3(-x_half, -y_half, raised_pair.wo.z);
+    return raised_pair;
 }
 
 // f_a of the edited material, and of the fitted one at s' with masking at the directions as they are.

@@ -16,8 +16,9 @@
 
 static const hnbrdf_kind kinds[] = {HNBRDF_KIND_HYBRID, HNBRDF_KIND_NEURAL, HNBRDF_KIND_GGX};
 static const hnbrdf_encoding encodings[] = {
-    HNBRDF_ENCODING_DIRECTIONS, HNBRDF_ENCODING_HALF_DIFFERENCE, HNBRDF_ENCODING_ANGLES_DIRECTED,
-    HNBRDF_ENCODING_ANGLES, HNBRDF_ENCODING_ANGLES_ANISOTROPIC};
+    HNBRDF_ENCODING_DIRECTIONS,         HNBRDF_ENCODING_HALF_DIFFERENCE,
+    HNBRDF_ENCODING_ANGLES_DIRECTED,    HNBRDF_ENCODING_ANGLES,
+    HNBRDF_ENCODING_ANGLES_ANISOTROPIC, HNBRDF_ENCODING_ANGLES_AZIMUTHS};
 
 typedef void visit(rng *r, const hnbrdf_model *model);
 
@@ -202,13 +203,14 @@ static void reciprocity_is_exact_for_ggx_and_every_encoding_that_says_so(void **
     for_each_model(24, check_reciprocity);
 }
 
-/* A quarter turn moves components without rounding. Only `directions` and `angles-anisotropic`
- * may see the azimuth. */
+/* A quarter turn moves components without rounding. Only `directions`, `angles-anisotropic` and
+ * `angles-azimuths` may see the azimuth. */
 static void check_quarter_turn(rng *r, const hnbrdf_model *model)
 {
     hnbrdf_model_desc desc = describe(model);
     if (desc.kind != HNBRDF_KIND_GGX && (desc.encoding == HNBRDF_ENCODING_DIRECTIONS ||
-                                         desc.encoding == HNBRDF_ENCODING_ANGLES_ANISOTROPIC))
+                                         desc.encoding == HNBRDF_ENCODING_ANGLES_ANISOTROPIC ||
+                                         desc.encoding == HNBRDF_ENCODING_ANGLES_AZIMUTHS))
         return;
     for (int k = 0; k < 1000; k++) {
         hnbrdf_material m = random_material(r, 1);

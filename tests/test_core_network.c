@@ -288,7 +288,7 @@ static void angle_encodings_have_their_definition(void **state)
     (void)state;
     rng r = rng_make(15);
     for (int k = 0; k < 200000; k++) {
-        float wi[3], wo[3], x[6], directed[6], turned[6];
+        float wi[3], wo[3], x[6], directed[6], turned[6], azimuths[6];
         direction_uniform(&r, wo);
         direction_uniform(&r, wi);
         if (k % 4 == 1)
@@ -300,6 +300,7 @@ static void angle_encodings_have_their_definition(void **state)
         hnbrdf_encode_angles(&p, x);
         hnbrdf_encode_angles_directed(&p, directed);
         hnbrdf_encode_angles_anisotropic(&p, turned);
+        hnbrdf_encode_angles_azimuths(&p, azimuths);
         long double s[3], s2 = 0, d2 = 0;
         for (int i = 0; i < 3; i++) {
             long double d = (long double)wi[i] - (long double)wo[i];
@@ -330,6 +331,9 @@ static void angle_encodings_have_their_definition(void **state)
         }
         assert_true(turned[0] == x[0] && turned[2] == x[2] && turned[4] == x[4] &&
                     turned[5] == x[5]);
+        assert_true(azimuths[1] == turned[1] && azimuths[5] == fabsf(wi[0] - wo[0]) / 2);
+        azimuths[1] = x[1];
+        assert_memory_equal(azimuths, x, 5 * sizeof(float));
     }
 }
 

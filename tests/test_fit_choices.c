@@ -85,11 +85,11 @@ static void default_encoding_suits_the_data(void **state)
     assert_int_equal(default_encoding_of("r"), HNBRDF_ENCODING_ANGLES);
     assert_int_equal(default_encoding_of("s"), HNBRDF_ENCODING_ANGLES);
     assert_int_equal(default_encoding_of("d"), HNBRDF_ENCODING_ANGLES_DIRECTED);
-    assert_int_equal(default_encoding_of("a"), HNBRDF_ENCODING_ANGLES_ANISOTROPIC);
+    assert_int_equal(default_encoding_of("a"), HNBRDF_ENCODING_ANGLES_AZIMUTHS);
     /* any anisotropic one decides, whichever it is */
-    assert_int_equal(default_encoding_of("rra"), HNBRDF_ENCODING_ANGLES_ANISOTROPIC);
-    assert_int_equal(default_encoding_of("dda"), HNBRDF_ENCODING_ANGLES_ANISOTROPIC);
-    assert_int_equal(default_encoding_of("ar"), HNBRDF_ENCODING_ANGLES_ANISOTROPIC);
+    assert_int_equal(default_encoding_of("rra"), HNBRDF_ENCODING_ANGLES_AZIMUTHS);
+    assert_int_equal(default_encoding_of("dda"), HNBRDF_ENCODING_ANGLES_AZIMUTHS);
+    assert_int_equal(default_encoding_of("ar"), HNBRDF_ENCODING_ANGLES_AZIMUTHS);
     /* of the others the mean: 10 % of one in two is 5 %, the limit is 2 % */
     assert_int_equal(default_encoding_of("rd"), HNBRDF_ENCODING_ANGLES_DIRECTED);
     assert_int_equal(default_encoding_of("rs"), HNBRDF_ENCODING_ANGLES);

@@ -161,7 +161,7 @@ static void bounds_cover_edited_materials(void **state)
     (void)state;
     scene_shape shape = SHAPE;
     shape.edited = 1;
-    for (int encoding = 0; encoding <= HNBRDF_ENCODING_ANGLES_ANISOTROPIC; encoding++) {
+    for (int encoding = 0; encoding <= HNBRDF_ENCODING_ANGLES_AZIMUTHS; encoding++) {
         shape.encoding = (hnbrdf_encoding)encoding;
         hnbrdf_model *model = scene_model(&shape);
         check_rules rules = check_rules_fast(&NOTHING_EXACT, 0);

@@ -230,7 +230,7 @@ static void encodings_by_angles_equal_c(void **state)
 static void edited_hybrids_equal_c(void **state)
 {
     (void)state;
-    for (int encoding = 0; encoding <= HNBRDF_ENCODING_ANGLES_ANISOTROPIC; encoding++)
+    for (int encoding = 0; encoding <= HNBRDF_ENCODING_ANGLES_AZIMUTHS; encoding++)
         holds(&(scene_shape){.encoding = (hnbrdf_encoding)encoding,
                              .hidden = 8,
                              .layers = 2,

@@ -83,7 +83,7 @@ hnbrdf fit --ki -> --kind
 hnbrdf fit --kind _ -> ggx hybrid neural
 hnbrdf fit --kind=hy -> hybrid
 hnbrdf fit --kind= -> ggx hybrid neural
-hnbrdf fit --encoding angles- -> angles-anisotropic angles-directed
+hnbrdf fit --encoding angles- -> angles-anisotropic angles-azimuths angles-directed
 hnbrdf fit _ -> UPPER.BSDF builtin rgl
 hnbrdf fit builtin:rough -> rough-clay
 hnbrdf fit builtin:cor -> corduroy

@@ -300,7 +300,8 @@ static void every_result_kind_and_encoding_has_its_word(void **state)
     assert_string_equal(hnbrdf_encoding_name(HNBRDF_ENCODING_ANGLES_DIRECTED), "angles-directed");
     assert_string_equal(hnbrdf_encoding_name(HNBRDF_ENCODING_ANGLES_ANISOTROPIC),
                         "angles-anisotropic");
-    assert_null(hnbrdf_encoding_name((hnbrdf_encoding)5));
+    assert_string_equal(hnbrdf_encoding_name(HNBRDF_ENCODING_ANGLES_AZIMUTHS), "angles-azimuths");
+    assert_null(hnbrdf_encoding_name((hnbrdf_encoding)6));
     assert_string_equal(hnbrdf_version(), HNBRDF_VERSION_STRING);
 }
 

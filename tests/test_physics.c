@@ -103,7 +103,7 @@ static void reciprocity_is_exact_for_reciprocal_encodings_and_measured_for_other
 {
     (void)state;
     rng r = rng_make(4);
-    for (int encoding = 0; encoding <= HNBRDF_ENCODING_ANGLES_ANISOTROPIC; encoding++) {
+    for (int encoding = 0; encoding <= HNBRDF_ENCODING_ANGLES_AZIMUTHS; encoding++) {
         hnbrdf_model *model =
             random_model(&r, HNBRDF_KIND_HYBRID, (hnbrdf_encoding)encoding, 8, 2, 4);
         hnbrdf_material m = random_material(&r, 1);

@@ -132,7 +132,7 @@ typedef struct hnbrdf_fit_options {
     int hidden, layers; /* HxN; 0 stands for 32 and 2 */
     int latent;         /* l; 0 stands for 4 (hybrid) or 12 (neural) */
     int latent_none;    /* 1: no latent code; enough for one material */
-    /* a name as hnbrdf_encoding_name() gives it. NULL: angles-anisotropic if any material is
+    /* a name as hnbrdf_encoding_name() gives it. NULL: angles-azimuths if any material is
      * anisotropic; else angles, or angles-directed where f(wi, wo) and f(wo, wi) of the data have
      * a mean SMAPE above 0.02 over uniform pairs */
     const char *encoding;

@@ -209,11 +209,13 @@ typedef enum hnbrdf_encoding {
     HNBRDF_ENCODING_ANGLES_DIRECTED,
     HNBRDF_ENCODING_ANGLES, /* the same with the smaller and the larger of wi.z, wo.z */
     /* with |h.x|, |h.y|: sees the azimuth of h, mirror-symmetric */
-    HNBRDF_ENCODING_ANGLES_ANISOTROPIC
+    HNBRDF_ENCODING_ANGLES_ANISOTROPIC,
+    /* with |h.x| and |wi.x - wo.x|: sees the azimuths of h and of wi - wo, mirror-symmetric */
+    HNBRDF_ENCODING_ANGLES_AZIMUTHS
 } hnbrdf_encoding;
 
 /* "hybrid", "neural", "ggx"; "directions", "half-difference", "angles-directed", "angles",
- * "angles-anisotropic"; NULL for any other value. */
+ * "angles-anisotropic", "angles-azimuths"; NULL for any other value. */
 HNBRDF_API const char *hnbrdf_kind_name(hnbrdf_kind kind);
 HNBRDF_API const char *hnbrdf_encoding_name(hnbrdf_encoding encoding);
 /* The way back: 1 and *kind or *encoding, or 0 for any other name, *kind and *encoding untouched.

@@ -33,13 +33,12 @@ static int is_isotropic(const bake_task *b)
     return 1;
 }
 
-/* The one for anisotropic data has nothing over the others for isotropic ones, and no other one
- * but the directions themselves sees the azimuth. */
+/* Those for anisotropic data have nothing over the others for isotropic ones, and those others see
+ * no azimuth. */
 static int suits(const bake_task *b, hnbrdf_encoding encoding)
 {
-    return is_isotropic(b) ? encoding != HNBRDF_ENCODING_ANGLES_ANISOTROPIC
-                           : encoding == HNBRDF_ENCODING_ANGLES_ANISOTROPIC ||
-                                 encoding == HNBRDF_ENCODING_DIRECTIONS;
+    const int azimuth = hnbrdf_encoding_sees_azimuth(encoding);
+    return is_isotropic(b) ? !azimuth || encoding == HNBRDF_ENCODING_DIRECTIONS : azimuth;
 }
 
 int hnbrdf_bake_encoding_count(const bake_task *b)

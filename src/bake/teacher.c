@@ -15,7 +15,7 @@ static int eval(const void *user, const float wi[3], const float wo[3], float f[
     return 1;
 }
 
-/* Equal alphas, unless the network sees the azimuth of h. The encoding `directions` sees it too,
+/* Equal alphas, unless the network sees azimuths. The encoding `directions` sees it too,
  * but only as far as training left a trace of it: such a material counts as isotropic if its GGX
  * part is. */
 static int is_isotropic(const teacher *t)
@@ -23,7 +23,8 @@ static int is_isotropic(const teacher *t)
     hnbrdf_model_desc desc;
     hnbrdf_model_describe(t->model, &desc);
     return t->material->alpha[0] == t->material->alpha[1] &&
-           (desc.kind == HNBRDF_KIND_GGX || desc.encoding != HNBRDF_ENCODING_ANGLES_ANISOTROPIC);
+           (desc.kind == HNBRDF_KIND_GGX || desc.encoding == HNBRDF_ENCODING_DIRECTIONS ||
+            !hnbrdf_encoding_sees_azimuth(desc.encoding));
 }
 
 hnbrdf_result hnbrdf_bake_teacher(const hnbrdf_model *model, int material,

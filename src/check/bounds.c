@@ -67,11 +67,16 @@ static void encode(const check_rules *k, hnbrdf_encoding encoding, const pair *p
     case HNBRDF_ENCODING_ANGLES_DIRECTED:
     case HNBRDF_ENCODING_ANGLES:
     case HNBRDF_ENCODING_ANGLES_ANISOTROPIC:
+    case HNBRDF_ENCODING_ANGLES_AZIMUTHS:
         encode_angles(k, p, swap ? p->wo[2] : p->wi[2], swap ? p->wi[2] : p->wo[2], x);
         if (encoding == HNBRDF_ENCODING_ANGLES_ANISOTROPIC) {
             num length = root(k, p->length2);
             x[1] = divide(k, magnitude(p->s[0]), length);
             x[3] = divide(k, magnitude(p->s[1]), length);
+        }
+        if (encoding == HNBRDF_ENCODING_ANGLES_AZIMUTHS) {
+            x[1] = divide(k, magnitude(p->s[0]), root(k, p->length2));
+            x[5] = multiply(k, same(0.5f), magnitude(apart(k, p, 0)));
         }
         break;
     }

@@ -110,6 +110,24 @@ static void raise(const check_rules *k, const pair *p, pair *q)
     q->wo[2] = add(k, p->wo[2], multiply(k, same(0.5f), subtract(k, sum, difference)));
 }
 
+/* hnbrdf_keep_azimuth(). Where the device has d beside C's 0, nothing bounds the quotient. */
+static void keep_azimuth(const check_rules *k, const pair *p, pair *q)
+{
+    num d[2], at[2];
+    for (int i = 0; i < 2; i++) {
+        d[i] = apart(k, p, i);
+        at[i] = apart(k, q, i);
+    }
+    num d2 = add(k, multiply(k, d[0], d[0]), multiply(k, d[1], d[1]));
+    num q2 = add(k, multiply(k, at[0], at[0]), multiply(k, at[1], at[1]));
+    num by = {1.0f, d2.e == 0.0 ? 0.0 : (double)INFINITY};
+    by = multiply(k, same(0.5f), root(k, d2.v > 0.0f ? divide(k, q2, d2) : by));
+    for (int i = 0; i < 2; i++) {
+        q->wi[i] = multiply(k, by, d[i]);
+        q->wo[i] = (num){-q->wi[i].v, q->wi[i].e};
+    }
+}
+
 /* hnbrdf_carried_eta(). */
 static num fitted_eta(const check_rules *k, float eta, float fitted)
 {
@@ -144,6 +162,8 @@ void check_edit_make(const check_rules *k, hnbrdf_encoding encoding,
         turn(k, p, &edit->seen);
     else
         raise(k, p, &edit->seen);
+    if (encoding == HNBRDF_ENCODING_ANGLES_AZIMUTHS)
+        keep_azimuth(k, p, &edit->seen);
     num before = masked(k, p, &at_half, fitted->alpha);
     for (int c = 0; c < 3; c++) {
         num kd = given(k, material->kd[c]);

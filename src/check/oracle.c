@@ -106,12 +106,17 @@ static void encode(hnbrdf_encoding encoding, vec wi, vec wo, const angles *a, re
     case HNBRDF_ENCODING_ANGLES_DIRECTED:
     case HNBRDF_ENCODING_ANGLES:
     case HNBRDF_ENCODING_ANGLES_ANISOTROPIC:
+    case HNBRDF_ENCODING_ANGLES_AZIMUTHS:
         x[0] = 1 + real_log(narrow + a->tan2) / 4;
         x[1] = encoding == HNBRDF_ENCODING_ANGLES_ANISOTROPIC ? real_abs(a->h.x) : a->sine;
         x[2] = real_log(flat + a->one_minus_c) / 4;
         x[3] = encoding == HNBRDF_ENCODING_ANGLES_ANISOTROPIC ? real_abs(a->h.y) : a->one_minus_c;
         x[4] = encoding == HNBRDF_ENCODING_ANGLES_DIRECTED ? wi.z : low;
         x[5] = encoding == HNBRDF_ENCODING_ANGLES_DIRECTED ? wo.z : high;
+        if (encoding == HNBRDF_ENCODING_ANGLES_AZIMUTHS) {
+            x[1] = real_abs(a->h.x);
+            x[5] = real_abs(wi.x - wo.x) / 2;
+        }
         return;
     }
 }
@@ -269,6 +274,11 @@ static void warp(const hnbrdf_model_desc *desc, const hnbrdf_material *m, real s
         real r2 = s.x * s.x + s.y * s.y, q2 = to.x * to.x + to.y * to.y;
         real shrink = q2 < r2 ? real_sqrt(q2 / r2) : 1, grown = to.z > s.z ? to.z - s.z : 0;
         real difference = (shrink - 1) * (i->z - o->z);
+        vec d = minus(*i, *o); /* as long as it was, its azimuth too */
+        real d2 = d.x * d.x + d.y * d.y, rest = d2 + d.z * d.z * (1 - shrink * shrink);
+        real k = d2 > 0 ? real_sqrt(rest / d2) / 2 : (real)1 / 2;
+        *i = (vec){k * d.x, k * d.y, i->z};
+        *o = (vec){-k * d.x, -k * d.y, o->z};
         i->z += (grown + difference) / 2;
         o->z += (grown - difference) / 2;
     }

@@ -296,9 +296,9 @@ int cmd_fit(int argc, char **argv)
         {"latent", 0, CLI_INT, &latent, 1, HNBRDF_MAX_LATENT, "L",
          "floats of latent code a material (default 4; neural: 12)"},
         {"encoding", 0, CLI_WORD, &encoding, 0, 0, "NAME",
-         "angles (reciprocal), angles-directed, angles-anisotropic, half-difference or directions "
-         "(default: "
-         "angles for reciprocal data, else angles-directed; angles-anisotropic if a material is)"},
+         "angles (reciprocal), angles-directed, angles-anisotropic, angles-azimuths, "
+         "half-difference or directions (default: angles for reciprocal data, else "
+         "angles-directed; angles-azimuths if a material is anisotropic)"},
         {"analytic", 0, CLI_WORD, &analytic, 0, 0, "HOW",
          "faithful: keep the GGX fit; joint: train it along (default faithful)"},
         {"floor", 0, CLI_REAL, &floor, 0, 0.999, "B",

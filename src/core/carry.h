@@ -130,6 +130,20 @@ static inline void hnbrdf_raise_pair(const hnbrdf_pair *p, hnbrdf_pair *q)
     q->wo[2] = p->wo[2] + 0.5f * (sum - difference);
 }
 
+/* After it: what is left of wi - wo along its own azimuth instead. */
+HNBRDF_DIVIDES_AS_IEEE
+static inline void hnbrdf_keep_azimuth(const hnbrdf_pair *p, hnbrdf_pair *q)
+{
+    float dx = p->wi[0] - p->wo[0], dy = p->wi[1] - p->wo[1];
+    float qx = q->wi[0] - q->wo[0], qy = q->wi[1] - q->wo[1];
+    float d2 = dx * dx + dy * dy, q2 = qx * qx + qy * qy;
+    float k = 0.5f * sqrtf(d2 > 0.0f ? q2 / d2 : 1.0f);
+    q->wi[0] = k * dx;
+    q->wi[1] = k * dy;
+    q->wo[0] = -q->wi[0];
+    q->wo[1] = -q->wi[1];
+}
+
 /* Both directions turned with s to s', the shortest way. One of them may go below the horizon.
  * Where s' is s, both stay as they are. d = wi - wo is at right angles to s for unit vectors, but
  * need not be. */

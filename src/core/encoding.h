@@ -14,12 +14,13 @@
  *   name          in model files, messages and on the command line
  *   reciprocal    1: swapping wi and wo changes no bit
  *   sees_azimuth  1: turning both directions about the normal changes it */
-#define HNBRDF_ENCODINGS(row)                                              \
-    row(DIRECTIONS, directions, "directions", 0, 1)                        \
-        row(HALF_DIFFERENCE, half_difference, "half-difference", 1, 0)     \
-            row(ANGLES_DIRECTED, angles_directed, "angles-directed", 0, 0) \
-                row(ANGLES, angles, "angles", 1, 0)                        \
-                    row(ANGLES_ANISOTROPIC, angles_anisotropic, "angles-anisotropic", 1, 1)
+#define HNBRDF_ENCODINGS(row)                                                               \
+    row(DIRECTIONS, directions, "directions", 0, 1)                                         \
+        row(HALF_DIFFERENCE, half_difference, "half-difference", 1, 0)                      \
+            row(ANGLES_DIRECTED, angles_directed, "angles-directed", 0, 0)                  \
+                row(ANGLES, angles, "angles", 1, 0)                                         \
+                    row(ANGLES_ANISOTROPIC, angles_anisotropic, "angles-anisotropic", 1, 1) \
+                        row(ANGLES_AZIMUTHS, angles_azimuths, "angles-azimuths", 1, 1)
 
 /* All names, each after ", ": to be joined to a text; the list alone. For help and messages. */
 #define HNBRDF_ENCODING_COMMA(ENUM, function, name, reciprocal, sees_azimuth) ", " name
@@ -100,10 +101,22 @@ static inline void hnbrdf_encode_angles_anisotropic(const hnbrdf_pair *p, float 
     x[3] = fabsf(p->sy) / length;
 }
 
+/* |h.x| for sin th and |wi.x - wo.x|/2 for the larger cosine, which is nearly what 1 - c, th and
+ * the smaller one add up to: reciprocal, mirror-symmetric about the tangent frame, and nothing else
+ * is lost: a pair, its mirror images and its swapped one have six numbers of their own. */
+HNBRDF_DIVIDES_AS_IEEE
+static inline void hnbrdf_encode_angles_azimuths(const hnbrdf_pair *p, float x[6])
+{
+    hnbrdf_encode_angles(p, x);
+    x[1] = fabsf(p->sx) / sqrtf(p->length2);
+    x[5] = 0.5f * fabsf(p->wi[0] - p->wo[0]);
+}
+
 /* The pair of an edited material as its network sees it, the tangents of s times x and y where f_a
  * is specular. Where s gets nearer to the normal, the cosines of incidence go with it: a network
  * has seen no other pairs. Where it gets farther, they stay: one could fall below the horizon. An
- * encoding that sees the directions themselves has them turned with s. */
+ * encoding that sees the directions themselves has them turned with s; one that sees the azimuth of
+ * wi - wo keeps it. */
 static inline hnbrdf_pair hnbrdf_seen(hnbrdf_encoding encoding, const hnbrdf_pair *p, float x,
                                       float y, float part)
 {
@@ -112,6 +125,8 @@ static inline hnbrdf_pair hnbrdf_seen(hnbrdf_encoding encoding, const hnbrdf_pai
         hnbrdf_turn_pair(p, &q);
     else
         hnbrdf_raise_pair(p, &q);
+    if (encoding == HNBRDF_ENCODING_ANGLES_AZIMUTHS)
+        hnbrdf_keep_azimuth(p, &q);
     return q;
 }
 

@@ -355,6 +355,15 @@ KERNEL_APART void seen_lanes(hnbrdf_encoding encoding, const lane_edits *restric
             seen->wo[k][l] = q.wo[k];
         }
     }
+    for (int l = 0; l < LANES && encoding == HNBRDF_ENCODING_ANGLES_AZIMUTHS; l++) {
+        const hnbrdf_pair p = pair_of(b, l);
+        hnbrdf_pair q = pair_of(seen, l);
+        hnbrdf_keep_azimuth(&p, &q);
+        for (int k = 0; k < 2; k++) {
+            seen->wi[k][l] = q.wi[k];
+            seen->wo[k][l] = q.wo[k];
+        }
+    }
 }
 
 /* seen->f: f_a of the fitted materials, at s' and the directions as they are. Where no eta is

@@ -89,6 +89,11 @@ KERNEL_INLINE void single_encode(hnbrdf_encoding encoding, const single_pair *p,
         x[4] = b < a ? b : a;
         x[5] = b < a ? a : b;
         break;
+    case HNBRDF_ENCODING_ANGLES_AZIMUTHS:
+        x[1] = h[0];
+        x[4] = b < a ? b : a;
+        x[5] = 0.5f * fabsf(p->xy[0] - p->xy[2]);
+        break;
     }
 }
 

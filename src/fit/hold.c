@@ -178,10 +178,11 @@ static void asymmetry_of(void *context, int k, int worker)
     t->known[t->held[k]].asymmetry = asymmetry(t->data[t->held[k]]);
 }
 
-/* A reciprocal one where the data are (examples/encodings.md). */
+/* A reciprocal one where the data are, one that sees azimuths where they have one
+ * (examples/encodings.md). */
 hnbrdf_result hnbrdf_fit_choose_encoding(trainer *t, hnbrdf_error *error)
 {
-    t->encoding = HNBRDF_ENCODING_ANGLES_ANISOTROPIC;
+    t->encoding = HNBRDF_ENCODING_ANGLES_AZIMUTHS;
     for (int m = 0; m < t->count; m++)
         if (!t->known[m].isotropic)
             return HNBRDF_OK;

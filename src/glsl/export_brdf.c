@@ -189,7 +189,7 @@ static void put_hybrid(hnbrdf_printer *out, const hnbrdf_scene *s)
         "    float part = hnbrdf_specular_part(specular, edit.kd_carried);\n"
         "    hnbrdf_pair seen = %s(p, hnbrdf_warped(p, edit.warp_by, part));\n"
         "    vec3 fitted = hnbrdf_microfacet_fitted(p, seen, edit);\n",
-        s->desc->encoding == HNBRDF_ENCODING_DIRECTIONS ? "hnbrdf_turn_pair" : "hnbrdf_raise_pair");
+        hnbrdf_scene_seen_function(s));
 }
 
 /* Behind the network: exp(s c + m) and the rest. */

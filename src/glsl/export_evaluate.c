@@ -111,11 +111,8 @@ static void put_edits(hnbrdf_printer *out, const hnbrdf_scene *s)
                     "f_specular)\n{\n"
                     "    float part_specular = hnbrdf_specular_part(f_specular, "
                     "edit_in.kd_carried);\n    return ");
-    hnbrdf_put(
-        out,
-        s->desc->encoding == HNBRDF_ENCODING_DIRECTIONS
-            ? "hnbrdf_turn_pair(p, hnbrdf_warped(p, edit_in.warp_by, part_specular));\n}\n\n"
-            : "hnbrdf_raise_pair(p, hnbrdf_warped(p, edit_in.warp_by, part_specular));\n}\n\n");
+    hnbrdf_put(out, "%s(p, hnbrdf_warped(p, edit_in.warp_by, part_specular));\n}\n\n",
+               hnbrdf_scene_seen_function(s));
 }
 
 /* In hnbrdf_eval(): f_a of what the material is and of what it was fitted with. */

@@ -24,6 +24,14 @@ void hnbrdf_scene_encoding(const hnbrdf_scene *s, char *name, size_t size)
         *c = *c == '-' ? '_' : *c;
 }
 
+const char *hnbrdf_scene_seen_function(const hnbrdf_scene *s)
+{
+    if (s->desc->encoding == HNBRDF_ENCODING_DIRECTIONS)
+        return "hnbrdf_turn_pair";
+    return s->desc->encoding == HNBRDF_ENCODING_ANGLES_AZIMUTHS ? "hnbrdf_raise_along"
+                                                                : "hnbrdf_raise_pair";
+}
+
 int hnbrdf_scene_has_analytic(const hnbrdf_scene *s)
 {
     return s->desc->kind != HNBRDF_KIND_NEURAL;

@@ -40,6 +40,9 @@ const hnbrdf_material *hnbrdf_scene_material(const hnbrdf_scene *s, int k);
 /* What is behind hnbrdf_encode_ in the name of its encoding's function. */
 void hnbrdf_scene_encoding(const hnbrdf_scene *s, char *name, size_t size);
 
+/* The function that makes the pair its network sees of an edited material's. */
+const char *hnbrdf_scene_seen_function(const hnbrdf_scene *s);
+
 int hnbrdf_scene_has_analytic(const hnbrdf_scene *s);
 int hnbrdf_scene_has_network(const hnbrdf_scene *s);
 int hnbrdf_scene_has_sampling(const hnbrdf_scene *s);

@@ -89,7 +89,8 @@ _comparison = _structure("hnbrdf_comparison", ("smape", _D), ("smape_analytic", 
 ENUMS = {
     "kind": ("HNBRDF_KIND_", "HYBRID NEURAL GGX"),
     "encoding": ("HNBRDF_ENCODING_",
-                 "DIRECTIONS HALF_DIFFERENCE ANGLES_DIRECTED ANGLES ANGLES_ANISOTROPIC"),
+                 "DIRECTIONS HALF_DIFFERENCE ANGLES_DIRECTED ANGLES ANGLES_ANISOTROPIC "
+                 "ANGLES_AZIMUTHS"),
     "variant": ("HNBRDF_VARIANT_", "AUTO PLAIN SSE2 AVX2 AVX512 NEON AVX2_FUSED AVX512_FUSED "
                 "NEON_FUSED"),
     "change": ("HNBRDF_CHANGE_", "PUT ADD REPLACE REMOVE RENAME LOBES"),
