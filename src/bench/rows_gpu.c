@@ -114,7 +114,7 @@ static void free_scene(exported_scene *scene)
 }
 
 static hnbrdf_result export_scene(const bench_model *model, hnbrdf_glsl_weights weights,
-                                  hnbrdf_glsl_precision precision, exported_scene *scene,
+                                  hnbrdf_glsl_precision precision, int fixed, exported_scene *scene,
                                   hnbrdf_error *error)
 {
     static const int first[SCENE_MATERIALS] = {0, 1};
@@ -124,7 +124,8 @@ static hnbrdf_result export_scene(const bench_model *model, hnbrdf_glsl_weights 
                                              count < SCENE_MATERIALS ? count : SCENE_MATERIALS,
                                          .standalone = 1,
                                          .weights = weights,
-                                         .precision = precision};
+                                         .precision = precision,
+                                         .fixed = fixed};
     hnbrdf_error inner;
     hnbrdf_result result = hnbrdf_export_shader(model->model, &options, hnbrdf_text_buffer_append,
                                                 &scene->text, &inner);
@@ -136,13 +137,14 @@ static hnbrdf_result export_scene(const bench_model *model, hnbrdf_glsl_weights 
 
 static hnbrdf_result add_style(bench *b, gpu_bench_device *on, const bench_model *model,
                                hnbrdf_glsl_weights weights, hnbrdf_glsl_precision precision,
-                               hnbrdf_error *error)
+                               int fixed, hnbrdf_error *error)
 {
     exported_scene scene = {{0}, {0}};
-    hnbrdf_result result = export_scene(model, weights, precision, &scene, error);
+    hnbrdf_result result = export_scene(model, weights, precision, fixed, &scene, error);
     const gpu_scene exported = {scene.text.bytes, scene.weights.bytes, scene.weights.size};
     if (!result)
-        result = add_scene(b, on, model, &exported, hnbrdf_glsl_weights_name(weights),
+        result = add_scene(b, on, model, &exported,
+                           fixed ? "columns-fixed" : hnbrdf_glsl_weights_name(weights),
                            hnbrdf_glsl_precision_name(precision), error);
     if (!result && precision == HNBRDF_GLSL_HALF) {
         bench_row *row = &b->rows[b->row_count - 1];
@@ -157,15 +159,18 @@ static hnbrdf_result add_style(bench *b, gpu_bench_device *on, const bench_model
 static hnbrdf_result add_model(bench *b, gpu_bench_device *on, const bench_model *model,
                                hnbrdf_error *error)
 {
-    hnbrdf_result result = add_style(b, on, model, HNBRDF_GLSL_CONSTANTS, HNBRDF_GLSL_FLOAT, error);
+    hnbrdf_result result =
+        add_style(b, on, model, HNBRDF_GLSL_CONSTANTS, HNBRDF_GLSL_FLOAT, 0, error);
     if (model->desc.kind == HNBRDF_KIND_GGX)
         return result;
     if (!result && on->device.has_half)
-        result = add_style(b, on, model, HNBRDF_GLSL_CONSTANTS, HNBRDF_GLSL_HALF, error);
+        result = add_style(b, on, model, HNBRDF_GLSL_CONSTANTS, HNBRDF_GLSL_HALF, 0, error);
     if (!result)
-        result = add_style(b, on, model, HNBRDF_GLSL_COLUMNS, HNBRDF_GLSL_FLOAT, error);
+        result = add_style(b, on, model, HNBRDF_GLSL_COLUMNS, HNBRDF_GLSL_FLOAT, 0, error);
     if (!result)
-        result = add_style(b, on, model, HNBRDF_GLSL_UNIFORM, HNBRDF_GLSL_FLOAT, error);
+        result = add_style(b, on, model, HNBRDF_GLSL_COLUMNS, HNBRDF_GLSL_FLOAT, 1, error);
+    if (!result)
+        result = add_style(b, on, model, HNBRDF_GLSL_UNIFORM, HNBRDF_GLSL_FLOAT, 0, error);
     return result;
 }
 
@@ -233,7 +238,8 @@ static hnbrdf_result open_device(bench *b, struct bench_gpu *gpu, int index,
     tell_device(b, on, &gpu->instance, index);
     exported_scene scene = {{0}, {0}};
     gpu_item *copy = NULL;
-    result = export_scene(&b->models[0], HNBRDF_GLSL_CONSTANTS, HNBRDF_GLSL_FLOAT, &scene, error);
+    result =
+        export_scene(&b->models[0], HNBRDF_GLSL_CONSTANTS, HNBRDF_GLSL_FLOAT, 0, &scene, error);
     if (!result)
         result = open_item(on, &(gpu_scene){.text = scene.text.bytes}, GPU_WORK_COPY, &copy, error);
     free_scene(&scene);
