@@ -45,6 +45,7 @@ hnbrdf_room(hdf5
 hnbrdf_room(metrics
   compare.c flip.c flip_colour.c flip_hdr.c image.c physics.c)
 hnbrdf_room(fit
+  descent.c frozen.c look.c pixels.c views.c
   kernel_avx2.c kernel_avx512.c adam.c agree.c alone.c axis.c bright.c checkpoint.c fit.c ggx.c
   gradient.c hold.c horizon.c judge.c kernel.c kernel_double.c options.c pool.c ranks.c result.c
   schedule.c share.c soap.c stage.c supply.c switch.c traffic.c train.c worth.c)

@@ -7,6 +7,7 @@ hnbrdf_test(test_fit_alone test_fit_alone.c)
 hnbrdf_test(test_fit_horizon test_fit_horizon.c)
 hnbrdf_test(test_fit_checkpoint test_fit_checkpoint.c)
 hnbrdf_test(test_fit_divergence test_fit_divergence.c)
+hnbrdf_test(test_fit_frozen test_fit_frozen.c)
 hnbrdf_test(test_fit_stiff test_fit_stiff.c)
 hnbrdf_test(test_fit_ranks test_fit_ranks.c ranks_support.c)
 # Long enough to be interrupted, so too long under sanitizers; test_fit holds the same of the

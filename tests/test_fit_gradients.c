@@ -203,6 +203,137 @@ static void a_small_correction_is_lifted_where_ggx_is_too_low(void **state)
     }
 }
 
+/* ---- One material's own numbers -------------------------------------------------------------- */
+
+enum { OWN_SUMS = (FIT_OWN + 1) * FIT_OWN };
+
+/* The own numbers of material 1, as kernel.own() wants them; rows of the network. */
+static void own_make(problem *p, double own[FIT_OWN], double *rows)
+{
+    const size_t latent = (size_t)p->layout.latent_size;
+    memset(own, 0, FIT_OWN * sizeof own[0]);
+    memcpy(own, p->parameters + p->layout.codes + latent, latent * sizeof own[0]);
+    memcpy(own + FIT_LANES, p->parameters + p->layout.analytic + FIT_ANALYTIC,
+           FIT_ANALYTIC * sizeof own[0]);
+    hnbrdf_fit_kernel_double.derive(&p->layout, p->parameters, p->derived);
+    hnbrdf_fit_kernel_double.own_rows(&p->layout, p->parameters, rows);
+}
+
+/* The gradient of kernel.own() is that of kernel.network(), which is held to difference quotients
+ * above: the same derivatives in another order. The matrix is symmetric. */
+static void own_gradients_are_those_of_training(void **state)
+{
+    (void)state;
+    static const struct {
+        hnbrdf_kind kind;
+        int hidden, layers, latent, joint;
+    } cases[] = {{HNBRDF_KIND_HYBRID, 16, 2, 4, 1},
+                 {HNBRDF_KIND_HYBRID, 20, 3, 16, 0},
+                 {HNBRDF_KIND_HYBRID, 8, 1, 2, 1},
+                 {HNBRDF_KIND_NEURAL, 33, 2, 12, 0}};
+    for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
+        problem p;
+        double own[FIT_OWN], rows[HNBRDF_MAX_HIDDEN * FIT_LANES], sums[OWN_SUMS] = {0};
+        double by_training[HNBRDF_MAX_LATENT + FIT_ANALYTIC] = {0};
+        problem_make(&p, cases[k].kind, cases[k].hidden, cases[k].layers, cases[k].latent,
+                     cases[k].joint, 0.003f);
+        own_make(&p, own, rows);
+        const double wanted =
+            hnbrdf_fit_kernel_double.network(&p.layout, p.parameters, p.derived, &p.tile, 1, 0.3,
+                                             p.scratch, p.gradient, by_training);
+        const double loss = hnbrdf_fit_kernel_double.own(&p.layout, p.parameters, p.derived, rows,
+                                                         &p.tile, own, 0.3, 0.1, p.scratch, sums);
+        assert_true(fabs(loss - wanted) <= 1e-12 * wanted);
+        const int stride = hnbrdf_fit_own_stride(&p.layout);
+        assert_int_equal(stride, cases[k].joint ? FIT_OWN : FIT_LANES);
+        for (int i = 0; i < stride; i++) {
+            const int is_code = i < cases[k].latent;
+            const int is_analytic =
+                cases[k].joint && i >= FIT_LANES && i < FIT_LANES + FIT_ROTATION;
+            const double g = is_code       ? by_training[i]
+                             : is_analytic ? by_training[cases[k].latent + i - FIT_LANES]
+                                           : 0.0;
+            assert_true(fabs(sums[i] - g) <= 1e-10 * (1.0 + fabs(g)));
+            for (int j = 0; j < stride && (is_code || is_analytic); j++)
+                if (j < cases[k].latent || (j >= FIT_LANES && j < FIT_LANES + FIT_ROTATION))
+                    assert_true(fabs(sums[(i + 1) * stride + j] - sums[(j + 1) * stride + i]) <=
+                                1e-10 * (1.0 + fabs(sums[(i + 1) * stride + j])));
+        }
+        problem_free(&p);
+    }
+}
+
+static double pixel_at(problem *p, const double *rows, const double *own, double *sums,
+                       const float *lights, const float *weights)
+{
+    double squares[FIT_LIGHTS] = {0}, all = 0.0;
+    hnbrdf_fit_kernel_double.pixel(&p->layout, p->parameters, p->derived, rows, &p->tile, lights,
+                                   weights, own, p->scratch, sums, squares);
+    for (int s = 0; s < FIT_LIGHTS; s++)
+        all += (double)weights[s] * squares[s];
+    return all;
+}
+
+/* Gradients of a pixel against difference quotients, and the matrix against second ones where the
+ * error is nothing: f itself, found by two targets, is then the target. */
+static void pixel_derivatives_match_finite_differences(void **state)
+{
+    (void)state;
+    problem p;
+    double own[FIT_OWN], rows[HNBRDF_MAX_HIDDEN * FIT_LANES];
+    float lights[FIT_LIGHTS * FIT_TILE];
+    const float weights[FIT_LIGHTS] = {0.5f, 2.0f, 1.0f};
+    problem_make(&p, HNBRDF_KIND_HYBRID, 16, 2, 5, 1, 0.003f);
+    own_make(&p, own, rows);
+    for (int b = 0; b < FIT_LIGHTS * FIT_TILE; b++)
+        lights[b] = 0.01f * (float)(b * 7 % 31);
+    double sums[OWN_SUMS] = {0}, unused[OWN_SUMS];
+    pixel_at(&p, rows, own, sums, lights, weights);
+    for (int i = 0; i < FIT_LANES + FIT_ROTATION; i += i == 4 ? FIT_LANES - 4 : 1) {
+        const double h = 1e-5, keep = own[i];
+        own[i] = keep + h;
+        const double above = pixel_at(&p, rows, own, unused, lights, weights);
+        own[i] = keep - h;
+        const double below = pixel_at(&p, rows, own, unused, lights, weights);
+        own[i] = keep;
+        /* truncation and rounding as above; HardGELU's kinks are in its second derivative */
+        assert_true(fabs(sums[i] - (above - below) / (2 * h)) <= 1e-4 * (1e-2 + fabs(sums[i])));
+    }
+    float found[3 * FIT_TILE];
+    for (int c = 0; c < 3; c++)
+        for (int b = 0; b < FIT_TILE; b++) {
+            float one[FIT_LIGHTS * FIT_TILE] = {0};
+            const float only[FIT_LIGHTS] = {1.0f, 0.0f, 0.0f};
+            one[b] = 1.0f;
+            memset(p.target, 0, sizeof p.target);
+            const double zero = pixel_at(&p, rows, own, unused, one, only);
+            p.target[c * FIT_TILE + b] = 1.0f;
+            found[c * FIT_TILE + b] =
+                (float)(0.5 * (zero - pixel_at(&p, rows, own, unused, one, only) + 1.0));
+        }
+    memcpy(p.target, found, sizeof found);
+    memset(sums, 0, sizeof sums);
+    assert_true(pixel_at(&p, rows, own, sums, lights, weights) < 1e-10);
+    for (int i = 0; i < FIT_LANES + FIT_ROTATION; i += i == 4 ? FIT_LANES - 4 : 1)
+        for (int j = 0; j <= i; j += j == 4 ? FIT_LANES - 4 : 1) {
+            const double h = 1e-3, keep_i = own[i], keep_j = own[j];
+            const double *m = sums + FIT_OWN;
+            own[i] += h;
+            own[j] += h;
+            const double both = pixel_at(&p, rows, own, unused, lights, weights);
+            own[i] = keep_i;
+            own[j] = keep_j;
+            const double wanted =
+                i == j ? 2.0 * h * h * m[i * FIT_OWN + i]
+                       : 0.5 * h * h *
+                             (m[i * FIT_OWN + i] + m[j * FIT_OWN + j] + 2.0 * m[i * FIT_OWN + j]);
+            /* of the next order is h times second over first derivatives */
+            assert_true(fabs(both - wanted) <=
+                        0.02 * h * h * (m[i * FIT_OWN + i] + m[j * FIT_OWN + j] + 1e-3));
+        }
+    problem_free(&p);
+}
+
 static const fit_kernel *kernel_number(int k)
 {
     switch (k) {
@@ -271,6 +402,49 @@ static void instruction_sets_agree_to_the_bit(void **state)
         free(gradient);
         free(derived);
         free(scratch);
+        problem_free(&p);
+    }
+}
+
+/* The sums of kernel.own() and kernel.pixel() by every instruction set. */
+static void own_sums_agree_to_the_bit(void **state)
+{
+    (void)state;
+    for (int joint = 0; joint < 2; joint++) {
+        problem p;
+        double own[FIT_OWN], rows[HNBRDF_MAX_HIDDEN * FIT_LANES];
+        float lights[FIT_LIGHTS * FIT_TILE], weights[FIT_LIGHTS] = {1.0f, 0.5f, 0.1f};
+        problem_make(&p, HNBRDF_KIND_HYBRID, 33, 3, 7, joint, 0.003f);
+        own_make(&p, own, rows);
+        for (int b = 0; b < FIT_LIGHTS * FIT_TILE; b++)
+            lights[b] = 0.01f * (float)(b * 7 % 31);
+        static float parameters[1 << 14], derived[1 << 14], scratch[1 << 16];
+        float own_float[FIT_OWN], rows_float[HNBRDF_MAX_HIDDEN * FIT_LANES];
+        float sums[2][OWN_SUMS];
+        double results[2][1 + FIT_LIGHTS];
+        assert_true(p.layout.count < 1 << 14 && p.layout.scratch_count < 1 << 16);
+        for (size_t i = 0; i < p.layout.count; i++)
+            parameters[i] = (float)p.parameters[i];
+        for (int i = 0; i < FIT_OWN; i++)
+            own_float[i] = (float)own[i];
+        for (int k = 0; k < 3; k++) {
+            const fit_kernel *kernel = kernel_number(k);
+            if (!kernel)
+                continue;
+            const int to = k > 0;
+            memset(sums[to], 0, sizeof sums[to]);
+            memset(results[to], 0, sizeof results[to]);
+            kernel->derive(&p.layout, parameters, derived);
+            kernel->own_rows(&p.layout, parameters, rows_float);
+            results[to][0] = kernel->own(&p.layout, parameters, derived, rows_float, &p.tile,
+                                         own_float, 0.4f, 0.1f, scratch, sums[to]);
+            kernel->pixel(&p.layout, parameters, derived, rows_float, &p.tile, lights, weights,
+                          own_float, scratch, sums[to], results[to] + 1);
+            if (k > 0) {
+                assert_memory_equal(sums[1], sums[0], sizeof sums[0]);
+                assert_memory_equal(results[1], results[0], sizeof results[0]);
+            }
+        }
         problem_free(&p);
     }
 }
@@ -360,7 +534,10 @@ int main(void)
         cmocka_unit_test(gradient_matches_finite_differences),
         cmocka_unit_test(clipped_value_is_pulled_up),
         cmocka_unit_test(a_small_correction_is_lifted_where_ggx_is_too_low),
+        cmocka_unit_test(own_gradients_are_those_of_training),
+        cmocka_unit_test(pixel_derivatives_match_finite_differences),
         cmocka_unit_test(instruction_sets_agree_to_the_bit),
+        cmocka_unit_test(own_sums_agree_to_the_bit),
         cmocka_unit_test(gradients_stay_finite_at_the_limits),
         cmocka_unit_test(gradients_are_bounded_near_the_alpha_floor_and_eta_1),
     };

@@ -16,14 +16,22 @@
  * its loss over a fixed sample of the training pairs. It counts as diverged if a number is no
  * longer finite, or if the loss exceeds both that of the untrained start and twice the best plus
  * 0.1. It also does if more than an eighth of a layer's units (at least 4, or all) died since the
- * best state, unless the loss is at most 0.01 or the network is frozen. It is then set back to the
+ * best state, unless the loss is at most 0.01. It is then set back to the
  * best state, and moments and warm-up start anew at 0.3 times the rate. So a rate that is 100
  * times too large costs a few hundred steps. The report says how often that happened and what the
  * rate was at the end. The last state is returned, unless an earlier one was better by more than
  * 5 % plus 0.001: smaller differences are within the error of such a sample. A hybrid is never
  * worse
  * than GGX alone by more than that: where no state was better, the network returned leaves GGX as
- * it is. Every number in a model is finite. */
+ * it is. Every number in a model is finite.
+ *
+ * On a frozen network a material has only its latent code to find, and kd, eta and alpha where
+ * they are joint. That is a method of Levenberg and Marquardt instead of Adam: from the 16 codes of
+ * known materials that fit best, each on 2048 pairs; from 40 % of the steps on the best four, on
+ * 8192; from 70 % on the best one, on 16384. From 40 % on it also makes the errors smaller that a
+ * small picture under three suns shows. In the end the code taken is the one with the least loss of
+ * those that make none of these pictures worse than GGX alone. Batch, learning rate and schedule
+ * are not used. */
 #ifndef HNBRDF_FIT_H
 #define HNBRDF_FIT_H
 
@@ -150,7 +158,8 @@ typedef struct hnbrdf_fit_options {
     long steps;     /* network steps; 0 stands for 32000 */
     double seconds; /* time budget for the network stage instead of steps */
     int batch;      /* pairs a step; 0 stands for 2048; rounded up to a multiple of 1024 */
-    /* pairs drawn per material before training; 0: 131072, or what makes 1.25e9 bytes of all */
+    /* pairs drawn per material before training; 0: 131072, on a frozen network 16384, or what makes
+     * 1.25e9 bytes of all */
     int pool;
     /* bytes of pairs, 72 each, that this process keeps; those of further materials are drawn again
      * whenever they are wanted: the same model, later. 0: no limit */
@@ -185,7 +194,7 @@ typedef struct hnbrdf_fit_options {
     hnbrdf_fit_progress_fn progress;
     void *progress_user;
     /* Keep this model's network: only kd, eta, alpha and the latent codes of the new materials are
-     * fitted (steps default to 3000). The result holds them first, then the model's own
+     * fitted (steps default to 48). The result holds them first, then the model's own
      * materials; one of the same name is replaced. Kind, sizes, encoding and floor are the
      * model's. */
     const hnbrdf_model *freeze;

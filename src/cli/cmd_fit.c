@@ -308,7 +308,7 @@ int cmd_fit(int argc, char **argv)
          "train the network for this long instead"},
         {"batch", 0, CLI_INT, &batch, 1, 1 << 24, "N", "direction pairs a step (default 2048)"},
         {"pool", 0, CLI_INT, &pool, 64, 1 << 26, "N",
-         "direction pairs drawn a material (default 131072)"},
+         "direction pairs drawn a material (default 131072; with --freeze 16384)"},
         {"memory", 0, CLI_REAL, &memory, 1e-6, 1e9, "GB",
          "keep so much of pairs, 72 bytes each, in a process; the others are drawn again when they "
          "are wanted: the same model, later (default: keep all, 1.25 GB unless --pool is given)"},
@@ -333,7 +333,9 @@ int cmd_fit(int argc, char **argv)
          "of GGX; 0: the plain gradient (default 1)"},
         {"seed", 0, CLI_INT, &seed, 0, 9e15, "N", "seed of everything random (default 1)"},
         {"freeze", 0, CLI_READ, &freeze, 0, 0, "MODEL",
-         "keep this model's network, fit only the new materials (default steps 3000)"},
+         "keep this model's network, fit only the new materials (default steps 48; --rate, --batch "
+         "and --schedule "
+         "have no say)"},
         {"resume", 0, CLI_FLAG, &resume, 0, 0, NULL,
          "go on from OUTPUT.checkpoint of an interrupted fit, and with its --log"},
         {"log", 0, CLI_WRITE_TEXT, &log, 0, 0, "FILE",

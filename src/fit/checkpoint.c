@@ -2,7 +2,7 @@
  *
  * A checkpoint is for the machine that wrote it: numbers in its own byte order, and a fingerprint
  * of data names, options and layout that must match. */
-#include "fit/trainer.h"
+#include "fit/frozen.h"
 
 #include "base/error.h"
 #include "base/files.h"
@@ -49,7 +49,7 @@ static uint64_t fingerprint(const trainer *t)
                               (double)o->learning_rate,
                               (double)o->seed,
                               t->count,
-                              o->freeze != NULL,
+                              o->freeze ? 2 : 0, /* 1 once: by Adam */
                               o->loss,
                               o->schedule,
                               (double)o->uniform_share,
@@ -71,16 +71,18 @@ typedef struct block {
     size_t size;
 } block;
 
-enum { BLOCKS = 5 };
-#define BLOCKS_OF(t)                                                  \
-    {                                                                 \
-        {(t)->parameters, 3 * (t)->layout.count * sizeof(float)},     \
-            {(t)->best, (t)->layout.count * sizeof(float)},           \
-            {(t)->schedule.order, (size_t)(t)->count * sizeof(int)},  \
-            {(t)->schedule.cursor, (size_t)(t)->count * sizeof(int)}, \
-        {                                                             \
-            (t)->soap.state, (t)->soap.state_count * sizeof(float)    \
-        }                                                             \
+enum { BLOCKS = 6 };
+#define BLOCKS_OF(t)                                                        \
+    {                                                                       \
+        {(t)->parameters, 3 * (t)->layout.count * sizeof(float)},           \
+            {(t)->best, (t)->layout.count * sizeof(float)},                 \
+            {(t)->schedule.order, (size_t)(t)->count * sizeof(int)},        \
+            {(t)->schedule.cursor, (size_t)(t)->count * sizeof(int)},       \
+            {(t)->soap.state, (t)->soap.state_count * sizeof(float)},       \
+        {                                                                   \
+            (t)->frozen ? (void *)(t)->frozen->of : NULL,                   \
+                (t)->frozen ? (size_t)(t)->count * sizeof(fit_searches) : 0 \
+        }                                                                   \
     }
 
 /* One pass over all blocks of the file, reading or writing. */
@@ -144,6 +146,9 @@ static int is_sound(const trainer *t, const header *h)
     for (int m = 0; m < t->count; m++)
         good &= t->schedule.order[m] >= 0 && t->schedule.order[m] < t->count &&
                 t->schedule.cursor[m] >= 0 && t->schedule.cursor[m] < t->pool.tiles;
+    for (int m = 0; m < t->count && t->frozen; m++)
+        good &= hnbrdf_fit_searches_are_sound(&t->frozen->of[m]) &&
+                t->frozen->of[m].phase == t->frozen->of[0].phase;
     for (size_t i = 0; i < t->layout.count; i++)
         good &= isfinite(t->best[i]) != 0;
     for (size_t i = 0; i < t->soap.state_count; i++)

@@ -127,7 +127,9 @@ static int allocate(trainer *t)
     t->derived = calloc(l->derived_count + 1, sizeof(float));
     t->scratch = calloc(threads * l->scratch_count + 1, sizeof(float));
     t->moments = t->parameters ? t->parameters + l->count : NULL;
-    return allocate_pool(t) && hnbrdf_fit_sums_make(t) && hnbrdf_fit_soap_make(&t->soap, l) &&
+    return allocate_pool(t) &&
+           (t->options.freeze ||
+            (hnbrdf_fit_sums_make(t) && hnbrdf_fit_soap_make(&t->soap, l))) &&
            hnbrdf_fit_schedule_start(&t->schedule, t->count, t->pool.tiles, t->options.seed) &&
            t->found && t->drawn && t->parameters && t->best && t->gradient && t->derived &&
            t->scratch;
@@ -139,6 +141,7 @@ static void release(trainer *t)
     hnbrdf_fit_supply_free(t);
     hnbrdf_fit_sums_free(t);
     hnbrdf_fit_soap_free(&t->soap);
+    hnbrdf_fit_frozen_free(t);
     hnbrdf_fit_schedule_free(&t->schedule);
     void *all[] = {t->pool.data, t->pool.sources, t->room,     t->owner,   t->held,
                    t->at,        t->known,        t->found,    t->drawn,   t->encoded,
@@ -237,7 +240,8 @@ static hnbrdf_result run(trainer *t, hnbrdf_model **model, hnbrdf_fit_report *re
         return hnbrdf_fail(error, HNBRDF_ERROR_CANCELLED,
                            "stopped before the network's first step");
     if (t->options.kind != HNBRDF_KIND_GGX)
-        status = hnbrdf_fit_train(t, result, error);
+        status = t->options.freeze ? hnbrdf_fit_frozen(t, result, error)
+                                   : hnbrdf_fit_train(t, result, error);
     result->stopped = t->stopped;
     return status ? status : hnbrdf_fit_result(t, model, result, error);
 }

@@ -40,10 +40,9 @@ static size_t segment_size(const struct fit_sums *s, int rank)
 }
 
 /* Where the segment of a rank starts; one past all ranks: where the last one ends. */
-static size_t segment_start(const fit_layout *l, int frozen, int ranks, int rank)
+static size_t segment_start(const fit_layout *l, int ranks, int rank)
 {
-    /* a gradient by the network that is nothing need not be added up */
-    const size_t rows = frozen ? 0 : l->network_count / FIT_LANES;
+    const size_t rows = l->network_count / FIT_LANES;
     return rows * (size_t)rank / (size_t)ranks * FIT_LANES;
 }
 
@@ -52,18 +51,17 @@ static size_t own_size(const fit_layout *l)
     return (size_t)l->latent_size + (l->train_analytic ? FIT_ANALYTIC : 0);
 }
 
-size_t hnbrdf_fit_sums_sent(const fit_share *s, const fit_layout *l, int frozen, int from, int to)
+size_t hnbrdf_fit_sums_sent(const fit_share *s, const fit_layout *l, int from, int to)
 {
     const size_t units = (size_t)(hnbrdf_fit_share_tiles(s, from) / s->unit_tiles);
     return units * sizeof(float) *
-           (segment_start(l, frozen, s->ranks, to + 1) - segment_start(l, frozen, s->ranks, to));
+           (segment_start(l, s->ranks, to + 1) - segment_start(l, s->ranks, to));
 }
 
-size_t hnbrdf_fit_sums_gathered(const fit_share *s, const fit_layout *l, int frozen, int from)
+size_t hnbrdf_fit_sums_gathered(const fit_share *s, const fit_layout *l, int from)
 {
     const size_t tiles = (size_t)hnbrdf_fit_share_tiles(s, from);
-    const size_t segment =
-        segment_start(l, frozen, s->ranks, from + 1) - segment_start(l, frozen, s->ranks, from);
+    const size_t segment = segment_start(l, s->ranks, from + 1) - segment_start(l, s->ranks, from);
     return sizeof(word) + tiles * sizeof(double) + (segment + tiles * own_size(l)) * sizeof(float);
 }
 
@@ -71,13 +69,13 @@ size_t hnbrdf_fit_sums_gathered(const fit_share *s, const fit_layout *l, int fro
 static void measure(const trainer *t, struct fit_sums *s)
 {
     const fit_share *shares = &t->shares;
-    const int ranks = shares->ranks, me = shares->rank, frozen = t->options.freeze != NULL;
+    const int ranks = shares->ranks, me = shares->rank;
     for (int r = 0; r <= ranks; r++)
-        s->segment[r] = segment_start(&t->layout, frozen, ranks, r);
+        s->segment[r] = segment_start(&t->layout, ranks, r);
     for (int r = 0; r < ranks; r++) {
-        s->send_bytes[r] = hnbrdf_fit_sums_sent(shares, &t->layout, frozen, me, r);
-        s->received_bytes[r] = hnbrdf_fit_sums_sent(shares, &t->layout, frozen, r, me);
-        s->mine_bytes[r] = hnbrdf_fit_sums_gathered(shares, &t->layout, frozen, r);
+        s->send_bytes[r] = hnbrdf_fit_sums_sent(shares, &t->layout, me, r);
+        s->received_bytes[r] = hnbrdf_fit_sums_sent(shares, &t->layout, r, me);
+        s->mine_bytes[r] = hnbrdf_fit_sums_gathered(shares, &t->layout, r);
     }
 }
 
@@ -334,7 +332,5 @@ double hnbrdf_fit_step_gradient(trainer *t)
     const double loss = add_up_tiles(t);
     for (size_t i = 0; i < hnbrdf_fit_trained(l); i++)
         t->gradient[i] *= (float)scale;
-    if (t->options.freeze) /* a gradient of zero moves nothing */
-        memset(t->gradient, 0, sizeof(float) * l->network_count);
     return loss * scale;
 }

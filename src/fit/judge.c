@@ -87,8 +87,7 @@ static int has_diverged(const trainer *t, double loss, int dead)
     const int many = (int)fmax(DEAD_UNITS, DEAD_SHARE * units);
     if (!(loss <= fmax(t->start_loss, FAR_FACTOR * t->best_loss + FAR_OFFSET)))
         return 1;
-    return !t->options.freeze && loss > DEAD_LOSS && dead > t->best_dead &&
-           (dead == units || dead > t->best_dead + many);
+    return loss > DEAD_LOSS && dead > t->best_dead && (dead == units || dead > t->best_dead + many);
 }
 
 void hnbrdf_fit_set_back(trainer *t)
@@ -143,7 +142,7 @@ void hnbrdf_fit_judge_end(trainer *t, hnbrdf_fit_report *report)
         report->best_step = t->best_step;
         report->final_loss = loss = t->best_loss;
     }
-    if (t->layout.kind == HNBRDF_KIND_HYBRID && !t->options.freeze) {
+    if (t->layout.kind == HNBRDF_KIND_HYBRID) {
         /* best was its last; from here on it is the other one */
         memcpy(t->best, t->parameters, bytes);
         for (int m = 0; m < t->count && t->layout.train_analytic;

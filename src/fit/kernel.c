@@ -3,8 +3,9 @@
 #define KERNEL_WIDTH 4
 #include "fit/kernel_float.h"
 
-const fit_kernel hnbrdf_fit_kernel_plain = {"plain", kernel_derive, kernel_network,
-                                            kernel_analytic};
+const fit_kernel hnbrdf_fit_kernel_plain = {"plain",         kernel_derive,   kernel_network,
+                                            kernel_analytic, kernel_own_rows, kernel_own,
+                                            kernel_pixel};
 
 const fit_kernel *hnbrdf_fit_kernel_choose(void)
 {

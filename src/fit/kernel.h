@@ -17,6 +17,10 @@ enum { FIT_TILE = 64, FIT_LANES = 16, FIT_INPUTS = 6 };
  * rotation. */
 enum { FIT_KD = 0, FIT_ETA = 3, FIT_ALPHA = 6, FIT_ROTATION = 8, FIT_ANALYTIC = 9 };
 
+/* What a material has of its own, beside a network that stays: its latent code, then, from number
+ * FIT_LANES on, its analytic parameters. */
+enum { FIT_OWN = 2 * FIT_LANES, FIT_LIGHTS = 3 };
+
 /* Layout of the flat arrays, in numbers (not bytes); all offsets are multiples of FIT_LANES but
  * those
  * of single materials. first    [6][padded]          layer 0, directions:  transposed, input-major
@@ -45,6 +49,13 @@ void hnbrdf_fit_layout_make(fit_layout *layout, hnbrdf_kind kind, int hidden, in
 
 /* The numbers that training changes: the analytic part, at the end, only where it is trained. */
 size_t hnbrdf_fit_trained(const fit_layout *layout);
+
+/* Columns of what fit_kernel.own adds up: FIT_OWN where the analytic part is trained, else
+ * FIT_LANES. */
+static inline int hnbrdf_fit_own_stride(const fit_layout *l)
+{
+    return l->train_analytic && l->kind == HNBRDF_KIND_HYBRID ? FIT_OWN : FIT_LANES;
+}
 
 /* Where the weight from `input` to `output` of layer k lies, both counted as in a model: the
  * inputs of layer 0 are the six encoded directions, then the latent code, whose rows follow on. */
@@ -90,6 +101,24 @@ typedef struct fit_kernel {
      * [FIT_ANALYTIC]. */
     double (*analytic)(const float *parameters, const fit_tile *tile, float mix, float *scratch,
                        float *gradient);
+    /* What own() wants of the network: rows [padded][FIT_LANES]. */
+    void (*own_rows)(const fit_layout *layout, const float *parameters, float *rows);
+    /* The loss with the numbers own [FIT_OWN] of the tile's material; its gradient by them and
+     * the matrix of Gauss and Newton are added to normal: [stride], then [stride][stride], of which
+     * only rows of numbers that there are get filled. NULL: the loss alone. The loss is a sum of
+     * absolute values; the matrix is that of a sum of squares with the same gradient, where f is
+     * off by less than width (f + F + 1e-4) that of a square so wide. Rotation stays. */
+    double (*own)(const fit_layout *layout, const float *parameters, const float *derived,
+                  const float *rows, const fit_tile *tile, const float *own, float mix, float width,
+                  float *scratch, float *normal);
+    /* The same of one pixel of a picture, whose pairs the tile holds: under light s, of FIT_LIGHTS,
+     * it sends the sum of lights [s][FIT_TILE] times f. The squared error of each light, summed
+     * over the channels, is added to squares, and what the sum of these times weights is made of to
+     * normal. */
+    void (*pixel)(const fit_layout *layout, const float *parameters, const float *derived,
+                  const float *rows, const fit_tile *tile, const float *lights,
+                  const float *weights, const float *own, float *scratch, float *normal,
+                  double *squares);
 } fit_kernel;
 
 /* The best one this machine runs; all give the same bits. */
@@ -110,6 +139,14 @@ typedef struct fit_kernel_double_table {
                       double *gradient, double *own);
     double (*analytic)(const double *parameters, const fit_tile *tile, double mix, double *scratch,
                        double *gradient);
+    void (*own_rows)(const fit_layout *layout, const double *parameters, double *rows);
+    double (*own)(const fit_layout *layout, const double *parameters, const double *derived,
+                  const double *rows, const fit_tile *tile, const double *own, double mix,
+                  double width, double *scratch, double *normal);
+    void (*pixel)(const fit_layout *layout, const double *parameters, const double *derived,
+                  const double *rows, const fit_tile *tile, const float *lights,
+                  const float *weights, const double *own, double *scratch, double *normal,
+                  double *squares);
 } fit_kernel_double_table;
 extern const fit_kernel_double_table hnbrdf_fit_kernel_double;
 

@@ -11,5 +11,5 @@
 #define KERNEL_WIDTH 2
 #include "fit/kernel_body.h"
 
-const fit_kernel_double_table hnbrdf_fit_kernel_double = {kernel_derive, kernel_network,
-                                                          kernel_analytic};
+const fit_kernel_double_table hnbrdf_fit_kernel_double = {
+    kernel_derive, kernel_network, kernel_analytic, kernel_own_rows, kernel_own, kernel_pixel};

@@ -9,9 +9,10 @@
 
 enum {
     DEFAULT_STEPS = 32000,
-    DEFAULT_FROZEN_STEPS = 3000,
+    DEFAULT_FROZEN_STEPS = 48,
     DEFAULT_BATCH = 2048,
-    DEFAULT_POOL = 131072
+    DEFAULT_POOL = 131072,
+    DEFAULT_FROZEN_POOL = 16384 /* what a search looks at in the end */
 };
 /* The peak rate of networks with up to RATE_UNITS hidden units in all; larger ones need less in
  * proportion, or units die early and for good (64x3 on 100 materials, 8000 steps: SMAPE 0.098 at
@@ -99,8 +100,9 @@ hnbrdf_result hnbrdf_fit_fill_options(hnbrdf_fit_options *o, int count, hnbrdf_e
     o->steps = o->steps ? o->steps : (o->freeze ? DEFAULT_FROZEN_STEPS : DEFAULT_STEPS);
     o->batch = o->batch ? o->batch : DEFAULT_BATCH;
     if (o->pool == 0)
-        o->pool = (int)fmin(
-            DEFAULT_POOL, POOL_LIMIT / ((double)count * FIT_POOL_TILE / FIT_TILE * sizeof(float)));
+        o->pool =
+            (int)fmin(o->freeze ? DEFAULT_FROZEN_POOL : DEFAULT_POOL,
+                      POOL_LIMIT / ((double)count * FIT_POOL_TILE / FIT_TILE * sizeof(float)));
     o->learning_rate = o->learning_rate == 0.0f ? default_rate((float)o->hidden * (float)o->layers)
                                                 : o->learning_rate;
     if (o->uniform_share == 0.0f && !o->uniform_none)

@@ -187,12 +187,17 @@ void hnbrdf_fit_pool_encode(const fit_pool *pool, int at, const hnbrdf_material 
         encode_tile(pool, fitted, hnbrdf_frame_of(fitted), kept_tile(pool, at, t));
 }
 
+void hnbrdf_fit_pool_encode_tile(const fit_pool *pool, int at, float *tile)
+{
+    const hnbrdf_material *fitted = &pool->sources[at].fitted;
+    encode_tile(pool, fitted, hnbrdf_frame_of(fitted), tile);
+}
+
 const float *hnbrdf_fit_pool_fetch(const fit_pool *pool, int at, int tile, float *room)
 {
     if (at < pool->kept)
         return kept_tile(pool, at, tile);
-    const hnbrdf_material *fitted = &pool->sources[at].fitted;
     draw_again(pool, at, tile, room);
-    encode_tile(pool, fitted, hnbrdf_frame_of(fitted), room);
+    hnbrdf_fit_pool_encode_tile(pool, at, room);
     return room;
 }

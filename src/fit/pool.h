@@ -64,6 +64,9 @@ fit_pool hnbrdf_fit_pool_head(const fit_pool *pool, int at, int tiles, float *ro
 /* What its tiles are encoded with from now on: fills x and f_a of those kept. */
 void hnbrdf_fit_pool_encode(const fit_pool *pool, int at, const hnbrdf_material *fitted);
 
+/* A tile of its pairs that is none of the pool's. */
+void hnbrdf_fit_pool_encode_tile(const fit_pool *pool, int at, float *tile);
+
 /* An encoded tile: where it is kept, or in `room`, [FIT_POOL_TILE]. One thread a material. */
 const float *hnbrdf_fit_pool_fetch(const fit_pool *pool, int at, int tile, float *room);
 

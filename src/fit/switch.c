@@ -117,6 +117,12 @@ int hnbrdf_fit_switch_code(const hnbrdf_model_desc *d, float *code)
     return 1;
 }
 
+float hnbrdf_fit_switch_most(const hnbrdf_model_desc *d)
+{
+    float slope, bias;
+    return find(d, &slope, &bias) ? (-1.5f - bias) / slope : INFINITY;
+}
+
 int hnbrdf_fit_switch_is_on(const hnbrdf_model_desc *d, const float *code)
 {
     float slope, bias;

@@ -21,6 +21,8 @@ void hnbrdf_fit_switch_install(const fit_layout *layout, float *parameters);
 
 /* Fills code [latent] with the one that leaves GGX alone. 0 if the network has no such switch. */
 int hnbrdf_fit_switch_code(const hnbrdf_model_desc *network, float *code);
+/* The largest first number of a code with which it is off; infinite if there is no switch. */
+float hnbrdf_fit_switch_most(const hnbrdf_model_desc *network);
 /* Whether a code is beyond those that training may find. */
 int hnbrdf_fit_switch_is_on(const hnbrdf_model_desc *network, const float *code);
 

@@ -1,5 +1,5 @@
 /* traffic.c: what the ranks of a fit would send each other, without a fit. */
-#include "fit/trainer.h"
+#include "fit/frozen.h"
 
 #include "base/error.h"
 
@@ -13,7 +13,7 @@ static int busiest(const fit_share *s)
     return best;
 }
 
-static hnbrdf_fit_traffic measure(const fit_share *s, const fit_layout *l, int frozen)
+static hnbrdf_fit_traffic measure(const fit_share *s, const fit_layout *l)
 {
     const int me = busiest(s), others = s->ranks - 1;
     const double tiles = hnbrdf_fit_share_tiles(s, me);
@@ -27,9 +27,22 @@ static hnbrdf_fit_traffic measure(const fit_share *s, const fit_layout *l, int f
         t.working += hnbrdf_fit_share_tiles(s, r) > 0;
         if (r == me)
             continue;
-        t.gradient_bytes += (double)hnbrdf_fit_sums_sent(s, l, frozen, me, r);
-        t.sum_bytes += (double)hnbrdf_fit_sums_gathered(s, l, frozen, r);
+        t.gradient_bytes += (double)hnbrdf_fit_sums_sent(s, l, me, r);
+        t.sum_bytes += (double)hnbrdf_fit_sums_gathered(s, l, r);
     }
+    return t;
+}
+
+/* On a network that stays: a step of the last phase, where every material is on its own. */
+static hnbrdf_fit_traffic measure_frozen(const fit_layout *l, int ranks)
+{
+    const fit_phase *last = &hnbrdf_fit_phases[FIT_PHASES - 1];
+    const int count = l->materials, each = (count + ranks - 1) / ranks;
+    hnbrdf_fit_traffic t = {.working = ranks < count ? ranks : count};
+    t.pairs = (double)each * FIT_PULLS * (last->tiles + FIT_VIEWS_MOST) * FIT_TILE;
+    t.flops = t.pairs * hnbrdf_fit_own_flops(l);
+    t.own = (double)(hnbrdf_fit_trained(l) - l->network_count);
+    t.sum_bytes = 8.0 * (ranks - 1); /* whether to stop */
     return t;
 }
 
@@ -50,6 +63,6 @@ hnbrdf_result hnbrdf_fit_traffic_of(const hnbrdf_fit_options *options, int count
         hnbrdf_fit_share_make((o.batch + unit - 1) / unit * FIT_CHUNKS, 0, ranks, 1);
     hnbrdf_fit_layout_make(&layout, o.kind, o.hidden, o.layers, o.latent, count,
                            o.analytic == HNBRDF_FIT_JOINT, o.floor);
-    *traffic = measure(&share, &layout, o.freeze != NULL);
+    *traffic = o.freeze ? measure_frozen(&layout, ranks) : measure(&share, &layout);
     return HNBRDF_OK;
 }

@@ -53,79 +53,6 @@ static void initialise(trainer *t)
         p[l->codes + i] = uniform(&rng, 0.5);
 }
 
-/* ---- A frozen network ------------------------------------------------------------------------ */
-
-/* The weights of options.freeze into the flat array. */
-static void take_network(trainer *t)
-{
-    const fit_layout *l = &t->layout;
-    hnbrdf_model_desc desc;
-    hnbrdf_model_describe(t->options.freeze, &desc);
-    float *p = t->parameters;
-    for (int k = 0; k <= l->layers; k++) {
-        int rows, columns;
-        hnbrdf_fit_layer_size(l, k, &rows, &columns);
-        const float *w = desc.weights[k];
-        for (int o = 0; o < rows; o++) {
-            for (int i = 0; i < columns; i++)
-                p[hnbrdf_fit_weight_at(l, k, o, i)] = *w++;
-            p[l->bias[k] + (size_t)o] = desc.biases[k][o];
-        }
-    }
-}
-
-enum { CODE_TILES = 8 }; /* that a latent code is chosen by */
-
-static double loss_of_code(trainer *t, int material, const float *const *tiles, int count)
-{
-    double loss = 0.0;
-    float own[HNBRDF_MAX_LATENT + FIT_ANALYTIC] = {0};
-    for (int k = 0; k < count; k++) {
-        fit_tile tile = hnbrdf_fit_tile_view(tiles[k]);
-        loss += t->kernel->network(&t->layout, t->parameters, t->derived, &tile, material, 1.0f,
-                                   t->scratch, t->gradient, own);
-    }
-    return loss;
-}
-
-/* The code, of those of the known materials, that describes a material best. One that turns the
- * network off leads nowhere: its derivative is 0. */
-static void take_code(trainer *t, int material)
-{
-    const size_t size = (size_t)t->layout.latent_size;
-    float *code = t->parameters + t->layout.codes + (size_t)material * size;
-    float room[CODE_TILES][FIT_POOL_TILE];
-    const float *tiles[CODE_TILES];
-    int count = t->pool.tiles < CODE_TILES ? t->pool.tiles : CODE_TILES, best = 0;
-    double least = INFINITY;
-    hnbrdf_model_desc network;
-    hnbrdf_model_describe(t->options.freeze, &network);
-    for (int k = 0; k < count; k++)
-        tiles[k] = hnbrdf_fit_pool_fetch(&t->pool, t->at[material], k, room[k]);
-    for (int k = 0; k < hnbrdf_model_material_count(t->options.freeze); k++) {
-        memcpy(code, hnbrdf_model_material(t->options.freeze, k)->latent, sizeof(float) * size);
-        if (hnbrdf_fit_switch_is_on(&network, code))
-            continue;
-        double loss = loss_of_code(t, material, tiles, count);
-        if (loss < least) {
-            least = loss;
-            best = k;
-        }
-    }
-    memcpy(code, hnbrdf_model_material(t->options.freeze, best)->latent, sizeof(float) * size);
-}
-
-/* Every new material starts from the latent code of a known one. */
-static hnbrdf_result take_codes(trainer *t, hnbrdf_error *error)
-{
-    const fit_layout *l = &t->layout;
-    t->kernel->derive(l, t->parameters, t->derived);
-    for (int k = 0; k < t->held_count; k++)
-        take_code(t, t->held[k]);
-    return hnbrdf_fit_share_records(t, t->parameters + l->codes,
-                                    sizeof(float) * (size_t)l->latent_size, error);
-}
-
 /* ---- Steps ----------------------------------------------------------------------------------- */
 
 /* The analytic parameters after a step: ranges, ties, rotation. */
@@ -212,16 +139,10 @@ static hnbrdf_result start(trainer *t, hnbrdf_error *error)
     hnbrdf_result result = HNBRDF_OK;
     t->peak = (double)t->options.learning_rate;
     t->running = NAN;
-    if (t->options.freeze) {
-        take_network(t);
-        result = take_codes(t, error);
-    } else {
-        initialise(t);
-        if (hnbrdf_fit_switch_fits(&t->layout))
-            hnbrdf_fit_switch_reserve(&t->layout, t->parameters);
-    }
-    if (!result)
-        result = hnbrdf_fit_supply_make(t, error);
+    initialise(t);
+    if (hnbrdf_fit_switch_fits(&t->layout))
+        hnbrdf_fit_switch_reserve(&t->layout, t->parameters);
+    result = hnbrdf_fit_supply_make(t, error);
     if (result)
         return result;
     hnbrdf_fit_judge_start(t);
@@ -307,7 +228,7 @@ hnbrdf_result hnbrdf_fit_train(trainer *t, hnbrdf_fit_report *report, hnbrdf_err
         return result;
     double elapsed = hnbrdf_fit_stage_seconds(t);
     hnbrdf_fit_judge_end(t, report);
-    if (!t->options.freeze && hnbrdf_fit_switch_fits(&t->layout))
+    if (hnbrdf_fit_switch_fits(&t->layout))
         hnbrdf_fit_switch_install(&t->layout, t->parameters);
     if (t->lost)
         return hnbrdf_fit_fail_lost(t, error);

@@ -63,6 +63,7 @@ typedef struct trainer {
     double *losses; /* [tiles a step] */
     float mix;
     struct fit_supply *supply; /* where tiles come from (supply.c) */
+    struct fit_frozen *frozen; /* searches on a network that stays (frozen.c) */
     double redrawing;          /* processor seconds of it */
     double stepping;           /* of SOAP's steps */
     /* State of the network stage besides the arrays: what a checkpoint holds. */
@@ -134,10 +135,8 @@ int hnbrdf_fit_sums_make(trainer *t);
 void hnbrdf_fit_sums_free(trainer *t);
 /* Bytes of a step: of gradients from one rank to another that adds them up, and of what a rank
  * tells all. */
-size_t hnbrdf_fit_sums_sent(const fit_share *share, const fit_layout *layout, int frozen, int from,
-                            int to);
-size_t hnbrdf_fit_sums_gathered(const fit_share *share, const fit_layout *layout, int frozen,
-                                int from);
+size_t hnbrdf_fit_sums_sent(const fit_share *share, const fit_layout *layout, int from, int to);
+size_t hnbrdf_fit_sums_gathered(const fit_share *share, const fit_layout *layout, int from);
 /* Loss and gradient of the mean over the pairs of the step's tiles. Where a rank is lost, neither.
  */
 double hnbrdf_fit_step_gradient(trainer *t);
@@ -157,6 +156,10 @@ double hnbrdf_fit_pair_flops(const fit_layout *layout);
 /* The network stage, from a fresh start or from a checkpoint. Fills steps, rate and loss of the
  * report. */
 hnbrdf_result hnbrdf_fit_train(trainer *t, hnbrdf_fit_report *report, hnbrdf_error *error);
+
+/* The same on a network that stays. */
+hnbrdf_result hnbrdf_fit_frozen(trainer *t, hnbrdf_fit_report *report, hnbrdf_error *error);
+void hnbrdf_fit_frozen_free(trainer *t);
 
 /* Write options.checkpoint, aside and renamed. */
 hnbrdf_result hnbrdf_fit_checkpoint_save(const trainer *t, hnbrdf_error *error);

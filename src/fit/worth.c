@@ -1,6 +1,8 @@
 /* worth.c: a fitted material beside its GGX alone, against the data. */
 #include "fit/worth.h"
 
+#include "fit/pixels.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -47,54 +49,28 @@ void hnbrdf_fit_worth_smape(const fit_sides *sides, const fit_pool *pool, int at
 /* ---- In a picture ---------------------------------------------------------------------------- */
 
 enum {
-    SIDE = 24,       /* pixels across */
-    SHARP_SIDE = 96, /* where a highlight is as sharp as the sun itself */
     SUN_POINTS = 48, /* directions to a sun in or near the highlight */
     FAR_POINTS = 6,  /* elsewhere */
-    EVEN = 32,       /* directions to the even light, of radiance 1 */
-    SHARP_EVEN = 8,  /* as there are more pixels */
-    SUNS = 3
+    EVEN = 32,       /* directions to the even light */
+    SHARP_EVEN = 8   /* as there are more pixels */
 };
-#define SHARP 0.05f                      /* alpha below: most of a highlight is within 3 degrees */
-static const double SUN_RADIUS = 0.0524, /* 3 degrees; a sharper light shows single pixels */
-    SUN_RADIANCE = 200.0, PI = 3.14159265358979323846;
-/* Towards them: from above, from the left, and nearly from the camera, which is at +z. */
-static const double suns[SUNS][3] = {
-    {-0.42, 0.62, 0.6627}, {0.8, 0.1, 0.5916}, {0.1, -0.3, 0.9487}};
 
-/* One point of the sphere: its frame, its view and what light it sends there. */
+/* What light one point of the sphere sends to the camera. */
 typedef struct pixel {
-    double frame[3][3]; /* x, y and the normal */
-    float wo[3];
+    fit_pixel at;
     double truth[3];               /* the radiance under one light, so far */
     double error[3], ggx_error[3]; /* of it */
 } pixel;
-
-static double dot(const double a[3], const double b[3])
-{
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-static void pixel_at(double x, double y, pixel *p)
-{
-    const double z = sqrt(1.0 - x * x - y * y), across = sqrt(x * x + z * z);
-    memset(p, 0, sizeof *p);
-    const double frame[3][3] = {
-        {z / across, 0.0, -x / across}, {-x * y / across, across, -y * z / across}, {x, y, z}};
-    memcpy(p->frame, frame, sizeof frame);
-    for (int k = 0; k < 3; k++)
-        p->wo[k] = (float)frame[k][2];
-}
 
 /* Light of this weight from a direction of the pixel's frame. */
 static void light(const fit_sides *sides, const hnbrdf_measured *measured, pixel *p,
                   const float wi[3], double weight)
 {
     float target[3], f[3], ggx[3];
-    if (!(wi[2] > 0.0f) || !hnbrdf_measured_eval(measured, wi, p->wo, target))
+    if (!(wi[2] > 0.0f) || !hnbrdf_measured_eval(measured, wi, p->at.wo, target))
         return;
-    hnbrdf_prepared_eval(sides->hybrid, wi, p->wo, f);
-    hnbrdf_prepared_eval(sides->ggx, wi, p->wo, ggx);
+    hnbrdf_prepared_eval(sides->hybrid, wi, p->at.wo, f);
+    hnbrdf_prepared_eval(sides->ggx, wi, p->at.wo, ggx);
     for (int c = 0; c < 3; c++) {
         const double true_value = fmax((double)target[c], 0.0);
         p->truth[c] += weight * true_value;
@@ -103,33 +79,14 @@ static void light(const fit_sides *sides, const hnbrdf_measured *measured, pixel
     }
 }
 
-/* How many: many where the half vector is within the sun's radius and the lobe's of the normal. */
-static int sun_points(const double sun[3], const pixel *p, double alpha)
+static void light_sun(const fit_sides *sides, const hnbrdf_measured *measured, pixel *p, int sun)
 {
-    const double *n = p->frame[2], h[3] = {sun[0], sun[1], sun[2] + 1.0};
-    const double cosine = dot(n, h) / sqrt(dot(h, h)), reach = SUN_RADIUS + 4.0 * alpha;
-    return cosine > cos(fmin(reach, 1.5)) ? SUN_POINTS : FAR_POINTS;
-}
-
-/* The points of a sun's disc, a spiral of equal areas. */
-static void light_sun(const fit_sides *sides, const hnbrdf_measured *measured, pixel *p,
-                      const double sun[3])
-{
-    const int points = sun_points(sun, p, (double)sides->ggx->alpha[0]);
-    const double flat = sqrt(sun[0] * sun[0] + sun[1] * sun[1]);
-    const double x[3] = {sun[1] / flat, -sun[0] / flat, 0.0};
-    const double y[3] = {sun[1] * x[2] - sun[2] * x[1], sun[2] * x[0] - sun[0] * x[2],
-                         sun[0] * x[1] - sun[1] * x[0]};
+    const int near = hnbrdf_fit_pixel_is_near(&p->at, sun, (double)sides->ggx->alpha[0]);
+    const int points = near ? SUN_POINTS : FAR_POINTS;
     for (int k = 0; k < points; k++) {
-        const double r = SUN_RADIUS * sqrt((k + 0.5) / points), turn = 2.399963 * k;
-        double w[3];
         float wi[3];
-        for (int c = 0; c < 3; c++)
-            w[c] = sqrt(1.0 - r * r) * sun[c] + r * (cos(turn) * x[c] + sin(turn) * y[c]);
-        for (int c = 0; c < 3; c++)
-            wi[c] = (float)dot(p->frame[c], w);
-        light(sides, measured, p, wi,
-              SUN_RADIANCE * PI * SUN_RADIUS * SUN_RADIUS * (double)wi[2] / points);
+        const double weight = hnbrdf_fit_pixel_sun(&p->at, sun, k, points, wi);
+        light(sides, measured, p, wi, weight);
     }
 }
 
@@ -137,12 +94,10 @@ static void light_evenly(const fit_sides *sides, const hnbrdf_measured *measured
                          int count, hnbrdf_rng *rng)
 {
     for (int k = 0; k < count; k++) {
-        float u[2], wi[3];
-        u[0] = ((float)k + hnbrdf_rng_float(rng)) / (float)count;
-        u[1] = hnbrdf_rng_float(rng);
-        const float pdf = hnbrdf_prepared_draw(sides->ggx, p->wo, u, wi);
-        if (pdf > 0.0f)
-            light(sides, measured, p, wi, (double)wi[2] / ((double)pdf * count));
+        float wi[3];
+        const double weight = hnbrdf_fit_pixel_even(&p->at, sides->ggx, k, count, rng, wi);
+        if (weight > 0.0)
+            light(sides, measured, p, wi, weight);
     }
 }
 
@@ -153,12 +108,12 @@ typedef struct squares {
 
 /* One pixel under the even light with each sun in turn. */
 static void add_pixel(const fit_sides *sides, const hnbrdf_measured *measured, pixel *p, int even,
-                      hnbrdf_rng *rng, squares sums[SUNS])
+                      hnbrdf_rng *rng, squares sums[FIT_SUNS])
 {
     light_evenly(sides, measured, p, even, rng);
-    for (int s = 0; s < SUNS; s++) {
+    for (int s = 0; s < FIT_SUNS; s++) {
         pixel lit = *p;
-        light_sun(sides, measured, &lit, suns[s]);
+        light_sun(sides, measured, &lit, s);
         for (int c = 0; c < 3; c++) {
             sums[s].hybrid += lit.error[c] * lit.error[c];
             sums[s].ggx += lit.ggx_error[c] * lit.ggx_error[c];
@@ -170,22 +125,20 @@ static void add_pixel(const fit_sides *sides, const hnbrdf_measured *measured, p
 void hnbrdf_fit_worth_picture(const fit_sides *sides, const hnbrdf_measured *measured,
                               hnbrdf_fit_worth *worth)
 {
-    const int sharp = sides->ggx->alpha[0] < SHARP, side = sharp ? SHARP_SIDE : SIDE;
-    squares sums[SUNS] = {{0.0, 0.0, 0.0}};
+    const int sharp = sides->ggx->alpha[0] < FIT_SHARP;
+    const int side = sharp ? FIT_PIXELS_SHARP : FIT_PIXELS_SIDE;
+    squares sums[FIT_SUNS] = {{0.0, 0.0, 0.0}};
     hnbrdf_rng rng;
     int pixels = 0, worst = 0;
     hnbrdf_rng_seed(&rng, 0, UINT64_C(5) << 40);
     for (int k = 0; k < side * side; k++) {
-        const double x = (2 * (k % side) + 1) / (double)side - 1.0;
-        const double y = (2 * (k / side) + 1) / (double)side - 1.0;
-        pixel p;
-        if (x * x + y * y > 0.999)
+        pixel p = {.truth = {0.0}};
+        if (!hnbrdf_fit_pixel_at(k, side, &p.at))
             continue;
-        pixel_at(x, y, &p);
         add_pixel(sides, measured, &p, sharp ? SHARP_EVEN : EVEN, &rng, sums);
         pixels++;
     }
-    for (int s = 1; s < SUNS; s++)
+    for (int s = 1; s < FIT_SUNS; s++)
         if (sums[s].hybrid * sums[worst].ggx > sums[worst].hybrid * sums[s].ggx)
             worst = s;
     worth->picture = sums[worst].hybrid / (3.0 * pixels);
