@@ -90,11 +90,21 @@ if(HNBRDF_WITH_MPI)
 else()
   list(REMOVE_ITEM HNBRDF_ROOM_cli src/cli/ranks_mpi.c)
 endif()
+# The model that the word `universal` stands for.
+set(HNBRDF_UNIVERSAL examples/models/rgl_32x2.safetensors)
+set(universal ${CMAKE_CURRENT_BINARY_DIR}/generated/universal_model.c)
+add_custom_command(OUTPUT ${universal}
+  COMMAND ${CMAKE_COMMAND} -DINPUT=${CMAKE_CURRENT_SOURCE_DIR}/${HNBRDF_UNIVERSAL}
+          -DOUTPUT=${universal} -DNAME=hnbrdf_universal_model -DSIZE=hnbrdf_universal_model_size
+          -P ${CMAKE_CURRENT_SOURCE_DIR}/src/embed.cmake
+  DEPENDS ${HNBRDF_UNIVERSAL} src/embed.cmake VERBATIM)
+add_library(hnbrdf_universal STATIC EXCLUDE_FROM_ALL ${universal})
 add_executable(hnbrdf_cli ${HNBRDF_ROOM_cli})
 set_target_properties(hnbrdf_cli PROPERTIES OUTPUT_NAME hnbrdf
   RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR})
 target_link_libraries(hnbrdf_bench PUBLIC hnbrdf_report)
-target_link_libraries(hnbrdf_cli PRIVATE hnbrdf_flags hnbrdf_report hnbrdf_bench hnbrdf_base)
+target_link_libraries(hnbrdf_cli PRIVATE hnbrdf_flags hnbrdf_report hnbrdf_bench hnbrdf_universal
+  hnbrdf_base)
 target_link_options(hnbrdf_cli PRIVATE ${HNBRDF_LINK_FLAGS})
 target_compile_definitions(hnbrdf_cli PRIVATE _POSIX_C_SOURCE=200809L)
 if(HNBRDF_WITH_VULKAN)

@@ -65,6 +65,11 @@ grep -q 'never.safetensors.checkpoint' err || fail "the message of --resume name
 fit builtin:gold-two-lobe --freeze whole.safetensors --steps 200 --pool 4096 -o more.safetensors
 "$hnbrdf" info more.safetensors --json | tr -d ' \n' |
     grep -q '"materials":\["gold-two-lobe","retro-tape","rough-clay"\]' || fail "materials on a frozen network"
+# The network in the command itself; the model written has the new material alone.
+fit builtin:gold-two-lobe --freeze universal --steps 4 --pool 4096 -o new.safetensors
+"$hnbrdf" info new.safetensors --json | tr -d ' \n' | grep -q '"materials":\["gold-two-lobe"\]' ||
+    fail "materials on the universal network"
+"$hnbrdf" info universal > out || fail "info of the universal network"
 if "$hnbrdf" fit builtin:gold-two-lobe --freeze builtin:retro-tape -o none.safetensors > out 2> err; then
     fail "--freeze takes a measurement"
 fi

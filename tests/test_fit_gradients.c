@@ -241,8 +241,9 @@ static void own_gradients_are_those_of_training(void **state)
         const double wanted =
             hnbrdf_fit_kernel_double.network(&p.layout, p.parameters, p.derived, &p.tile, 1, 0.3,
                                              p.scratch, p.gradient, by_training);
-        const double loss = hnbrdf_fit_kernel_double.own(&p.layout, p.parameters, p.derived, rows,
-                                                         &p.tile, own, 0.3, 0.1, p.scratch, sums);
+        const double loss =
+            hnbrdf_fit_kernel_double.own(&p.layout, p.parameters, p.derived, rows, &p.tile, own,
+                                         0.3, 0.1, p.scratch, sums, NULL);
         assert_true(fabs(loss - wanted) <= 1e-12 * wanted);
         const int stride = hnbrdf_fit_own_stride(&p.layout);
         assert_int_equal(stride, cases[k].joint ? FIT_OWN : FIT_LANES);
@@ -261,6 +262,26 @@ static void own_gradients_are_those_of_training(void **state)
         }
         problem_free(&p);
     }
+}
+
+/* What is told of the analytic part alone is its loss, SMAPE, and the gradient of that. */
+static void the_analytic_part_alone_is_told_too(void **state)
+{
+    (void)state;
+    problem p;
+    double own[FIT_OWN], rows[HNBRDF_MAX_HIDDEN * FIT_LANES];
+    double sums[2 * OWN_SUMS] = {0}, gradient[FIT_ANALYTIC] = {0}, alone = 0.0;
+    problem_make(&p, HNBRDF_KIND_HYBRID, 16, 2, 4, 1, 0.003f);
+    own_make(&p, own, rows);
+    hnbrdf_fit_kernel_double.own(&p.layout, p.parameters, p.derived, rows, &p.tile, own, 0.3, 0.1,
+                                 p.scratch, sums, &alone);
+    const double wanted =
+        hnbrdf_fit_kernel_double.analytic(own + FIT_LANES, &p.tile, 1.0, NULL, gradient);
+    assert_true(fabs(alone - wanted) <= 1e-12 * wanted);
+    for (int i = 0; i < FIT_ROTATION; i++)
+        assert_true(fabs(sums[OWN_SUMS + FIT_LANES + i] - gradient[i]) <=
+                    1e-10 * (1.0 + fabs(gradient[i])));
+    problem_free(&p);
 }
 
 static double pixel_at(problem *p, const double *rows, const double *own, double *sums,
@@ -420,8 +441,8 @@ static void own_sums_agree_to_the_bit(void **state)
             lights[b] = 0.01f * (float)(b * 7 % 31);
         static float parameters[1 << 14], derived[1 << 14], scratch[1 << 16];
         float own_float[FIT_OWN], rows_float[HNBRDF_MAX_HIDDEN * FIT_LANES];
-        float sums[2][OWN_SUMS];
-        double results[2][1 + FIT_LIGHTS];
+        float sums[2][2 * OWN_SUMS];
+        double results[2][2 + FIT_LIGHTS];
         assert_true(p.layout.count < 1 << 14 && p.layout.scratch_count < 1 << 16);
         for (size_t i = 0; i < p.layout.count; i++)
             parameters[i] = (float)p.parameters[i];
@@ -436,8 +457,9 @@ static void own_sums_agree_to_the_bit(void **state)
             memset(results[to], 0, sizeof results[to]);
             kernel->derive(&p.layout, parameters, derived);
             kernel->own_rows(&p.layout, parameters, rows_float);
-            results[to][0] = kernel->own(&p.layout, parameters, derived, rows_float, &p.tile,
-                                         own_float, 0.4f, 0.1f, scratch, sums[to]);
+            results[to][0] =
+                kernel->own(&p.layout, parameters, derived, rows_float, &p.tile, own_float, 0.4f,
+                            0.1f, scratch, sums[to], results[to] + 1 + FIT_LIGHTS);
             kernel->pixel(&p.layout, parameters, derived, rows_float, &p.tile, lights, weights,
                           own_float, scratch, sums[to], results[to] + 1);
             if (k > 0) {
@@ -535,6 +557,7 @@ int main(void)
         cmocka_unit_test(clipped_value_is_pulled_up),
         cmocka_unit_test(a_small_correction_is_lifted_where_ggx_is_too_low),
         cmocka_unit_test(own_gradients_are_those_of_training),
+        cmocka_unit_test(the_analytic_part_alone_is_told_too),
         cmocka_unit_test(pixel_derivatives_match_finite_differences),
         cmocka_unit_test(instruction_sets_agree_to_the_bit),
         cmocka_unit_test(own_sums_agree_to_the_bit),

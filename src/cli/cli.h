@@ -150,6 +150,9 @@ extern cli_word cli_variant;
 
 /* By its first bytes. */
 int cli_looks_like_model(const char *path);
+/* Whether it is the word for the shipped network, which needs no file; a file of that name is
+ * ./universal. */
+int cli_is_universal(const char *path);
 /* Recognised by content. Returns 0, or CLI_FAILURE after a message. */
 int cli_open_source(const char *path, cli_source *source);
 void cli_close_source(cli_source *source);

@@ -35,6 +35,7 @@ static const cli_command command = {
     "  hnbrdf fit builtin -o builtin.safetensors\n"
     "  hnbrdf fit rgl/ --net 32x2 --latent 4 --seconds 120 -o rgl.safetensors\n"
     "  hnbrdf fit rgl/ --kind ggx -o ggx.safetensors\n"
+    "  hnbrdf fit new.bsdf --freeze universal -o new.safetensors\n"
     "  hnbrdf fit new.bsdf --freeze rgl.safetensors -o more.safetensors\n"
     "  hnbrdf fit rgl/ procedural:200 --net 64x2 --latent 16 -o many.safetensors\n"
     "  hnbrdf fit merl/ --encoding directions --floor 0 -o paper.safetensors\n"};
@@ -77,6 +78,7 @@ typedef struct job {
     hnbrdf_fit_options fit;
     const char *output, *plot, *log, *json;
     cli_data data;
+    int only_new; /* 1: the model written has the materials of data alone */
 } job;
 
 static void summarise(const job *j, const hnbrdf_model *model, const hnbrdf_fit_report *report)
@@ -90,8 +92,9 @@ static void summarise(const job *j, const hnbrdf_model *model, const hnbrdf_fit_
                 hnbrdf_encoding_name(desc.encoding), desc.latent);
     fprintf(words, ", %d material%s", desc.material_count, desc.material_count == 1 ? "" : "s");
     if (j->fit.freeze) {
-        int replaced =
-            hnbrdf_model_material_count(j->fit.freeze) + j->data.count - desc.material_count;
+        int replaced = j->only_new ? 0
+                                   : hnbrdf_model_material_count(j->fit.freeze) + j->data.count -
+                                         desc.material_count;
         fprintf(words, " (%d fitted on a frozen network, %.2f s each", j->data.count,
                 report->seconds / j->data.count);
         if (replaced > 0)
@@ -201,6 +204,21 @@ static int write_speed(const job *j, const hnbrdf_fit_report *report)
     return cli_output_close(&output);
 }
 
+/* *model with its first materials, those of the data, alone. */
+static hnbrdf_result keep_new(const job *j, hnbrdf_model **model, hnbrdf_error *error)
+{
+    hnbrdf_model_desc desc;
+    hnbrdf_model *kept = NULL;
+    hnbrdf_model_describe(*model, &desc);
+    desc.material_count = j->data.count;
+    hnbrdf_result result = hnbrdf_model_create(&desc, NULL, &kept, error);
+    if (!result) {
+        hnbrdf_model_free(*model);
+        *model = kept;
+    }
+    return result;
+}
+
 /* Fit and save. The checkpoint stays only after an interruption. */
 static int run(job *j)
 {
@@ -221,6 +239,8 @@ static int run(job *j)
     hnbrdf_catch_interrupts(0);
     if (d.stage)
         cli_progress_end(&d.line);
+    if (!result && j->only_new)
+        result = keep_new(j, &model, &error);
     if (!result && first)
         result = hnbrdf_model_save(model, j->output, &error);
     if (result == HNBRDF_ERROR_CANCELLED) {
@@ -260,6 +280,7 @@ static int open_and_run(job *j, const char *freeze, char *const *data, int count
     if (freeze && !(code = cli_open_source(freeze, &source)) && !source.model)
         code = cli_fail("%s: a measured file, expected a model to freeze", freeze);
     j->fit.freeze = source.model;
+    j->only_new = freeze && cli_is_universal(freeze);
     j->fit.ranks = cli_ranks();
     code = cli_ranks_agree(code);
     if (!code && !(code = cli_open_data_of_ranks(data, count, &j->data))) {
@@ -333,7 +354,9 @@ int cmd_fit(int argc, char **argv)
          "of GGX; 0: the plain gradient (default 1)"},
         {"seed", 0, CLI_INT, &seed, 0, 9e15, "N", "seed of everything random (default 1)"},
         {"freeze", 0, CLI_READ, &freeze, 0, 0, "MODEL",
-         "keep this model's network, fit only the new materials (default steps 48; --rate, --batch "
+         "keep this model's network, fit only the new materials; `universal` is a network that "
+         "the command has in itself: MODEL.safetensors then holds the new ones alone (default "
+         "steps 48; --rate, --batch "
          "and --schedule "
          "have no say)"},
         {"resume", 0, CLI_FLAG, &resume, 0, 0, NULL,

@@ -432,13 +432,26 @@ void cli_close_data(cli_data *data)
 
 cli_word cli_variant = {HNBRDF_VARIANT_AUTO, cli_variant_word};
 
+/* The shipped network, in the command itself; src/tools.cmake says which. */
+extern const unsigned char hnbrdf_universal_model[];
+extern const int hnbrdf_universal_model_size;
+
+int cli_is_universal(const char *path)
+{
+    return strcmp(path, "universal") == 0;
+}
+
 static int load_model(const char *path, hnbrdf_model **model)
 {
     hnbrdf_error error;
     const hnbrdf_load_options load = {.variant = (hnbrdf_variant)cli_variant.value,
                                       .notes = CLI_NOTES};
-    return hnbrdf_model_load(path, &load, model, &error) == HNBRDF_OK ? CLI_OK
-                                                                      : cli_fail("%s", error.text);
+    const hnbrdf_result result =
+        cli_is_universal(path)
+            ? hnbrdf_model_load_memory(hnbrdf_universal_model, (size_t)hnbrdf_universal_model_size,
+                                       &load, model, &error)
+            : hnbrdf_model_load(path, &load, model, &error);
+    return result ? cli_fail("%s", error.text) : CLI_OK;
 }
 
 int cli_open_source(const char *path, cli_source *source)
@@ -455,9 +468,10 @@ int cli_open_source(const char *path, cli_source *source)
         result = open_builtin(find_builtin(builtin), &opened.measured);
     else if (procedural_count(path))
         return cli_fail("%s: materials, choose one as in builtin:procedural-0", path);
-    else if (is_directory(path))
+    else if (!cli_is_universal(path) && is_directory(path))
         return cli_fail("%s: a directory, expected one model or measured file", path);
-    else if (cli_looks_like_model(path) || hnbrdf_ends_with(path, ".safetensors"))
+    else if (cli_is_universal(path) || cli_looks_like_model(path) ||
+             hnbrdf_ends_with(path, ".safetensors"))
         result = load_model(path, &opened.model);
     else
         result = open_measured_file(path, &opened.measured);

@@ -134,6 +134,20 @@ hnbrdf_result hnbrdf_fit_checkpoint_save(const trainer *t, hnbrdf_error *error)
     return hnbrdf_output_close(&output, error);
 }
 
+/* 1 if these can be the searches of a material: as many as there is room for, in range. */
+static int searches_are_sound(const fit_searches *s)
+{
+    const int most = s->phase == 0 ? FIT_STARTS : FIT_PULLS;
+    int good = s->phase >= 0 && s->phase < FIT_PHASES && s->count > 0 && s->count <= most;
+    for (int i = 0; i < s->count && good; i++) {
+        const fit_point *p = &s->point[i];
+        good = p->damping > 0.0 && p->damping <= 1e9 && p->pull >= 0.0 && p->pull <= 1e9;
+        for (int k = 0; k < FIT_OWN; k++)
+            good &= fabsf(p->at[k]) <= 1e6f && fabsf(p->trial[k]) <= 1e6f;
+    }
+    return good;
+}
+
 /* 1 if training could have stood like this: indices that exist, and numbers in range. */
 static int is_sound(const trainer *t, const header *h)
 {
@@ -147,7 +161,7 @@ static int is_sound(const trainer *t, const header *h)
         good &= t->schedule.order[m] >= 0 && t->schedule.order[m] < t->count &&
                 t->schedule.cursor[m] >= 0 && t->schedule.cursor[m] < t->pool.tiles;
     for (int m = 0; m < t->count && t->frozen; m++)
-        good &= hnbrdf_fit_searches_are_sound(&t->frozen->of[m]) &&
+        good &= searches_are_sound(&t->frozen->of[m]) &&
                 t->frozen->of[m].phase == t->frozen->of[0].phase;
     for (size_t i = 0; i < t->layout.count; i++)
         good &= isfinite(t->best[i]) != 0;

@@ -23,6 +23,7 @@ int hnbrdf_fit_unknowns_count(const fit_unknowns *unknowns);
 typedef struct fit_normal {
     double loss;              /* of pairs, and `pull` times the mean of worth */
     double pairs;             /* mean loss of a pair and channel */
+    double alone;             /* SMAPE of the analytic part alone, that of GGX being 1 */
     double worth[FIT_LIGHTS]; /* squared errors in pictures, those of GGX alone being 1 */
     double gradient[FIT_UNKNOWNS], matrix[FIT_UNKNOWNS][FIT_UNKNOWNS];
 } fit_normal;

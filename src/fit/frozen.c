@@ -297,7 +297,9 @@ static hnbrdf_result make(trainer *t, hnbrdf_error *error)
                  stride = (size_t)hnbrdf_fit_own_stride(&t->layout);
     if (f) {
         f->slots = hnbrdf_fit_slots();
-        f->normal_size = (stride + 1) * stride;
+        f->ggx_phase = -1;
+        f->normal_size = (stride + 1) * stride * (stride > FIT_LANES ? 2 : 1);
+        f->ggx = calloc(held, sizeof *f->ggx);
         f->of = calloc((size_t)t->count, sizeof *f->of);
         f->rows = calloc((size_t)t->layout.padded * FIT_LANES, sizeof(float));
         f->views = calloc(held, sizeof *f->views);
@@ -305,7 +307,7 @@ static hnbrdf_result make(trainer *t, hnbrdf_error *error)
         f->sums = calloc(held * (size_t)f->slots, sizeof *f->sums);
         f->units = calloc(held * (size_t)f->slots, sizeof *f->units);
     }
-    if (!f || !f->of || !f->rows || !f->views || !f->normals || !f->sums || !f->units)
+    if (!f || !f->of || !f->rows || !f->ggx || !f->views || !f->normals || !f->sums || !f->units)
         return hnbrdf_fail(error, HNBRDF_ERROR_MEMORY,
                            "out of memory for the codes of %d materials", t->held_count);
     return HNBRDF_OK;
@@ -318,7 +320,7 @@ void hnbrdf_fit_frozen_free(trainer *t)
         return;
     for (int k = 0; k < t->held_count && f->views; k++)
         free(f->views[k].of);
-    void *all[] = {f->of, f->rows, f->views, f->normals, f->sums, f->units, f};
+    void *all[] = {f->of, f->rows, f->ggx, f->views, f->normals, f->sums, f->units, f};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
         free(all[i]);
 }

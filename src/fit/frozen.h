@@ -28,7 +28,7 @@ typedef struct fit_searches {
 
 /* Of a chunk of tiles or of pixels and one search. */
 typedef struct fit_chunk_sums {
-    double loss, squares[FIT_LIGHTS];
+    double loss, alone, squares[FIT_LIGHTS];
 } fit_chunk_sums;
 
 /* Chunks of one material, first those of tiles, then those of pixels, for one thread. */
@@ -37,13 +37,14 @@ typedef struct fit_unit {
 } fit_unit;
 
 struct fit_frozen {
-    fit_searches *of;     /* [count] those of this rank are up to date */
-    float *rows;          /* see kernel.own_rows */
-    fit_views *views;     /* [held] */
-    float *normals;       /* [held][slots][normal_size] */
-    fit_chunk_sums *sums; /* [held][slots] */
-    size_t normal_size;
-    int slots, phase;
+    fit_searches *of;            /* [count] those of this rank are up to date */
+    float *rows;                 /* see kernel.own_rows */
+    fit_views *views;            /* [held] */
+    float *normals;              /* [held][slots][normal_size] */
+    fit_chunk_sums *sums;        /* [held][slots] */
+    size_t normal_size;          /* of one, and of the second one of the analytic part alone */
+    double *ggx;                 /* [held] SMAPE of GGX over the tiles of the phase */
+    int slots, phase, ggx_phase; /* ggx_phase: of ggx; -1: none */
     fit_unit *units;
     int unit_count;
     float most;   /* see fit_unknowns */
@@ -65,7 +66,5 @@ void hnbrdf_fit_look(trainer *t);
 float hnbrdf_fit_phase_mix(const trainer *t, int phase);
 /* Floating-point operations of one pair: forward, and backward for each channel. */
 double hnbrdf_fit_own_flops(const fit_layout *layout);
-/* Whether a checkpoint's searches can be those of a fit. */
-int hnbrdf_fit_searches_are_sound(const fit_searches *searches);
 
 #endif

@@ -107,10 +107,12 @@ typedef struct fit_kernel {
      * the matrix of Gauss and Newton are added to normal: [stride], then [stride][stride], of which
      * only rows of numbers that there are get filled. NULL: the loss alone. The loss is a sum of
      * absolute values; the matrix is that of a sum of squares with the same gradient, where f is
-     * off by less than width (f + F + 1e-4) that of a square so wide. Rotation stays. */
+     * off by less than width (f + F + 1e-4) that of a square so wide. Rotation stays. Where the
+     * analytic part is trained, its SMAPE alone is added to *alone, and a second set of numbers,
+     * after those of normal, is the same of it; alone may be NULL. */
     double (*own)(const fit_layout *layout, const float *parameters, const float *derived,
                   const float *rows, const fit_tile *tile, const float *own, float mix, float width,
-                  float *scratch, float *normal);
+                  float *scratch, float *normal, double *alone);
     /* The same of one pixel of a picture, whose pairs the tile holds: under light s, of FIT_LIGHTS,
      * it sends the sum of lights [s][FIT_TILE] times f. The squared error of each light, summed
      * over the channels, is added to squares, and what the sum of these times weights is made of to
@@ -142,7 +144,7 @@ typedef struct fit_kernel_double_table {
     void (*own_rows)(const fit_layout *layout, const double *parameters, double *rows);
     double (*own)(const fit_layout *layout, const double *parameters, const double *derived,
                   const double *rows, const fit_tile *tile, const double *own, double mix,
-                  double width, double *scratch, double *normal);
+                  double width, double *scratch, double *normal, double *alone);
     void (*pixel)(const fit_layout *layout, const double *parameters, const double *derived,
                   const double *rows, const fit_tile *tile, const float *lights,
                   const float *weights, const double *own, double *scratch, double *normal,

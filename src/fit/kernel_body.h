@@ -513,9 +513,26 @@ static void own_forward(const fit_layout *l, const REAL *parameters, const REAL 
             p->analytic[b / FIT_TILE][b % FIT_TILE] = (REAL)tile->analytic[b];
 }
 
+/* The analytic part alone: its loss, and what it adds to normal. */
+static double own_alone(const own_pass *p, const fit_tile *tile, REAL width, REAL *by_own,
+                        REAL *normal)
+{
+    REAL by_f[FIT_TILE], weight[FIT_TILE];
+    double loss = 0.0;
+    memset(by_own, 0, sizeof(REAL) * FIT_TILE * FIT_OWN);
+    for (int k = 0; k < 3; k++) {
+        const float *target = tile->target + k * FIT_TILE;
+        loss += channel_loss(p->analytic[k], target, 1, by_f);
+        own_weights(p->analytic[k], target, by_f, width, weight);
+        own_analytic(&p->cache, k, NULL, by_own, FIT_OWN);
+        own_sum(by_own, FIT_OWN, p->used, by_f, weight, normal);
+    }
+    return loss;
+}
+
 static double kernel_own(const fit_layout *l, const REAL *parameters, const REAL *derived,
                          const REAL *rows, const fit_tile *tile, const REAL *own, REAL mix,
-                         REAL width, REAL *scratch, REAL *normal)
+                         REAL width, REAL *scratch, REAL *normal, double *alone)
 {
     REAL u[FIT_TILE], by_f[FIT_TILE], weight[FIT_TILE], by_c[FIT_TILE], by_g[FIT_TILE];
     REAL gate[FIT_TILE], by_own[FIT_TILE * FIT_OWN];
@@ -535,6 +552,8 @@ static double kernel_own(const fit_layout *l, const REAL *parameters, const REAL
             own_analytic(&p.cache, k, gate, by_own, p.stride);
         own_sum(by_own, p.stride, p.used, by_f, weight, normal);
     }
+    if (normal && alone && p.stride > FIT_LANES)
+        *alone += own_alone(&p, tile, width, by_own, normal + (FIT_OWN + 1) * FIT_OWN);
     return loss;
 }
 

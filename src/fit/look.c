@@ -6,6 +6,7 @@
 #include <string.h>
 
 enum { CHUNK = 16 }; /* tiles or pixels that are added up before they join the sum */
+#define HOLD 30.0    /* of the analytic part, see below */
 
 /* Logarithms at first, which find the way from afar; SMAPE in the end. What a code costs in
  * pictures is found by pulls of several strengths: the least one that suffices is taken. */
@@ -80,9 +81,10 @@ static void look_at_tile(trainer *t, int held, int chunk, const fit_tile *tile, 
     const float mix = hnbrdf_fit_phase_mix(t, f->phase);
     for (int i = 0; i < s->count; i++) {
         const size_t slot = slot_of(t, held, chunk, i);
-        f->sums[slot].loss += t->kernel->own(
-            &t->layout, t->parameters, t->derived, f->rows, tile, s->point[i].trial, mix,
-            hnbrdf_fit_phases[f->phase].width, scratch, f->normals + slot * f->normal_size);
+        f->sums[slot].loss +=
+            t->kernel->own(&t->layout, t->parameters, t->derived, f->rows, tile, s->point[i].trial,
+                           mix, hnbrdf_fit_phases[f->phase].width, scratch,
+                           f->normals + slot * f->normal_size, &f->sums[slot].alone);
     }
 }
 
@@ -113,7 +115,7 @@ double hnbrdf_fit_loss_of(trainer *t, const float *own, const float *const *tile
     for (int k = 0; k < count; k++) {
         const fit_tile tile = hnbrdf_fit_tile_view(tiles[k]);
         loss += t->kernel->own(&t->layout, t->parameters, t->derived, t->frozen->rows, &tile, own,
-                               hnbrdf_fit_phase_mix(t, 0), 1.0f, scratch, NULL);
+                               hnbrdf_fit_phase_mix(t, 0), 1.0f, scratch, NULL, NULL);
     }
     return loss;
 }
@@ -165,6 +167,32 @@ static void list_units(trainer *t)
 
 /* ---- Sums ------------------------------------------------------------------------------------ */
 
+/* What keeps the analytic part near GGX: half of HOLD times the square of what its SMAPE is above
+ * that of GGX, in shares of it. */
+static void hold_alone(const trainer *t, int held, int search, const fit_unknowns *unknowns,
+                       double scale, fit_normal *normal)
+{
+    const struct fit_frozen *f = t->frozen;
+    const size_t second = (size_t)(FIT_OWN + 1) * FIT_OWN;
+    const int count = hnbrdf_fit_unknowns_count(unknowns);
+    fit_normal alone;
+    memset(&alone, 0, sizeof alone);
+    for (int c = 0; c < chunks_of(tiles_now(t)); c++) {
+        const size_t slot = slot_of(t, held, c, search);
+        normal->alone += f->sums[slot].alone * scale / f->ggx[held];
+        hnbrdf_fit_normal_add(&alone, unknowns, f->normals + slot * f->normal_size + second,
+                              FIT_OWN, scale / f->ggx[held]);
+    }
+    const double more = fmax(normal->alone - 1.0, 0.0);
+    normal->loss += 0.5 * HOLD * more * more;
+    for (int i = 0; i < count && more > 0.0; i++) {
+        normal->gradient[i] += HOLD * more * alone.gradient[i];
+        for (int j = 0; j < count; j++)
+            normal->matrix[i][j] +=
+                HOLD * (more * alone.matrix[i][j] + alone.gradient[i] * alone.gradient[j]);
+    }
+}
+
 static void add_up(const trainer *t, int held, int search, const fit_unknowns *unknowns,
                    fit_normal *normal)
 {
@@ -181,8 +209,33 @@ static void add_up(const trainer *t, int held, int search, const fit_unknowns *u
             normal->worth[k] += f->sums[slot].squares[k] / f->views[held].ggx[k];
     }
     normal->loss = normal->pairs;
+    if (unknowns->analytic)
+        hold_alone(t, held, search, unknowns, scale, normal);
     for (int k = 0; k < FIT_LIGHTS; k++)
         normal->loss += searches_of(t, held)->point[search].pull * normal->worth[k] / FIT_LIGHTS;
+}
+
+/* SMAPE of GGX over the tiles of a phase. */
+static double ggx_smape(const trainer *t, int held)
+{
+    float room[FIT_POOL_TILE];
+    double sum = 0.0;
+    for (int k = 0; k < tiles_now(t); k++) {
+        const float *tile = hnbrdf_fit_pool_fetch(&t->pool, held, k, room);
+        for (int i = 0; i < 3 * FIT_TILE; i++) {
+            const double f = (double)tile[FIT_POOL_ANALYTIC + i];
+            const double g = (double)tile[FIT_POOL_TARGET + i];
+            sum += 2.0 * fabs(f - g) / (f + g + FIT_SMAPE_OFFSET);
+        }
+    }
+    return fmax(sum / (3.0 * FIT_TILE * tiles_now(t)), 1e-4);
+}
+
+static void measure_ggx(void *context, int held, int worker)
+{
+    trainer *t = context;
+    (void)worker;
+    t->frozen->ggx[held] = ggx_smape(t, held);
 }
 
 static void settle(void *context, int held, int worker)
@@ -200,6 +253,10 @@ static void settle(void *context, int held, int worker)
 
 void hnbrdf_fit_look(trainer *t)
 {
+    if (hnbrdf_fit_own_stride(&t->layout) > FIT_LANES && t->frozen->ggx_phase != t->frozen->phase) {
+        hnbrdf_threads_run(t->workers, t->held_count, measure_ggx, t);
+        t->frozen->ggx_phase = t->frozen->phase;
+    }
     list_units(t);
     hnbrdf_threads_run(t->workers, t->frozen->unit_count, look_at_unit, t);
     hnbrdf_threads_run(t->workers, t->held_count, settle, t);
@@ -211,19 +268,4 @@ double hnbrdf_fit_own_flops(const fit_layout *l)
     const double each = l->outputs / 3.0 * h + hidden + h * l->latent_size;
     const double own = l->latent_size;
     return 2.0 * (FIT_INPUTS * h + hidden + h * l->outputs + 3.0 * (each + own * own));
-}
-
-int hnbrdf_fit_searches_are_sound(const fit_searches *s)
-{
-    int good =
-        s->phase >= 0 && s->phase < FIT_PHASES && s->count > 0 &&
-        s->count <=
-            hnbrdf_fit_phases[s->phase >= 0 && s->phase < FIT_PHASES ? s->phase : 0].searches;
-    for (int i = 0; i < s->count && good; i++) {
-        const fit_point *p = &s->point[i];
-        good = p->damping > 0.0 && p->damping <= 1e9 && p->pull >= 0.0 && p->pull <= 1e9;
-        for (int k = 0; k < FIT_OWN; k++)
-            good &= fabsf(p->at[k]) <= 1e6f && fabsf(p->trial[k]) <= 1e6f;
-    }
-    return good;
 }

@@ -102,21 +102,18 @@ static void step_layer(void *context, int k, int worker)
                          NETWORK_RATE * rate_now(t));
 }
 
-/* One step: of the network, unless it is frozen, and of what the materials have of their own. It
- * leaves finite numbers: gradients beyond 1e17 or 1e18 are passed over, so that moments are
- * floats. */
+/* One step: of the network, and of what the materials have of their own. It leaves finite numbers:
+ * gradients beyond 1e17 or 1e18 are passed over, so that moments are floats. */
 static void take_step(trainer *t)
 {
-    const size_t at = t->options.freeze ? 0 : t->layout.network_count;
-    if (!t->options.freeze) {
-        const double before = hnbrdf_threads_busy(t->workers);
-        if (hnbrdf_threads_count(t->workers) < SHARED_STEPS)
-            for (int k = 0; k < t->soap.count; k++)
-                step_layer(t, k, 0);
-        else
-            hnbrdf_threads_run(t->workers, t->soap.count, step_layer, t);
-        t->stepping += hnbrdf_threads_busy(t->workers) - before;
-    }
+    const size_t at = t->layout.network_count;
+    const double before = hnbrdf_threads_busy(t->workers);
+    if (hnbrdf_threads_count(t->workers) < SHARED_STEPS)
+        for (int k = 0; k < t->soap.count; k++)
+            step_layer(t, k, 0);
+    else
+        hnbrdf_threads_run(t->workers, t->soap.count, step_layer, t);
+    t->stepping += hnbrdf_threads_busy(t->workers) - before;
     hnbrdf_fit_adam(t->parameters + at, t->gradient + at, t->moments + at,
                     t->moments + t->layout.count + at, hnbrdf_fit_trained(&t->layout) - at,
                     t->step - t->since, rate_now(t));
