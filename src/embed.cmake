@@ -12,6 +12,7 @@ endif()
 file(WRITE "${OUTPUT}.tmp"
   "extern const ${type} ${NAME}[];\nconst ${type} ${NAME}[] = {\n${bytes}0};\n")
 if(DEFINED SIZE)
-  file(APPEND "${OUTPUT}.tmp" "extern const int ${SIZE};\nconst int ${SIZE} = sizeof ${NAME} - 1;\n")
+  file(APPEND "${OUTPUT}.tmp"
+    "extern const int ${SIZE};\nconst int ${SIZE} = sizeof ${NAME} - 1;\n")
 endif()
 file(RENAME "${OUTPUT}.tmp" "${OUTPUT}")

@@ -46,6 +46,7 @@ static const cli_command command = {
 typedef struct display {
     cli_progress line;
     const char *stage;
+    int log_every; /* steps between rows */
     fit_log log;
     loss_curve curve;
 } display;
@@ -69,7 +70,7 @@ static int show(void *user, const hnbrdf_fit_progress *p)
     else
         detail[0] = '\0';
     cli_progress_update(&d->line, p->done, detail);
-    if (strcmp(p->stage, "network") == 0 && p->step > 0 && p->step % 100 == 0)
+    if (strcmp(p->stage, "network") == 0 && p->step > 0 && p->step % d->log_every == 0)
         fit_log_row(&d->log, p);
     return hnbrdf_interrupted();
 }
@@ -223,7 +224,7 @@ static hnbrdf_result keep_new(const job *j, hnbrdf_model **model, hnbrdf_error *
 static int run(job *j)
 {
     const int first = cli_rank() == 0;
-    display d = {.stage = NULL};
+    display d = {.stage = NULL, .log_every = j->fit.freeze ? 1 : 100};
     hnbrdf_model *model = NULL;
     hnbrdf_fit_report report;
     hnbrdf_error error;
@@ -362,7 +363,8 @@ int cmd_fit(int argc, char **argv)
         {"resume", 0, CLI_FLAG, &resume, 0, 0, NULL,
          "go on from OUTPUT.checkpoint of an interrupted fit, and with its --log"},
         {"log", 0, CLI_WRITE_TEXT, &log, 0, 0, "FILE",
-         "write step,share,loss,pairs_per_s as CSV, a row every 100 steps"},
+         "write step,share,loss,pairs_per_s as CSV, a row every 100 steps; with --freeze every "
+         "step"},
         {"plot", 0, CLI_WRITE_TEXT, &plot, 0, 0, "FILE", "write the course of the loss as an SVG"},
         {"json", 0, CLI_WRITE_TEXT, &json, 0, 0, "FILE",
          "write speed, the machine's limit and where the time went as JSON; - is standard output"},

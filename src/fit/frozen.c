@@ -278,7 +278,7 @@ static hnbrdf_result run_steps(trainer *t, hnbrdf_error *error)
         if (!see_share(t, share_before))
             return hnbrdf_fit_fail_lost(t, error);
         hnbrdf_fit_tell(t, "network", fmin(t->share, 1.0), t->running,
-                        t->frozen->pairs - pairs_before, t->share >= 1.0);
+                        t->frozen->pairs - pairs_before, 1);
         result = hear(t, &saved, error);
     }
     if (!result && t->frozen->phase < FIT_PHASES - 1) { /* the same measure whenever it ends */
