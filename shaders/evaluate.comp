@@ -22,7 +22,7 @@ vec4 read4(uint at)
 }
 
 // hnbrdf_material read_material(uint at): wi, wo, kd, eta, alpha, cosine and sine, latent, lobes, then u, then what it
-// was fitted with: 52 numbers.
+// was fitted with, then its energy: 56 numbers.
 #include "material.glsl"
 
 void main()
@@ -30,7 +30,7 @@ void main()
     uint k = gl_GlobalInvocationID.x;
     if (k >= count)
         return;
-    uint at = 52 * k, to = 8 * k;
+    uint at = 56 * k, to = 8 * k;
     hnbrdf_material m = read_material(at);
     vec3 wi = read3(at), wo = read3(at + 3), f = vec3(0.0);
     if (WHAT == 0)

@@ -438,6 +438,14 @@ vec3 hnbrdf_compose_neural(vec3 exp_arg, float b)
     return hnbrdf_finish(f_sum);
 }
 
+// What f of a material that conserves energy is multiplied by: k(wi.z) k(wo.z), k(z) = min(1, ramp.x + ramp.y z).
+float hnbrdf_energy_factor(vec2 energy_ramp, float z_i, float z_o)
+{
+    HNBRDF_PRECISE float k_i = energy_ramp.x + energy_ramp.y * z_i;
+    HNBRDF_PRECISE float k_o = energy_ramp.x + energy_ramp.y * z_o;
+    return hnbrdf_clamp(k_i, 0.0, 1.0) * hnbrdf_clamp(k_o, 0.0, 1.0);
+}
+
 // ---- Edits ---------------------------------------------------------------------------------------------
 
 // What a material was fitted with. Where it differs from what the material is, the network's correction is carried

@@ -43,7 +43,7 @@ hnbrdf_room(measured
 hnbrdf_room(hdf5
   image_driver.c nbrdf_hdf5.c)
 hnbrdf_room(metrics
-  compare.c flip.c flip_colour.c flip_hdr.c image.c physics.c)
+  albedo.c compare.c energy.c flip.c flip_colour.c flip_hdr.c image.c physics.c)
 hnbrdf_room(fit
   descent.c frozen.c look.c pixels.c views.c
   kernel_avx2.c kernel_avx512.c adam.c agree.c alone.c axis.c bright.c checkpoint.c fit.c ggx.c
@@ -79,7 +79,7 @@ hnbrdf_room(edit
 hnbrdf_room(bake
   bake.c ggx.c half.c options.c ranks.c report.c rows.c search.c sizes.c teacher.c tell.c wave.c)
 hnbrdf_room(report
-  bake_front.c bake_plot.c bake_tables.c compare.c compare_images.c editing_edits.c
+  bake_front.c bake_plot.c bake_tables.c compare.c compare_images.c conserve.c editing_edits.c
   editing_figures.c
   editing_fit.c editing_measure.c editing_mix.c editing_plot.c editing_sheet.c
   editing_tables.c fit_log.c flip.c gallery_choose.c

@@ -82,6 +82,8 @@ hnbrdf_model *scene_model(const scene_shape *shape)
     fill_materials(&rng, shape, materials);
     for (int m = 1; m < SCENE_MATERIALS && shape->edited; m++) /* as if it had been another one */
         materials[m].fitted = as_fitted(materials[m - 1]).fitted;
+    if (shape->edited)
+        materials[1].energy = (hnbrdf_energy){0.3f, 1.5f};
     hnbrdf_model *model = NULL;
     hnbrdf_error error = {""};
     if (hnbrdf_model_create(&desc, NULL, &model, &error))

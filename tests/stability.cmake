@@ -21,6 +21,7 @@ add_test(NAME test_fast_math COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/test_fast_ma
   $<TARGET_FILE:hnbrdf_fast_math_plain> $<TARGET_FILE:hnbrdf_fast_math_fast>
   ${PROJECT_SOURCE_DIR}/examples/models/rgl_32x2.safetensors)
 hnbrdf_test(test_physics test_physics.c core_support.c)
+hnbrdf_test(test_energy test_energy.c core_support.c)
 add_test(NAME test_physics_cli COMMAND sh ${CMAKE_CURRENT_SOURCE_DIR}/test_physics_cli.sh
   $<TARGET_FILE:hnbrdf_cli>
   ${PROJECT_SOURCE_DIR}/examples/models/rgl_32x2.safetensors ${PROJECT_SOURCE_DIR}/shaders)

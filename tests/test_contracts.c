@@ -100,15 +100,16 @@ static void a_scale_of_0_stands_for_1(void **state)
 
 /* ---- hnbrdf.h: materials --------------------------------------------------------------------- */
 
-/* "40 bytes"; "32 bytes"; "43 floats"; "kd 0.5, eta 1.5, alpha 0.5, no rotation, latent 0, lobes 0,
- * fitted 0." */
-static void a_material_is_43_floats_with_the_documented_start(void **state)
+/* "40 bytes"; "32 bytes"; "8 bytes"; "45 floats"; "kd 0.5, eta 1.5, alpha 0.5, no rotation,
+ * latent 0, lobes 0, fitted 0, energy 0." */
+static void a_material_is_45_floats_with_the_documented_start(void **state)
 {
     (void)state;
-    float expected[43] = {0.5f, 0.5f, 0.5f, 1.5f, 1.5f, 1.5f, 0.5f, 0.5f};
+    float expected[45] = {0.5f, 0.5f, 0.5f, 1.5f, 1.5f, 1.5f, 0.5f, 0.5f};
     hnbrdf_material m;
     assert_int_equal(sizeof(hnbrdf_lobes), 40);
     assert_int_equal(sizeof(hnbrdf_fitted), 32);
+    assert_int_equal(sizeof(hnbrdf_energy), 8);
     assert_int_equal(sizeof m, sizeof expected);
     memset(&m, 0xa5, sizeof m);
     hnbrdf_material_init(&m);
@@ -571,7 +572,7 @@ int main(void)
         cmocka_unit_test(success_leaves_the_error_alone),
         cmocka_unit_test(the_exponent_is_clamped_at_both_ends),
         cmocka_unit_test(a_scale_of_0_stands_for_1),
-        cmocka_unit_test(a_material_is_43_floats_with_the_documented_start),
+        cmocka_unit_test(a_material_is_45_floats_with_the_documented_start),
         cmocka_unit_test(a_mixture_may_replace_either_end),
         cmocka_unit_test(lobes_do_not_change_the_value),
         cmocka_unit_test(lobes_have_the_roughness_the_header_gives_them),

@@ -329,7 +329,7 @@ static void materials_out_of_range_are_refused(void **state)
     hnbrdf_material good, m;
     hnbrdf_material_init(&good);
     assert_int_equal(hnbrdf_material_check(&good, NULL), HNBRDF_OK);
-    assert_int_equal(sizeof good, 43 * sizeof(float));
+    assert_int_equal(sizeof good, 45 * sizeof(float));
     static const struct {
         size_t field;
         float bad[4];
@@ -358,6 +358,8 @@ static void materials_out_of_range_are_refused(void **state)
         {offsetof(hnbrdf_material, fitted.alpha[0]),
          {0.0f, 9.9e-5f, 1.0001f, NAN},
          "fitted.alpha[0]"},
+        {offsetof(hnbrdf_material, energy.horizon), {-1e-6f, 1.0001f, INFINITY, NAN}, "energy.h"},
+        {offsetof(hnbrdf_material, energy.slope), {-1e-6f, 1.1e4f, INFINITY, NAN}, "energy.s"},
     };
     for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++)
         for (int b = 0; b < 4; b++) {

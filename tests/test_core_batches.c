@@ -36,6 +36,8 @@ static void fill(rng *r, batch_inputs *in)
         in->materials[k] = random_material(r, k & 1);
         if (k % 3)
             random_lobes(r, &in->materials[k].lobes);
+        if (k % 4 == 1)
+            in->materials[k].energy = (hnbrdf_energy){rng_float(r), 10.0f * rng_float(r)};
         int block = k / 16;
         in->index[k] = block % 2 == 0 ? 2 : (int)(rng_u32(r) % MATERIALS);
     }

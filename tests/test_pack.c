@@ -37,7 +37,7 @@ static hnbrdf_packing full_packing(hnbrdf_texel_format format)
         packing.latent_range[i][1] = 5.0f;
     }
     assert_int_equal(hnbrdf_packing_check(&packing, NULL), HNBRDF_OK);
-    assert_int_equal(hnbrdf_packing_texels(&packing), HNBRDF_MAX_TEXELS);
+    assert_int_equal(hnbrdf_packing_texels(&packing), HNBRDF_MAX_TEXELS - 1);
     return packing;
 }
 
@@ -346,7 +346,35 @@ static void a_material_takes_no_more_texels_than_its_channels(void **state)
     assert_int_equal(texels_of(1, 1, 1, 0, 4, 1), 6);  /* 24 */
     assert_int_equal(texels_of(1, 0, 0, 1, 4, 0), 5);  /* 18 */
     assert_int_equal(texels_of(0, 0, 0, 0, 12, 0), 3); /* neural */
-    assert_int_equal(texels_of(1, 1, 1, 1, 16, 1), HNBRDF_MAX_TEXELS);
+    assert_int_equal(texels_of(1, 1, 1, 1, 16, 1), HNBRDF_MAX_TEXELS - 1);
+    hnbrdf_packing all = full_packing(HNBRDF_TEXEL_RGBA16F);
+    all.energy = 1;
+    assert_int_equal(hnbrdf_packing_texels(&all), HNBRDF_MAX_TEXELS);
+}
+
+/* What conserves energy comes back within what the header states, what does not with k = 1. */
+static void energy_comes_back(void **state)
+{
+    static const hnbrdf_energy given[] = {
+        {0.0f, 0.0f}, {1.0f, 0.0f}, {0.3f, 9.7f}, {0.0f, 200.0f}, {0.77f, 0.01f}};
+    (void)state;
+    for (int format = 0; format < 2; format++)
+        for (size_t k = 0; k < sizeof given / sizeof given[0]; k++) {
+            hnbrdf_packing packing = full_packing((hnbrdf_texel_format)format);
+            hnbrdf_material m;
+            hnbrdf_material_init(&m);
+            m.energy = given[k];
+            assert_true(round_trip(&packing, &m).energy.horizon == 0.0f);
+            packing.energy = 1;
+            const hnbrdf_energy e = round_trip(&packing, &m).energy;
+            const double horizon = k == 0 ? 1.0 : (double)given[k].horizon;
+            const double off = fabs((double)e.horizon - horizon), slope = (double)given[k].slope;
+            assert_true(off <= (format ? 1.0 / 509.0 : 0x1p-12));
+            if (format)
+                assert_true(fabs(sqrt((double)e.slope) - sqrt(slope)) <= 1.0 / 31.0);
+            else
+                assert_true(fabs((double)e.slope - slope) <= 0x1p-11 * slope);
+        }
 }
 
 static void channels_lie_where_the_header_says(void **state)
@@ -455,6 +483,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(half_floats_keep_every_field_within_what_the_header_states),
         cmocka_unit_test(bytes_keep_every_field_within_what_the_header_states),
+        cmocka_unit_test(energy_comes_back),
         cmocka_unit_test(lobes_come_back_within_what_the_header_states),
         cmocka_unit_test(a_narrow_lobe_of_bytes_is_still_there),
         cmocka_unit_test(ends_of_the_ranges_come_back_as_they_are),

@@ -74,6 +74,7 @@ void sweep_material(sweep *s, int wild, hnbrdf_material *material)
         material->latent[i] = sweep_range(s, -1.5f, 1.5f);
     memset(&material->lobes, 0, sizeof material->lobes);
     memset(&material->fitted, 0, sizeof material->fitted);
+    memset(&material->energy, 0, sizeof material->energy);
     for (int k = 0; k < HNBRDF_LOBES && sweep_u32(s) % 2; k++) {
         material->lobes.scale[k] = (sweep_u32(s) % 4 ? 1.0f : -1.0f) * sweep_range(s, 0.01f, 3.0f);
         for (int j = 0; j < HNBRDF_LOBE_KNOTS; j++)

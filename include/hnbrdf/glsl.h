@@ -74,7 +74,7 @@ typedef enum hnbrdf_shading_language {
     HNBRDF_LANGUAGE_SLANG,
     /* one material as a .brdf file of BRDF Explorer, whose sliders edit it, without a line that
      * begins with '#': such programs pass those over. hnbrdf_model_import_brdf() gives the same
-     * model back. Single precision, and none of fixed, packing, energy, library */
+     * model back. Single precision, and none of fixed, packing, library */
     HNBRDF_LANGUAGE_BRDF
 } hnbrdf_shading_language;
 
@@ -107,10 +107,6 @@ typedef struct hnbrdf_glsl_options {
      * then has no kd and eta to edit; hnbrdf_eval_NAME(wi, wo) takes none at all, NAME as in
      * HNBRDF_MATERIAL_NAME. Not together with packing. */
     int fixed;
-    /* if set: a factor on all values of each exported material, in (0, 1], one over its albedo
-     * where that is above 1 (hnbrdf_physics_of() in metrics.h): the shader then gives off no more
-     * light than it gets. C does not do that. Not together with packing. */
-    const float *energy;
     /* 1: hnbrdf_material of a hybrid holds what it was fitted with, m.fitted_kd, m.fitted_eta and
      * m.fitted_alpha, which a shader leaves as they are, and one that
      * changes m.kd, m.eta or m.alpha edits the whole material, as C does. Always so where an

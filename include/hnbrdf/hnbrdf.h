@@ -152,7 +152,17 @@ typedef struct hnbrdf_fitted {
     float kd[3], eta[3], alpha[2]; /* all 0, or each in the range of its namesake */
 } hnbrdf_fitted;
 
-/* One material. Plain data that the caller owns, copies and edits; 43 floats.
+/* What keeps a material from giving off more light than it gets: f is multiplied by k(wi.z)
+ * k(wo.z), k(z) = min(1, horizon + slope z), which is reciprocal, at most 1, and 1 but near the
+ * horizon. Made by hnbrdf_energy_fit() (metrics.h) from the albedo of the material as it is: an
+ * edit of the material leaves it as it is, so make it again. The analytic part alone,
+ * hnbrdf_eval_analytic(), is without it. Both 0: f as it is. 8 bytes. */
+typedef struct hnbrdf_energy {
+    float horizon; /* k at the horizon, [0, 1] */
+    float slope;   /* [0, 1e4] */
+} hnbrdf_energy;
+
+/* One material. Plain data that the caller owns, copies and edits; 45 floats.
  * Evaluation trusts these ranges: call hnbrdf_material_check() after an edit. Out of range it still
  * returns finite values, without a promise which. */
 typedef struct hnbrdf_material {
@@ -163,9 +173,10 @@ typedef struct hnbrdf_material {
     float latent[HNBRDF_MAX_LATENT]; /* latent code z; the model uses the first l floats */
     hnbrdf_lobes lobes;              /* for sampling alone */
     hnbrdf_fitted fitted;            /* an edit leaves it as it is */
+    hnbrdf_energy energy;
 } hnbrdf_material;
 
-/* kd 0.5, eta 1.5, alpha 0.5, no rotation, latent 0, lobes 0, fitted 0. */
+/* kd 0.5, eta 1.5, alpha 0.5, no rotation, latent 0, lobes 0, fitted 0, energy 0. */
 HNBRDF_API void hnbrdf_material_init(hnbrdf_material *material);
 
 /* HNBRDF_OK if every field is finite and in its range; else HNBRDF_ERROR_ARGUMENT and a message
@@ -182,7 +193,8 @@ HNBRDF_API int hnbrdf_material_is_edited(const hnbrdf_material *material);
  * rotation the short way modulo pi, a half turn being the same GGX lobe, and all at once where
  * one end is isotropic and has none to speak of. Lobes go like alpha, their shares linearly;
  * where only one end has such a lobe, all are 0: fit them again. fitted goes like kd, eta and
- * alpha, an end without it counting as unedited. Every field stays between its two ends, so two
+ * alpha, an end without it counting as unedited. energy goes linearly, an end without it counting
+ * as k = 1: make it again where it matters. Every field stays between its two ends, so two
  * legal materials give a legal one. out may be a or b. Cheap, but straight through the latent
  * space: hnbrdf_mix_path_fit() in edit.h goes around what looks like neither end. */
 HNBRDF_API void hnbrdf_material_mix(const hnbrdf_material *a, const hnbrdf_material *b, float t,
@@ -485,6 +497,8 @@ typedef struct hnbrdf_prepared {
     float first[HNBRDF_MAX_HIDDEN];    /* bias of the first layer with the latent code folded in */
     int edited;                        /* 1: `edit` is set, and wanted */
     hnbrdf_prepared_edit edit;
+    int conserved; /* 1: f is multiplied by what `energy` says */
+    hnbrdf_energy energy;
 } hnbrdf_prepared;
 
 /* Works out what depends on the material alone; material need not belong to the model. */
@@ -535,9 +549,9 @@ HNBRDF_API void hnbrdf_pdf_many(const hnbrdf_model *model, const hnbrdf_material
  *
  * Channels follow each other through the texels without gaps: kd (3), eta (3), alpha (1, or 2 if
  * anisotropic), rotation (2, if rotated), fitted kd, eta and alpha (if edited: as before), latent
- * (l), lobes (10, if stored: both scales, then the four shares of each). An isotropic material with
- * l = 4 takes 11 channels: 3 texels; everything there is takes it to 8. Numbers outside of a
- * field's range are clamped to it.
+ * (l), lobes (10, if stored: both scales, then the four shares of each), energy (2, if stored). An
+ * isotropic material with l = 4 takes 11 channels: 3 texels; everything there is takes it to 9.
+ * Numbers outside of a field's range are clamped to it.
  *
  *               RGBA16F                             RGBA8 (UNORM, linear, never sRGB)
  *   stored      the number itself                   its place in the range of the field
@@ -549,6 +563,8 @@ HNBRDF_API void hnbrdf_pdf_many(const hnbrdf_model *model, const hnbrdf_material
  *   latent      the number, relative 2^-11          the number, within w/510
  *   lobes       v = s/(1 + |s|), within 2^-12       v, within 1/254
  *     shares    the share, within 2^-12             the share, within 1/510
+ *   energy      horizon, within 2^-12               horizon, within 1/510
+ *     slope     slope, relative 2^-11               sqrt(slope), within 1/32, slope at most 256
  *
  * w is the width of the range along the curve, r^2 the reflectance at normal incidence. r is kept
  * in [1e-4, 0.998]: eta from 1.0002 to 999. Scales s of lobes reach 499 and 126. Beside what is
@@ -561,8 +577,8 @@ typedef enum hnbrdf_texel_format {
     HNBRDF_TEXEL_RGBA8        /* 4 bytes a texel */
 } hnbrdf_texel_format;
 
-/* Of one material: 3 + 3 + 2 + 2 + 8 + HNBRDF_MAX_LATENT + 10 channels. */
-#define HNBRDF_MAX_TEXELS 11
+/* Of one material: 3 + 3 + 2 + 2 + 8 + HNBRDF_MAX_LATENT + 10 + 2 channels. */
+#define HNBRDF_MAX_TEXELS 12
 
 /* Which fields of a material are stored, and how. */
 typedef struct hnbrdf_packing {
@@ -574,7 +590,8 @@ typedef struct hnbrdf_packing {
     int latent;      /* l numbers of the latent code */
     /* Smallest and largest of each field, equal where all are. RGBA16F needs and looks at none. */
     float kd[2], eta[2], alpha[2], latent_range[HNBRDF_MAX_LATENT][2];
-    int lobes; /* 1: what is sampled is stored, guessed lobes too; 0: what comes back has none */
+    int lobes;  /* 1: what is sampled is stored, guessed lobes too; 0: what comes back has none */
+    int energy; /* 1: energy is stored; k = 1 of one that has none */
 } hnbrdf_packing;
 
 /* What these materials of the model need (NULL: all): fields, and ranges that just hold them; no

@@ -126,8 +126,8 @@ HNBRDF_API hnbrdf_result hnbrdf_flip_hdr(const float *image, const float *refere
 /* What is physical about a material of a model, by evaluating it. All channels. */
 typedef struct hnbrdf_physics {
     /* Directional albedo: the share of light from everywhere that leaves towards wo, the integral
-     * of f wi.z. Above 1 the material gives off more than it gets. The largest of 23 angles of
-     * incidence, 0 to 88 degrees (8 azimuths if anisotropic), good to 0.5 %. */
+     * of f wi.z. Above 1 the material gives off more than it gets. The largest of 26 angles of
+     * incidence, 0 to 89.9 degrees (8 azimuths if anisotropic), good to 0.5 %. */
     double albedo;
     double albedo_theta; /* of wo there, radians */
     int albedo_channel;  /* 0, 1 or 2 */
@@ -146,6 +146,15 @@ HNBRDF_API void hnbrdf_physics_of(const hnbrdf_model *model, const hnbrdf_materi
 /* Directional albedo towards wo, a unit vector above the horizon, per channel. */
 HNBRDF_API void hnbrdf_albedo(const hnbrdf_model *model, const hnbrdf_material *material,
                               const float wo[3], double albedo[3]);
+
+/* The factor that keeps the albedo of a material at most 1, to 89.94 degrees and in all channels:
+ * to be its `energy`; it may be that itself. Of those that do, the one that takes least light
+ * away; both numbers 0 where there is no need of one, and 1 at normal incidence unless the
+ * albedo is above 1 there too. What energy the material has already does not matter. Some tens
+ * of milliseconds. */
+HNBRDF_EXPERIMENTAL hnbrdf_result hnbrdf_energy_fit(const hnbrdf_model *model,
+                                                    const hnbrdf_material *material,
+                                                    hnbrdf_energy *energy, hnbrdf_error *error);
 
 #ifdef __cplusplus
 }

@@ -187,15 +187,29 @@ static num finish(num f)
     return clamp(f, 0.0f, HNBRDF_MAX_VALUE);
 }
 
-void check_bounds_make(const check_rules *rules, const hnbrdf_model_desc *desc,
-                       hnbrdf_glsl_precision precision, const hnbrdf_material *material,
-                       const float wi[3], const float wo[3], double drift, check_bounds *bounds)
+/* k(z) of one cosine, as hnbrdf_energy_at() has it. */
+static num energy_at(const check_rules *rules, const hnbrdf_energy *energy, num z)
 {
-    static const check_bounds zero;
-    *bounds = zero;
-    pair p = make_pair(rules, hnbrdf_frame_of(material), wi, wo, drift);
+    const num slope = given(rules, energy->slope), horizon = given(rules, energy->horizon);
+    return clamp(add(rules, horizon, multiply(rules, slope, z)), 0.0f, 1.0f);
+}
+
+static void conserve(const check_rules *rules, const hnbrdf_energy *energy, const pair *p,
+                     check_bounds *bounds)
+{
+    const num factor =
+        multiply(rules, energy_at(rules, energy, p->wi[2]), energy_at(rules, energy, p->wo[2]));
+    for (int c = 0; c < 3; c++)
+        bounds->value[c] = multiply(rules, bounds->value[c], factor);
+}
+
+/* All but the factor of a material that conserves energy. */
+static void make_value(const check_rules *rules, const hnbrdf_model_desc *desc,
+                       hnbrdf_glsl_precision precision, const hnbrdf_material *material,
+                       const pair *p, check_bounds *bounds)
+{
     num f_a[3], out[HNBRDF_MAX_OUTPUTS], exact[HNBRDF_ENCODING_SIZE];
-    analytic(rules, material, &p, f_a);
+    analytic(rules, material, p, f_a);
     for (int c = 0; c < 3 && desc->kind != HNBRDF_KIND_NEURAL; c++)
         bounds->analytic[c] = finish(f_a[c]);
     if (desc->kind == HNBRDF_KIND_GGX) {
@@ -206,8 +220,8 @@ void check_bounds_make(const check_rules *rules, const hnbrdf_model_desc *desc,
     check_edit edit;
     const int edited = desc->kind == HNBRDF_KIND_HYBRID && hnbrdf_material_is_edited(material);
     if (edited)
-        check_edit_make(rules, desc->encoding, material, &p, &edit);
-    encode(rules, desc->encoding, edited ? &edit.seen : &p, bounds->encoding);
+        check_edit_make(rules, desc->encoding, material, p, &edit);
+    encode(rules, desc->encoding, edited ? &edit.seen : p, bounds->encoding);
     for (int i = 0; i < HNBRDF_ENCODING_SIZE; i++)
         exact[i] = given(rules, bounds->encoding[i].v);
     network(rules, desc, precision, material->latent, exact, bounds->fed);
@@ -223,4 +237,16 @@ void check_bounds_make(const check_rules *rules, const hnbrdf_model_desc *desc,
             f = add(rules, f, multiply(rules, gate(rules, out[3 + c]), f_a[c]));
         bounds->value[c] = finish(subtract(rules, f, floor));
     }
+}
+
+void check_bounds_make(const check_rules *rules, const hnbrdf_model_desc *desc,
+                       hnbrdf_glsl_precision precision, const hnbrdf_material *material,
+                       const float wi[3], const float wo[3], double drift, check_bounds *bounds)
+{
+    static const check_bounds zero;
+    const pair p = make_pair(rules, hnbrdf_frame_of(material), wi, wo, drift);
+    *bounds = zero;
+    make_value(rules, desc, precision, material, &p, bounds);
+    if (hnbrdf_has_energy(&material->energy))
+        conserve(rules, &material->energy, &p, bounds);
 }

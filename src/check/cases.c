@@ -132,8 +132,8 @@ static void far_edit(hnbrdf_rng *rng, int number, hnbrdf_material *m)
         m->fitted.alpha[0] = m->fitted.alpha[1] = m->alpha[0] > 0.5f ? low : high;
 }
 
-/* Any lobes that are allowed: narrow and wide, all normals or visible ones; at some views all
- * samples or none. */
+/* Any factor on energy that is allowed, or none; any lobes: narrow and wide, all normals or
+ * visible ones; at some views all samples or none. */
 static void any_lobes(hnbrdf_rng *rng, int number, hnbrdf_material *m)
 {
     any_material(rng, number, m);
@@ -144,6 +144,10 @@ static void any_lobes(hnbrdf_rng *rng, int number, hnbrdf_material *m)
         m->lobes.share[0][j] = pick(rng, 4) ? hnbrdf_rng_float(rng) : (float)pick(rng, 2);
         m->lobes.share[1][j] =
             (1.0f - m->lobes.share[0][j]) * (pick(rng, 4) ? hnbrdf_rng_float(rng) : 1.0f);
+    }
+    if (number % 2) {
+        m->energy.horizon = pick(rng, 4) ? hnbrdf_rng_float(rng) : (float)pick(rng, 2);
+        m->energy.slope = power(rng, -2.0f, 4.0f);
     }
 }
 

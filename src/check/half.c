@@ -155,4 +155,6 @@ void check_half_eval(const hnbrdf_model *model, const hnbrdf_material *material,
                                                          desc->shift, desc->floor)
                                  : hnbrdf_compose_hybrid(out[c], out[3 + c], f_a[c], desc->scale,
                                                          desc->shift, desc->floor);
+    if (prepared.conserved)
+        hnbrdf_prepared_conserve(&prepared, wi, wo, f);
 }

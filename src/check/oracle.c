@@ -315,6 +315,15 @@ static edit edit_of(const hnbrdf_material *m, int k, real c, real specular, real
     return (edit){limited(*f_a / fitted, 0, HNBRDF_MAX_VALUE), (m->kd[k] - kd) / pi()};
 }
 
+/* What f is multiplied by: k(wi.z) k(wo.z), k(z) = min(1, horizon + slope z). */
+static real energy_factor(const hnbrdf_energy *energy, real zi, real zo)
+{
+    real horizon = energy->horizon, slope = energy->slope;
+    if (energy->horizon == 0.0f && energy->slope == 0.0f)
+        return 1;
+    return limited(horizon + slope * zi, 0, 1) * limited(horizon + slope * zo, 0, 1);
+}
+
 void oracle_evaluate(const hnbrdf_model_desc *desc, const hnbrdf_material *material,
                      const float wi[3], const float wo[3], oracle_point *point)
 {
@@ -343,6 +352,7 @@ void oracle_evaluate(const hnbrdf_model_desc *desc, const hnbrdf_material *mater
         point->outputs[k] = (double)out[k];
     }
     real before = 0;
+    const real energy = energy_factor(&material->energy, i.z, o.z);
     if (edited) {
         real bx = material->fitted.alpha[0], by = material->fitted.alpha[1];
         before = D(seen.h, bx, by) * G1(i, bx, by) * G1(o, bx, by) / (4 * i.z * o.z);
@@ -362,7 +372,7 @@ void oracle_evaluate(const hnbrdf_model_desc *desc, const hnbrdf_material *mater
         }
         point->ratio[k] = (double)change.ratio;
         real floor = hybrid || neural ? change.ratio * (real)desc->floor : 0;
-        point->scale[k] = (double)limited(f, 0, HNBRDF_MAX_VALUE);
-        point->value[k] = (double)limited(f - floor, 0, HNBRDF_MAX_VALUE);
+        point->scale[k] = (double)(energy * limited(f, 0, HNBRDF_MAX_VALUE));
+        point->value[k] = (double)(energy * limited(f - floor, 0, HNBRDF_MAX_VALUE));
     }
 }

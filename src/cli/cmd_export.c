@@ -2,7 +2,7 @@
 #include "cli/cli.h"
 #include "cli/words.h"
 #include "hnbrdf/glsl.h"
-#include "hnbrdf/metrics.h"
+#include "report/conserve.h"
 #include "report/texels.h"
 
 #include <stdlib.h>
@@ -50,6 +50,10 @@ static const cli_command command = {
     "gold_scene_material, GOLD_MATERIAL_NAME, GOLD_WEIGHTS_BINDING), so that many networks fit\n"
     "into one shader. Those of hybrid_brdf.glsl stay, it is there once. Several standalone\n"
     "texts need a prefix each.\n"
+    "\n"
+    "--conserve: materials that give off more light than they get are multiplied by a factor of\n"
+    "both cosines, reciprocal, at most 1, and 1 but near the horizon. The model file stays as it\n"
+    "is; `hnbrdf edit MODEL --conserve` puts the same factors into it, for C too.\n"
     "\n"
     "--pack is for scenes with a material of its own in every pixel: the include also has\n"
     "  hnbrdf_material hnbrdf_material_unpack(vec4 t0, vec4 t1, ...)      HNBRDF_TEXELS texels\n"
@@ -236,22 +240,22 @@ static int export_library(const settings *set)
     return result;
 }
 
-/* A factor for each material that keeps its albedo at most 1, a little less as that is known to
- * 0.5 %; says which. malloc'ed, NULL after a message. */
-static float *conserving_factors(const hnbrdf_model *model, const int *materials, int count)
+/* *model with the factors that these of its materials need. */
+static int conserve(hnbrdf_model **model, const int *materials, int count)
 {
-    float *factors = malloc((size_t)count * sizeof *factors);
-    if (!factors)
-        return cli_fail("out of memory"), NULL;
-    for (int k = 0; k < count; k++) {
-        hnbrdf_physics p;
-        hnbrdf_physics_of(model, hnbrdf_model_material(model, materials[k]), &p);
-        factors[k] = p.albedo > 1.0 ? (float)(0.995 / p.albedo) : 1.0f;
-        if (p.albedo > 1.0)
-            fprintf(cli_words(), "%s: albedo %.3f, values times %.4f\n",
-                    hnbrdf_model_material_name(model, materials[k]), p.albedo, (double)factors[k]);
-    }
-    return factors;
+    cli_progress progress;
+    const report_watch watch = cli_watch(&progress);
+    hnbrdf_model *conserving = NULL;
+    hnbrdf_error error;
+    cli_progress_begin(&progress, "albedo");
+    const hnbrdf_result result =
+        report_conserve(*model, materials, count, &watch, cli_words(), &conserving, &error);
+    cli_progress_end(&progress);
+    if (result)
+        return cli_fail("%s", error.text);
+    hnbrdf_model_free(*model);
+    *model = conserving;
+    return CLI_OK;
 }
 
 /* The same layout whatever the materials are. */
@@ -266,7 +270,7 @@ static void take_all_fields(hnbrdf_packing *packing, const hnbrdf_model *model, 
 }
 
 static int export_materials(const hnbrdf_model *model, const settings *set, const int *materials,
-                            int count, const float *energy)
+                            int count)
 {
     report_texels texels = {.model = model, .materials = materials, .count = count};
     hnbrdf_error error;
@@ -285,7 +289,6 @@ static int export_materials(const hnbrdf_model *model, const settings *set, cons
                                          .prefix = set->prefix,
                                          .without_comments = set->strip,
                                          .editable = set->editable,
-                                         .energy = energy,
                                          .packing = set->pack >= 0 ? &texels.packing : NULL,
                                          .weights = (hnbrdf_glsl_weights)set->weights.value,
                                          .precision = (hnbrdf_glsl_precision)set->precision.value,
@@ -337,7 +340,7 @@ int cmd_export(int argc, char **argv)
         {"precision", 0, CLI_WORD, &set.precision, 0, 0, "float|half",
          "of the hidden layers (default float)"},
         {"conserve", 0, CLI_FLAG, &set.conserve, 0, 0, NULL,
-         "scale materials whose albedo (hnbrdf info) is above 1"},
+         "hold materials whose albedo (hnbrdf info) is above 1 to it"},
         {"pack", 0, CLI_CHOICE, &set.pack, 0, 0, "half|byte",
          "with a function that unpacks texels"},
         {"texel-fields", 0, CLI_CHOICE, &set.all_fields, 0, 0, "needed|all",
@@ -368,8 +371,6 @@ int cmd_export(int argc, char **argv)
                                    "--standalone, or #define HNBRDF_EXACT 1 before the include");
     if (set.weights_path && set.weights.value != HNBRDF_GLSL_UNIFORM)
         return cli_usage(&command, "--weights-out without --weights uniform");
-    if (set.conserve && set.pack >= 0)
-        return cli_usage(&command, "--conserve and --pack: materials from textures have no factor");
     if (set.fixed && set.editable)
         return cli_usage(&command,
                          "--fixed and --editable: materials that are fixed do not change");
@@ -387,14 +388,10 @@ int cmd_export(int argc, char **argv)
         return result;
     int *materials = NULL, chosen = 0;
     result = cli_choose_materials(model, set.materials, &materials, &chosen);
-    float *energy = NULL;
-    if (result == CLI_OK && set.conserve) {
-        energy = conserving_factors(model, materials, chosen);
-        result = energy ? CLI_OK : CLI_FAILURE;
-    }
+    if (result == CLI_OK && set.conserve)
+        result = conserve(&model, materials, chosen);
     if (result == CLI_OK)
-        result = export_materials(model, &set, materials, chosen, energy);
-    free(energy);
+        result = export_materials(model, &set, materials, chosen);
     free(materials);
     hnbrdf_model_free(model);
     return result;

@@ -344,7 +344,7 @@ int cmd_fit(int argc, char **argv)
         {"schedule", 0, CLI_WORD, &schedule, 0, 0, "NAME",
          "of the rate: cosine or linear down to 0.01 %, or constant (default cosine)"},
         {"uniform-share", 0, CLI_REAL, &uniform_share, 0, 1, "S",
-         "of the rest, drawn uniformly, the rest on MERL's grid (default 0.667)"},
+         "of the rest, drawn uniformly, the others on MERL's grid (default 0.667)"},
         {"horizon-share", 0, CLI_REAL, &horizon_share, 0, 1, "S",
          "of the pairs, drawn near the horizon, beyond what was measured, where all are held to an "
          "albedo below 1; 0: the data as they are read (default 0.03)"},

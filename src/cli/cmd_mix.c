@@ -1,7 +1,9 @@
 /* cmd_mix.c: `hnbrdf mix`: materials between two of a model. */
 #include "cli/cli.h"
 #include "base/text.h"
+#include "core/compose.h"
 #include "hnbrdf/edit.h"
+#include "hnbrdf/metrics.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -16,7 +18,9 @@ static const cli_command command = {
     "code\n"
     "goes around what looks like neither: each step is as near as the network comes to a blend of\n"
     "both ends edited to the same roughness and colour, and no brighter or darker than both, seen\n"
-    "from 0, 30 and 60 degrees. --straight: the latent code goes linearly too.\n"
+    "from 0, 30 and 60 degrees. --straight: the latent code goes linearly too. Where an end\n"
+    "conserves energy (hnbrdf edit --conserve), so do the mixtures, each with a factor of its "
+    "own.\n"
     "They are named PREFIX-T, as in gold-chrome-0.25. FIRST:LAST:STEP is a sweep, ends included.",
     "hnbrdf mix model.safetensors gold-two-lobe rough-clay --t 0.5\n"
     "hnbrdf mix model.safetensors gold-two-lobe rough-clay --t 0:1:0.25 --as polish -o "
@@ -110,6 +114,9 @@ static int mix_all(const mix_job *job, const hnbrdf_model *model, mixtures *m)
             hnbrdf_material_mix(from, to, (float)t, &m->materials[k]);
         else
             hnbrdf_mix_path_at(path, (float)t, &m->materials[k]);
+        if (hnbrdf_has_energy(&m->materials[k].energy) &&
+            hnbrdf_energy_fit(model, &m->materials[k], &m->materials[k].energy, &error))
+            return cli_fail("%s", error.text);
         if (!make_name(m->names[k], sizeof m->names[k], job->ends, job->prefix, t))
             return CLI_FAILURE;
         if (!job->replace && hnbrdf_model_find(model, m->names[k]) >= 0)

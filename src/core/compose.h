@@ -25,6 +25,30 @@ static inline float hnbrdf_gate(float g)
     return 1.0f / (1.0f + hnbrdf_exp(hnbrdf_clamp(-g, -HNBRDF_MAX_EXPONENT, HNBRDF_MAX_EXPONENT)));
 }
 
+static inline int hnbrdf_has_energy(const hnbrdf_energy *energy)
+{
+    return energy->horizon != 0.0f || energy->slope != 0.0f;
+}
+
+/* That of a material, k = 1 where it has none. */
+static inline hnbrdf_energy hnbrdf_energy_used(const hnbrdf_energy *energy)
+{
+    const hnbrdf_energy none = {1.0f, 0.0f};
+    return hnbrdf_has_energy(energy) ? *energy : none;
+}
+
+/* k(z) = min(1, horizon + slope z), of one cosine. */
+static inline float hnbrdf_energy_at(float horizon, float slope, float z)
+{
+    return hnbrdf_clamp(horizon + slope * z, 0.0f, 1.0f);
+}
+
+/* What f of a material that conserves energy is multiplied by. */
+static inline float hnbrdf_energy_factor(float horizon, float slope, float wi_z, float wo_z)
+{
+    return hnbrdf_energy_at(horizon, slope, wi_z) * hnbrdf_energy_at(horizon, slope, wo_z);
+}
+
 /* max(0, exp(s c + m) + sigmoid(g) f_a - b). */
 static inline float hnbrdf_compose_hybrid(float c, float g, float analytic, float scale,
                                           float shift, float floor)

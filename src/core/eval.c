@@ -13,6 +13,8 @@ static void eval_above(const hnbrdf_prepared *prepared, const float wi[3], const
         hnbrdf_edited_eval(prepared, wi, wo, f);
     else
         prepared->model->kernel->single(prepared, wi, wo, f);
+    if (prepared->conserved)
+        hnbrdf_prepared_conserve(prepared, wi, wo, f);
 }
 
 void hnbrdf_prepared_eval(const hnbrdf_prepared *prepared, const float wi[3], const float wo[3],

@@ -17,21 +17,33 @@ typedef struct block_materials {
     lane_materials by_lane;
     lane_edits edits;
     lane_lobes lobes;
-    int sampled; /* 1: the lobes are wanted */
-    int edited;  /* 1: some lane is, and `edits` is set */
-    int taken;   /* 1: by_lane is what it shall be */
+    lane horizon, slope; /* of energy */
+    int sampled;         /* 1: the lobes are wanted */
+    int edited;          /* 1: some lane is, and `edits` is set */
+    int conserved;       /* 1: some lane is, and `horizon` and `slope` are set */
+    int taken;           /* 1: by_lane is what it shall be */
 } block_materials;
+
+static void put_energy(const hnbrdf_energy *energy, int l, block_materials *m)
+{
+    const hnbrdf_energy used = hnbrdf_energy_used(energy);
+    m->horizon[l] = used.horizon;
+    m->slope[l] = used.slope;
+}
 
 /* The same one for all lanes. */
 static void spread_material(const hnbrdf_prepared *prepared, block_materials *m)
 {
     m->edited = prepared->edited;
+    m->conserved = prepared->conserved;
     for (int l = 0; l < LANES; l++) {
         put_material(prepared, l, &m->by_lane);
         if (m->sampled)
             put_lobes(prepared, l, &m->lobes);
         if (m->edited)
             put_edit(prepared, l, &m->edits);
+        if (m->conserved)
+            put_energy(&prepared->energy, l, m);
     }
 }
 
@@ -41,7 +53,7 @@ static void begin_materials(const hnbrdf_materials *of, int sampled, block_mater
     m->held = NULL;
     m->sampled = sampled;
     m->shared = of->prepared;
-    m->edited = 0;
+    m->edited = m->conserved = 0;
     m->taken = of->prepared != NULL;
     if (m->shared)
         spread_material(m->shared, m);
@@ -65,7 +77,7 @@ static void find_materials(block_materials *m, size_t first, size_t count)
     if (same && m->held == m->own[0])
         return;
     m->held = same ? m->own[0] : NULL;
-    m->edited = 0;
+    m->edited = m->conserved = 0;
     if (same) {
         hnbrdf_prepare(of->model, m->own[0], &m->prepared);
         spread_material(&m->prepared, m);
@@ -119,6 +131,7 @@ KERNEL_APART void take_lanes(block_materials *m, int from, int to, lane_pairs *b
         by_lane->ay[l] = own->alpha[1];
         by_lane->cosine[l] = own->rotation;
         differ |= differs(own);
+        m->conserved |= hnbrdf_has_energy(&own->energy);
         for (int i = 0; i < latent; i++)
             b->x[i][l] = own->latent[i];
     }
@@ -167,6 +180,8 @@ KERNEL_APART void take_the_rest(block_materials *m)
 static void derive_materials(block_materials *m)
 {
     derive_lanes(&m->by_lane);
+    for (int l = 0; l < LANES && m->conserved; l++)
+        put_energy(&m->own[l]->energy, l, m);
     if (m->edited || m->sampled)
         take_the_rest(m);
     m->taken = 1;
@@ -249,7 +264,17 @@ static void compose_step(const hnbrdf_model_desc *desc, int channel, lane_block 
         compose_lanes(desc, &b->pairs);
 }
 
-/* Everything between gather and scatter. */
+/* f of lanes of which some conserve energy; the others are multiplied by 1. */
+KERNEL_APART void conserve_lanes(const block_materials *m, lane_pairs *b)
+{
+    for (int l = 0; l < LANES; l++) {
+        const float k = hnbrdf_energy_factor(m->horizon[l], m->slope[l], b->wi[2][l], b->wo[2][l]);
+        for (int c = 0; c < 3; c++)
+            b->f[c][l] = b->f[c][l] * k;
+    }
+}
+
+/* Everything between gather and scatter, but conserve_lanes(). */
 KERNEL_APART void evaluate_lanes(const hnbrdf_model *model, lane_block *b)
 {
     const hnbrdf_model_desc *desc = &model->desc;
@@ -296,6 +321,8 @@ static void take_step(const hnbrdf_model_desc *desc, lane_work *work)
         if (!m->edited)
             work->step = STEP_SCATTER;
     } else if (step == STEP_SCATTER) {
+        if (m->conserved)
+            conserve_lanes(m, &b->pairs);
         scatter(work->pairs, b->first, b->count, &b->pairs);
     } else if (step == STEP_FIND) {
         begin_items(work);

@@ -85,6 +85,8 @@ static void kernel_eval(const hnbrdf_materials *of, const hnbrdf_pairs *pairs)
         gather(pairs, k, count, &block.pairs);
         mark_lanes(&block.pairs);
         evaluate_lanes(of->model, &block);
+        if (block.materials.conserved)
+            conserve_lanes(&block.materials, &block.pairs);
         scatter(pairs, k, count, &block.pairs);
     }
 }
@@ -133,6 +135,8 @@ static void kernel_sample(const hnbrdf_materials *of, const hnbrdf_draws *draws)
         memcpy(block->wi, wi, sizeof wi);
         memcpy(block->wo, wo, sizeof wo);
         evaluate_lanes(of->model, &b);
+        if (materials->conserved)
+            conserve_lanes(materials, block);
         for (size_t l = 0; l < count; l++) {
             hnbrdf_sample_result *to =
                 (hnbrdf_sample_result *)(void *)((char *)draws->results +

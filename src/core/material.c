@@ -43,6 +43,17 @@ static hnbrdf_result check_lobes(const hnbrdf_lobes *lobes, hnbrdf_error *error)
     return HNBRDF_OK;
 }
 
+static hnbrdf_result check_energy(const hnbrdf_energy *energy, hnbrdf_error *error)
+{
+    if (!(energy->horizon >= 0.0f && energy->horizon <= 1.0f))
+        return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT, "energy.horizon is %s, expected 0 to 1",
+                           HNBRDF_NUMBER(energy->horizon));
+    if (!(energy->slope >= 0.0f && energy->slope <= 1e4f))
+        return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT, "energy.slope is %s, expected 0 to 10000",
+                           HNBRDF_NUMBER(energy->slope));
+    return HNBRDF_OK;
+}
+
 /* names: of the three fields. */
 static hnbrdf_result check_analytic(const char *const names[3], const float kd[3],
                                     const float eta[3], const float alpha[2], hnbrdf_error *error)
@@ -89,7 +100,8 @@ hnbrdf_result hnbrdf_material_check(const hnbrdf_material *material, hnbrdf_erro
             return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT,
                                "latent[%d] is %s, expected a finite number", i,
                                HNBRDF_NUMBER(material->latent[i]));
-    return check_lobes(&material->lobes, error);
+    result = check_lobes(&material->lobes, error);
+    return result ? result : check_energy(&material->energy, error);
 }
 
 int hnbrdf_material_is_edited(const hnbrdf_material *material)
@@ -168,6 +180,17 @@ static void mix_analytic(const hnbrdf_fitted *a, const hnbrdf_fitted *b, float t
         out->alpha[c] = mix_log(a->alpha[c], b->alpha[c], t);
 }
 
+/* An end without it has k = 1. */
+static void mix_energy(const hnbrdf_energy *a, const hnbrdf_energy *b, float t, hnbrdf_energy *out)
+{
+    const hnbrdf_energy from = hnbrdf_energy_used(a), to = hnbrdf_energy_used(b);
+    memset(out, 0, sizeof *out);
+    if (!hnbrdf_has_energy(a) && !hnbrdf_has_energy(b))
+        return;
+    out->horizon = mix_linear(from.horizon, to.horizon, t);
+    out->slope = mix_linear(from.slope, to.slope, t);
+}
+
 static hnbrdf_fitted now_of(const hnbrdf_material *m)
 {
     return (hnbrdf_fitted){{m->kd[0], m->kd[1], m->kd[2]},
@@ -201,5 +224,6 @@ void hnbrdf_material_mix(const hnbrdf_material *a, const hnbrdf_material *b, flo
     for (int i = 0; i < HNBRDF_MAX_LATENT; i++)
         mixed.latent[i] = mix_linear(a->latent[i], b->latent[i], t);
     mix_lobes(&a->lobes, &b->lobes, t, &mixed.lobes);
+    mix_energy(&a->energy, &b->energy, t, &mixed.energy);
     *out = mixed;
 }

@@ -19,6 +19,10 @@ enum { ROTATION_UNIT = 127, ROTATION_ZERO = 128 }; /* of a byte: 0 and 1 are met
 #define MAX_HALF_V 0.998f
 #define MAX_BYTE_V 126.0f
 
+/* Slopes of energy: what is legal, and the largest of bytes, where k is 1 from 0.2 degrees on. */
+#define MAX_HALF_SLOPE 1e4f
+#define MAX_BYTE_SLOPE 256.0f
+
 /* ---- Ranges ---------------------------------------------------------------------------------- */
 
 HNBRDF_DIVIDES_AS_IEEE /* eta = -1 is refused elsewhere; here the infinity is clamped */
@@ -66,6 +70,7 @@ static void widen_by(hnbrdf_packing *packing, const hnbrdf_material *material)
     for (int i = 0; i < packing->latent; i++)
         widen(packing->latent_range[i], material->latent[i]);
     packing->rotated |= material->rotation != 0.0f;
+    packing->energy |= hnbrdf_has_energy(&material->energy);
 }
 
 hnbrdf_result hnbrdf_packing_init(const hnbrdf_model *model, const int *materials,
@@ -217,6 +222,12 @@ void hnbrdf_texel_layout_make(const hnbrdf_packing *packing, hnbrdf_texel_layout
             layout->lobe_share[k] = make_field(packing, &next, HNBRDF_LOBE_KNOTS,
                                                HNBRDF_CURVE_LINEAR, 0.0f, 1.0f, 0.0f, 1.0f);
     }
+    if (packing->energy) {
+        const float most = bytes ? MAX_BYTE_SLOPE : MAX_HALF_SLOPE;
+        layout->horizon =
+            make_field(packing, &next, 1, HNBRDF_CURVE_LINEAR, 0.0f, 1.0f, 0.0f, 1.0f);
+        layout->slope = make_field(packing, &next, 1, HNBRDF_CURVE_SQUARE, 0.0f, most, 0.0f, most);
+    }
     layout->channels = next;
 }
 
@@ -224,8 +235,8 @@ int hnbrdf_packing_texels(const hnbrdf_packing *packing)
 {
     int analytic = packing->analytic ? (packing->anisotropic ? 8 : 7) : 0;
     int lobes = packing->lobes ? HNBRDF_LOBES * (1 + HNBRDF_LOBE_KNOTS) : 0;
-    int channels =
-        analytic * (packing->edited ? 2 : 1) + (packing->rotated ? 2 : 0) + packing->latent + lobes;
+    int channels = analytic * (packing->edited ? 2 : 1) + (packing->rotated ? 2 : 0) +
+                   packing->latent + lobes + (packing->energy ? 2 : 0);
     return (channels + 3) / 4;
 }
 
@@ -312,6 +323,11 @@ void hnbrdf_material_pack(const hnbrdf_packing *packing, const hnbrdf_material *
     for (int i = 0; i < packing->latent; i++)
         store(packing, texels, layout.latent[i].first, &layout.latent[i], material->latent[i]);
     store_lobes(packing, texels, &layout, material);
+    if (packing->energy) {
+        const hnbrdf_energy energy = hnbrdf_energy_used(&material->energy);
+        store(packing, texels, layout.horizon.first, &layout.horizon, energy.horizon);
+        store(packing, texels, layout.slope.first, &layout.slope, energy.slope);
+    }
 }
 
 /* ---- Unpacking ------------------------------------------------------------------------------- */
@@ -371,6 +387,10 @@ void hnbrdf_material_unpack_channels(const hnbrdf_packing *packing, const float 
     for (int i = 0; i < packing->latent; i++)
         material->latent[i] = decode(&layout.latent[i], channels[layout.latent[i].first]);
     decode_lobes(channels, &layout, &material->lobes);
+    if (packing->energy) {
+        material->energy.horizon = decode(&layout.horizon, channels[layout.horizon.first]);
+        material->energy.slope = decode(&layout.slope, channels[layout.slope.first]);
+    }
 }
 
 void hnbrdf_material_unpack(const hnbrdf_packing *packing, const void *texels,

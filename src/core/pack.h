@@ -28,6 +28,7 @@ typedef struct hnbrdf_texel_layout {
     /* v = s/(1 + |s|) of both scales s, times lobe_unit; then the shares of both lobes. */
     hnbrdf_field lobe_scale, lobe_share[HNBRDF_LOBES];
     float lobe_unit;
+    hnbrdf_field horizon, slope; /* of energy */
     float shortest2; /* a squared (cosine, sine) below this has no angle and stands for none */
     int channels;
 } hnbrdf_texel_layout;

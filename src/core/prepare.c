@@ -57,6 +57,8 @@ void hnbrdf_prepare_analytic(const hnbrdf_model *model, const hnbrdf_material *m
     prepared->edited = model->desc.kind == HNBRDF_KIND_HYBRID && hnbrdf_is_edited(material);
     if (prepared->edited)
         prepared->edit = prepare_edit(material);
+    prepared->energy = hnbrdf_energy_used(&material->energy);
+    prepared->conserved = hnbrdf_has_energy(&material->energy);
 }
 
 void hnbrdf_lobes_used(int neural, const hnbrdf_material *material, hnbrdf_lobes *lobes)

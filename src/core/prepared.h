@@ -3,6 +3,7 @@
 #ifndef HNBRDF_CORE_PREPARED_H
 #define HNBRDF_CORE_PREPARED_H
 
+#include "core/compose.h"
 #include "core/encoding.h"
 #include "core/frame.h"
 #include "core/microfacet.h"
@@ -45,6 +46,16 @@ static inline hnbrdf_pair hnbrdf_pair_in_frame(const hnbrdf_prepared *prepared, 
     hnbrdf_to_tangent(frame, wi, i);
     hnbrdf_to_tangent(frame, wo, o);
     return hnbrdf_pair_make(i, o);
+}
+
+/* f with the factor of a material that conserves energy. */
+static inline void hnbrdf_prepared_conserve(const hnbrdf_prepared *prepared, const float wi[3],
+                                            const float wo[3], float f[3])
+{
+    const hnbrdf_energy *energy = &prepared->energy;
+    const float k = hnbrdf_energy_factor(energy->horizon, energy->slope, wi[2], wo[2]);
+    for (int c = 0; c < 3; c++)
+        f[c] = f[c] * k;
 }
 
 /* The pair that the network of an edited material sees; f_a of the three channels, kd only as far

@@ -258,7 +258,7 @@ static hnbrdf_result derive_network(loading *l)
 static int is_optional(const hnbrdf_model_desc *desc, int tensor)
 {
     return tensor == HNBRDF_TENSOR_ROTATION || tensor == HNBRDF_TENSOR_LOBES ||
-           tensor == HNBRDF_TENSOR_FITTED ||
+           tensor == HNBRDF_TENSOR_FITTED || tensor == HNBRDF_TENSOR_ENERGY ||
            (tensor == HNBRDF_TENSOR_LATENT && desc->latent == 0) ||
            (desc->kind == HNBRDF_KIND_NEURAL && tensor >= HNBRDF_TENSOR_KD &&
             tensor < HNBRDF_TENSOR_LATENT);

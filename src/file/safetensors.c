@@ -15,10 +15,10 @@ static const uint64_t MAX_HEADER = 100000000;
 enum { MIN_ENTRY = 40 };
 
 const char *const hnbrdf_tensor_names[HNBRDF_TENSOR_COUNT] = {
-    "net.0.weight",   "net.0.bias",      "net.1.weight",   "net.1.bias",        "net.2.weight",
-    "net.2.bias",     "net.3.weight",    "net.3.bias",     "net.4.weight",      "net.4.bias",
-    "material.kd",    "material.eta",    "material.alpha", "material.rotation", "material.latent",
-    "material.lobes", "material.fitted",
+    "net.0.weight",   "net.0.bias",      "net.1.weight",    "net.1.bias",        "net.2.weight",
+    "net.2.bias",     "net.3.weight",    "net.3.bias",      "net.4.weight",      "net.4.bias",
+    "material.kd",    "material.eta",    "material.alpha",  "material.rotation", "material.latent",
+    "material.lobes", "material.fitted", "material.energy",
 };
 
 const char *const hnbrdf_key_names[HNBRDF_KEY_COUNT] = {
@@ -35,6 +35,7 @@ int hnbrdf_tensor_shape(const hnbrdf_model_desc *desc, int tensor, uint64_t shap
         shape[1] = tensor == HNBRDF_TENSOR_LATENT   ? (uint64_t)desc->latent
                    : tensor == HNBRDF_TENSOR_LOBES  ? sizeof(hnbrdf_lobes) / sizeof(float)
                    : tensor == HNBRDF_TENSOR_FITTED ? sizeof(hnbrdf_fitted) / sizeof(float)
+                   : tensor == HNBRDF_TENSOR_ENERGY ? sizeof(hnbrdf_energy) / sizeof(float)
                    : tensor == HNBRDF_TENSOR_ALPHA  ? 2
                                                     : 3;
         return tensor == HNBRDF_TENSOR_ROTATION ? 1 : 2;
@@ -61,6 +62,8 @@ float *hnbrdf_tensor_row(hnbrdf_material *material, int tensor)
         return material->lobes.scale; /* the struct is floats throughout */
     case HNBRDF_TENSOR_FITTED:
         return material->fitted.kd; /* likewise */
+    case HNBRDF_TENSOR_ENERGY:
+        return &material->energy.horizon; /* likewise */
     default:
         return material->latent;
     }

@@ -18,6 +18,7 @@ enum {
     HNBRDF_TENSOR_LATENT,
     HNBRDF_TENSOR_LOBES,  /* scales, then the shares lobe by lobe */
     HNBRDF_TENSOR_FITTED, /* kd, eta, alpha */
+    HNBRDF_TENSOR_ENERGY, /* horizon, slope */
     HNBRDF_TENSOR_COUNT
 };
 extern const char *const hnbrdf_tensor_names[HNBRDF_TENSOR_COUNT];

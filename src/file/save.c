@@ -2,6 +2,7 @@
  * The header is walked twice, once to count its bytes, so that nothing is allocated for it. */
 #include "base/error.h"
 #include "base/files.h"
+#include "core/compose.h"
 #include "file/safetensors.h"
 #include "base/text.h"
 
@@ -123,15 +124,17 @@ static void put_metadata(sink *s, const hnbrdf_model_desc *desc)
     put_text(s, "}");
 }
 
-/* Lobes that no material has are left out, and what materials were fitted with if none is
- * edited. */
+/* Lobes and factors on energy that no material has are left out, and what materials were fitted
+ * with if none is edited. */
 static int is_written(const hnbrdf_model_desc *desc, int tensor)
 {
-    int wanted = tensor != HNBRDF_TENSOR_LOBES && tensor != HNBRDF_TENSOR_FITTED;
+    int wanted = tensor != HNBRDF_TENSOR_LOBES && tensor != HNBRDF_TENSOR_FITTED &&
+                 tensor != HNBRDF_TENSOR_ENERGY;
     for (int i = 0; i < desc->material_count && !wanted; ++i) {
         const hnbrdf_material *material = &desc->materials[i];
-        wanted = tensor == HNBRDF_TENSOR_LOBES ? material->lobes.scale[0] != 0.0f
-                                               : hnbrdf_material_is_edited(material);
+        wanted = tensor == HNBRDF_TENSOR_LOBES    ? material->lobes.scale[0] != 0.0f
+                 : tensor == HNBRDF_TENSOR_FITTED ? hnbrdf_material_is_edited(material)
+                                                  : hnbrdf_has_energy(&material->energy);
     }
     return wanted;
 }

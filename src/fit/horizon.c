@@ -11,8 +11,8 @@ static const double knots[FIT_HORIZON_KNOTS] = {0.01, 0.0175, 0.03, 0.05, 0.07, 
 
 /* What an albedo above 1 is held to there, for the error of a fit is largest where the last pairs
  * are. An albedo that a material can have stays as it is. */
-static const double most_albedo[FIT_HORIZON_KNOTS] = {0.66, 0.70, 0.76, 0.84,
-                                                      0.91, 0.96, 0.98, 1.00};
+static const double most_albedo[FIT_HORIZON_KNOTS] = {0.50, 0.56, 0.66, 0.80,
+                                                      0.90, 0.96, 0.98, 1.00};
 /* Held from here on, and wholly; quadrature errs by less than that. */
 #define HELD_FROM 1.01
 #define HELD_WHOLLY 1.03

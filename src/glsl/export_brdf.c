@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "base/memory.h"
+#include "core/compose.h"
 #include "glsl/export_language.h"
 #include "glsl/export_library.h"
 #include "glsl/export_network.h"
@@ -50,6 +51,10 @@ static void put_keys(hnbrdf_printer *out, const hnbrdf_scene *s)
         put_numbers(out, m->fitted.eta, 3);
         put_numbers(out, m->fitted.alpha, 2);
         hnbrdf_put(out, "\n");
+    }
+    if (hnbrdf_has_energy(&m->energy)) {
+        const float ramp[2] = {m->energy.horizon, m->energy.slope};
+        put_key(out, "energy", ramp, 2);
     }
     if (m->lobes.scale[0] != 0.0f || m->lobes.scale[1] != 0.0f) {
         hnbrdf_put(out, "# hnbrdf/1 lobes");
@@ -192,6 +197,18 @@ static void put_hybrid(hnbrdf_printer *out, const hnbrdf_scene *s)
         hnbrdf_scene_seen_function(s));
 }
 
+/* The factor on f of a material that conserves energy. */
+static void put_energy(hnbrdf_printer *out, const hnbrdf_scene *s)
+{
+    const hnbrdf_energy *energy = &material_of(s)->energy;
+    const float ramp[2] = {energy->horizon, energy->slope};
+    if (!hnbrdf_has_energy(energy))
+        return;
+    hnbrdf_put(out, "hnbrdf_energy_factor(");
+    hnbrdf_put_vector(out, 2, ramp, 2);
+    hnbrdf_put(out, ", wi.z, wo.z) * ");
+}
+
 /* Behind the network: exp(s c + m) and the rest. */
 static void put_composition(hnbrdf_printer *out, const hnbrdf_scene *s)
 {
@@ -200,7 +217,9 @@ static void put_composition(hnbrdf_printer *out, const hnbrdf_scene *s)
     hnbrdf_put_constant(out, s, 0);
     hnbrdf_put(out, " * c + ");
     hnbrdf_put_constant(out, s, 1);
-    hnbrdf_put(out, ";\n    return %s",
+    hnbrdf_put(out, ";\n    return ");
+    put_energy(out, s);
+    hnbrdf_put(out, "%s",
                hybrid ? "hnbrdf_compose_edited(exponent, g, edited, fitted, edit.kd_added, "
                       : "hnbrdf_compose_neural(exponent, ");
     hnbrdf_put_constant(out, s, 2);
@@ -218,7 +237,9 @@ static void put_functions(hnbrdf_printer *out, const hnbrdf_scene *s)
     hnbrdf_put(out, "vec3 BRDF(vec3 L, vec3 V, vec3 N, vec3 X, vec3 Y)\n{\n");
     put_pair(out, s);
     if (!network) {
-        hnbrdf_put(out, "    return hnbrdf_finish(hnbrdf_microfacet(kd, eta, p.cos_d, "
+        hnbrdf_put(out, "    return ");
+        put_energy(out, s);
+        hnbrdf_put(out, "hnbrdf_finish(hnbrdf_microfacet(kd, eta, p.cos_d, "
                         "hnbrdf_specular(p, a)));\n}\n");
         return;
     }
@@ -235,9 +256,8 @@ static void put_functions(hnbrdf_printer *out, const hnbrdf_scene *s)
 static hnbrdf_result check(const hnbrdf_scene *s, const hnbrdf_glsl_options *options,
                            hnbrdf_error *error)
 {
-    const int plain = !s->fixed && !s->packing && !s->energy && !s->prefix &&
-                      !options->without_comments && s->style != HNBRDF_GLSL_UNIFORM &&
-                      s->precision == HNBRDF_GLSL_FLOAT;
+    const int plain = !s->fixed && !s->packing && !s->prefix && !options->without_comments &&
+                      s->style != HNBRDF_GLSL_UNIFORM && s->precision == HNBRDF_GLSL_FLOAT;
     if (s->count != 1)
         return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT,
                            "export: %d materials, expected one: a .brdf file holds one", s->count);

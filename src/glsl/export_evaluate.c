@@ -47,10 +47,10 @@ static void put_exponent(hnbrdf_printer *out, const hnbrdf_scene *s)
     hnbrdf_put(out, ";\n");
 }
 
-/* On every value, where the scene asks for it. */
+/* On every value, where the scene has materials that conserve energy. */
 static const char *factor(const hnbrdf_scene *s)
 {
-    return s->energy ? "material_in.energy_factor * " : "";
+    return s->energy ? "hnbrdf_energy_factor(material_in.energy_ramp, wi.z, wo.z) * " : "";
 }
 
 static void put_analytic(hnbrdf_printer *out, const hnbrdf_scene *s)
@@ -75,8 +75,8 @@ static void put_eval_analytic(hnbrdf_printer *out, const hnbrdf_scene *s)
     hnbrdf_put(out,
                "vec3 hnbrdf_eval_analytic(hnbrdf_material material_in, vec3 wi, vec3 wo)\n{\n");
     if (analytic)
-        hnbrdf_put(out, "%s    return %shnbrdf_finish(hnbrdf_analytic(material_in, p));\n}\n\n",
-                   HORIZON, factor(s));
+        hnbrdf_put(out, "%s    return hnbrdf_finish(hnbrdf_analytic(material_in, p));\n}\n\n",
+                   HORIZON);
     else
         hnbrdf_put(out, "    return vec3(0.0);\n}\n\n");
 }

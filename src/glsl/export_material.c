@@ -36,9 +36,7 @@ void hnbrdf_put_material_struct(hnbrdf_printer *out, const hnbrdf_scene *s)
         hnbrdf_put(out, "    vec2 lobe_scale;           // hnbrdf_lobes, for sampling alone\n"
                         "    vec4 lobe_share_0, lobe_share_1;\n");
     if (s->energy)
-        hnbrdf_put(
-            out,
-            "    float energy_factor; // on f: 1, or what brings an albedo above 1 down to it\n");
+        hnbrdf_put(out, "    vec2 energy_ramp; // hnbrdf_energy_factor(); (1, 0): none\n");
     hnbrdf_put(out, "};\n\n");
 }
 
@@ -135,8 +133,9 @@ void hnbrdf_put_material(hnbrdf_printer *out, const hnbrdf_scene *s, int k)
         put_lobes(out, &prepared.lobes);
     }
     if (s->energy) {
+        const float ramp[2] = {prepared.energy.horizon, prepared.energy.slope};
         put_next(out, &fields);
-        hnbrdf_put_float(out, s->energy[k]);
+        hnbrdf_put_vector(out, 2, ramp, 2);
     }
     hnbrdf_put(out, ")");
 }

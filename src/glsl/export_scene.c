@@ -2,6 +2,7 @@
 #include "glsl/export_scene.h"
 
 #include "base/error.h"
+#include "core/compose.h"
 #include "glsl/export_filter.h"
 
 #include <stdio.h>
@@ -81,6 +82,7 @@ static hnbrdf_result use_packing(hnbrdf_scene *s, const hnbrdf_packing *packing,
     s->edited = packing->edited && s->desc->kind == HNBRDF_KIND_HYBRID;
     s->anisotropic = packing->anisotropic;
     s->rotated = packing->rotated;
+    s->energy = packing->energy;
     return hnbrdf_packing_check(packing, error);
 }
 
@@ -145,17 +147,8 @@ hnbrdf_result hnbrdf_scene_make(const hnbrdf_model *model, const hnbrdf_glsl_opt
         s->anisotropic |= material->alpha[0] != material->alpha[1];
         s->rotated |= material->rotation != 0.0f;
         s->edited |= hybrid && hnbrdf_material_is_edited(material);
+        s->energy |= hnbrdf_has_energy(&material->energy);
     }
-    s->energy = options ? options->energy : NULL;
-    if (s->energy && s->packing)
-        return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT,
-                           "export: factors are of the exported materials, not of those from "
-                           "textures: found both");
-    for (int k = 0; k < s->count && s->energy; k++)
-        if (!(s->energy[k] > 0.0f && s->energy[k] <= 1.0f))
-            return hnbrdf_fail(error, HNBRDF_ERROR_ARGUMENT,
-                               "export: energy[%d] is %s, expected above 0, at most 1", k,
-                               HNBRDF_NUMBER(s->energy[k]));
     s->weights = hnbrdf_model_weight_count(model);
     s->multiplications = hnbrdf_model_multiplications(model);
     if (s->folded) {

@@ -18,7 +18,7 @@ typedef struct hnbrdf_scene {
     int folded;
     const hnbrdf_packing *packing; /* NULL: no materials from textures */
     const int *indices;            /* NULL: all materials in order */
-    const float *energy;           /* NULL, or a factor on the values of each */
+    int energy;                    /* 1: some material conserves energy */
     int count;
     int edited;                     /* 1: corrections are carried along by edits */
     int anisotropic, rotated;       /* 1 if any of these materials is, or the packing stores it */

@@ -219,6 +219,22 @@ static void put_lobes(hnbrdf_printer *out, const hnbrdf_packing *packing,
                     "    material_out.lobe_share_1 = lobes_out.share_1;\n");
 }
 
+static void put_energy(hnbrdf_printer *out, const hnbrdf_packing *packing,
+                       const hnbrdf_texel_layout *layout)
+{
+    if (!packing->energy) { /* others of the scene conserve it */
+        hnbrdf_put(out, "    material_out.energy_ramp = vec2(1.0, 0.0);\n");
+        return;
+    }
+    put_decoded(out, "energy_horizon", &layout->horizon);
+    put_decoded(out, "energy_slope", &layout->slope);
+    hnbrdf_put(out, "    material_out.energy_ramp = vec2(");
+    put_clamped(out, "energy_horizon", &layout->horizon);
+    hnbrdf_put(out, ", ");
+    put_clamped(out, "energy_slope", &layout->slope);
+    hnbrdf_put(out, ");\n");
+}
+
 void hnbrdf_put_unpack(hnbrdf_printer *out, const hnbrdf_scene *s)
 {
     const hnbrdf_packing *packing = s->packing;
@@ -249,5 +265,7 @@ void hnbrdf_put_unpack(hnbrdf_printer *out, const hnbrdf_scene *s)
     put_latent(out, packing, &layout);
     if (hnbrdf_scene_has_sampling(s))
         put_lobes(out, packing, &layout);
+    if (s->energy)
+        put_energy(out, packing, &layout);
     hnbrdf_put(out, "    return material_out;\n}\n\n");
 }

@@ -13,7 +13,7 @@
 extern const char hnbrdf_evaluate_comp[], hnbrdf_hybrid_brdf_glsl[];
 
 /* Floats of one evaluation: wi, wo, kd, eta, alpha, cosine and sine of the rotation, latent,
- * scales and shares of the lobes, u, fitted kd, eta and alpha. */
+ * scales and shares of the lobes, u, fitted kd, eta and alpha, energy. */
 enum {
     AT_KD = 6,
     AT_ETA = 9,
@@ -24,7 +24,8 @@ enum {
     AT_SHARE = 34,
     AT_U = 42,
     AT_FITTED = 44,
-    INPUTS = 52
+    AT_ENERGY = 52,
+    INPUTS = 56
 };
 
 /* The fields that the exporter gives to the struct of a scene that is anisotropic, turned and
@@ -52,8 +53,9 @@ static void write_reader(const hnbrdf_model_desc *desc, char text[1024])
                            "    m.latent%d = read4(at + %d);\n", v, AT_LATENT + 4 * v);
     snprintf(text + length, 1024 - (size_t)length,
              "    m.lobe_scale = read4(at + %d).xy;\n    m.lobe_share_0 = read4(at + %d);\n"
-             "    m.lobe_share_1 = read4(at + %d);\n    return m;\n}\n",
-             AT_SCALE, AT_SHARE, AT_SHARE + HNBRDF_LOBE_KNOTS);
+             "    m.lobe_share_1 = read4(at + %d);\n    m.energy_ramp = read4(at + %d).xy;\n"
+             "    return m;\n}\n",
+             AT_SCALE, AT_SHARE, AT_SHARE + HNBRDF_LOBE_KNOTS, AT_ENERGY);
 }
 
 /* The same network with one material that has everything a material can have. */
@@ -67,6 +69,7 @@ static hnbrdf_result general_model(const hnbrdf_model *model, hnbrdf_model **gen
     hnbrdf_material_init(&material);
     material.alpha[1] = 0.25f;
     material.rotation = 1.0f;
+    material.energy.horizon = 0.5f;
     desc.materials = &material;
     desc.names = &name;
     desc.material_count = 1;
@@ -198,6 +201,8 @@ hnbrdf_result gpu_evaluator_run(gpu_evaluator *e, gpu_evaluation what,
         memcpy(to + AT_SHARE, prepared.lobes.share, sizeof prepared.lobes.share);
         memcpy(to + AT_U, u + 2 * k, 2 * sizeof *to);
         memcpy(to + AT_FITTED, &fitted, sizeof fitted);
+        to[AT_ENERGY] = prepared.energy.horizon;
+        to[AT_ENERGY + 1] = prepared.energy.slope;
     }
     hnbrdf_result result =
         gpu_upload(e->device, &e->inputs, e->packed, count * INPUTS * sizeof(float), error);

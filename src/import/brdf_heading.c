@@ -107,6 +107,16 @@ static hnbrdf_result take_lobes(heading_line *line, hnbrdf_brdf_heading *h, hnbr
     return HNBRDF_OK;
 }
 
+static hnbrdf_result take_energy(heading_line *line, hnbrdf_brdf_heading *h, hnbrdf_error *error)
+{
+    float n[2];
+    if (!take_numbers(line, n, 2))
+        return fail(line, "the horizon and slope of a factor on energy, two numbers", error);
+    h->energy.horizon = n[0];
+    h->energy.slope = n[1];
+    return HNBRDF_OK;
+}
+
 static hnbrdf_result take_key(heading_line *line, hnbrdf_brdf_heading *h, hnbrdf_error *error)
 {
     const heading_line start = *line;
@@ -127,8 +137,10 @@ static hnbrdf_result take_key(heading_line *line, hnbrdf_brdf_heading *h, hnbrdf
         result = take_fitted(line, h, error);
     else if (is_word(key, length, "lobes"))
         result = take_lobes(line, h, error);
+    else if (is_word(key, length, "energy"))
+        result = take_energy(line, h, error);
     else
-        return fail(&start, "kind, encoding, scale, shift, floor, fitted or lobes", error);
+        return fail(&start, "kind, encoding, scale, shift, floor, fitted, lobes or energy", error);
     if (result)
         return result;
     skip_spaces(line);

@@ -14,6 +14,7 @@ typedef struct hnbrdf_brdf_heading {
     int has_fitted, has_lobes;
     hnbrdf_fitted fitted;
     hnbrdf_lobes lobes;
+    hnbrdf_energy energy;
 } hnbrdf_brdf_heading;
 
 #define HNBRDF_BRDF_HEADING "# hnbrdf/1 "

@@ -199,6 +199,7 @@ static hnbrdf_result read_file(const char *file, const char *text, size_t size, 
         parameters->material->fitted = p->heading.fitted;
     if (p->heading.has_lobes)
         parameters->material->lobes = p->heading.lobes;
+    parameters->material->energy = p->heading.energy;
     if ((result = hnbrdf_material_check(parameters->material, &inner)))
         return hnbrdf_fail(error, HNBRDF_ERROR_FORMAT, "%s: %s", file, inner.text);
     return HNBRDF_OK;

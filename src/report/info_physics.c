@@ -49,11 +49,11 @@ void info_print_physics(const hnbrdf_model *model, const hnbrdf_physics *physics
                         FILE *file)
 {
     int count = hnbrdf_model_material_count(model), above = 0, invalid = 0;
-    fprintf(file, "\n%-*s  %-16s  %-9s  %-20s  %6s\n", width, "material", "albedo (at)", "energy",
+    fprintf(file, "\n%-*s  %-18s  %-9s  %-20s  %6s\n", width, "material", "albedo (at)", "energy",
             "not reciprocal by", "black");
     for (int k = 0; k < count; k++) {
         const hnbrdf_physics p = physics[k];
-        fprintf(file, "%-*s  %6.3f %c (%2.0f deg)  %-9s  ", width,
+        fprintf(file, "%-*s  %6.3f %c (%4.3g deg)  %-9s  ", width,
                 hnbrdf_model_material_name(model, k), p.albedo, "RGB"[p.albedo_channel],
                 p.albedo_theta * DEGREES, p.albedo > 1.0 ? "ABOVE 1" : "kept");
         if (p.reciprocity_worst == 0.0)
@@ -64,17 +64,19 @@ void info_print_physics(const hnbrdf_model *model, const hnbrdf_physics *physics
         above += p.albedo > 1.0;
         invalid += !p.valid;
     }
-    fputs("\nalbedo: the largest share of light from everywhere that leaves towards one direction, "
-          "that many\n"
-          "degrees from n, of those up to 88. Not reciprocal by: |f - f swapped| over the mean of "
-          "both, averaged. Black: "
-          "values of 0.\n",
-          file);
+    fputs(
+        "\nalbedo: the largest share of light from everywhere that leaves towards one direction, "
+        "that many\n"
+        "degrees from n, of those up to 89.9. Not reciprocal by: |f - f swapped| over the mean of "
+        "both, averaged. Black: "
+        "values of 0.\n",
+        file);
     if (above)
-        fprintf(file,
-                "%d of %d materials give off more light than they get: `hnbrdf export --conserve` "
-                "scales them.\n",
-                above, count);
+        fprintf(
+            file,
+            "%d of %d materials give off more light than they get: `hnbrdf edit MODEL --conserve` "
+            "holds them to it.\n",
+            above, count);
     if (invalid)
         fprintf(file, "%d of %d materials have negative or infinite values.\n", invalid, count);
 }

@@ -1,6 +1,7 @@
 /* texels.c: the materials of an export as texels in a file, and what the packing costs. */
 #include "report/texels.h"
 
+#include "core/compose.h"
 #include "hnbrdf/metrics.h"
 #include "report/output.h"
 
@@ -61,6 +62,11 @@ static int is_rotated(const hnbrdf_material *material)
     return material->rotation != 0.0f;
 }
 
+static int conserves_energy(const hnbrdf_material *material)
+{
+    return hnbrdf_has_energy(&material->energy);
+}
+
 /* "field (of which there is MATERIAL)", the first one that asks for it. */
 static void print_field(const report_texels *texels, int stored, const char *field,
                         int (*asks)(const hnbrdf_material *material), FILE *file)
@@ -89,6 +95,7 @@ static void print_fields(const report_texels *texels, FILE *file)
     if (packing->latent > 0)
         fprintf(file, ", %d latent", packing->latent);
     print_field(texels, packing->lobes, "lobes", NULL, file);
+    print_field(texels, packing->energy, "energy", conserves_energy, file);
     fprintf(file, "\n");
 }
 

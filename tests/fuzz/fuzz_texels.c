@@ -30,6 +30,7 @@ static hnbrdf_packing take_packing(source *s)
     packing.anisotropic = head[0] >> 2 & 1;
     packing.rotated = head[0] >> 3 & 1;
     packing.lobes = head[0] >> 5 & 1;
+    packing.energy = head[0] >> 6 & 1;
     packing.latent = head[1] % (HNBRDF_MAX_LATENT + 2) - 1;
     if (head[0] & 16) { /* ranges as a fit has them; else any floats */
         packing.kd[1] = 1.0f;

@@ -67,6 +67,7 @@ static void put_model(const char *name, hnbrdf_kind kind, hnbrdf_encoding encodi
         desc.scale = 1.5f;
         desc.floor = 0.003f;
         materials[1].latent[0] = 1.0f;
+        materials[1].energy = (hnbrdf_energy){0.5f, 4.0f};
         materials[1].fitted = (hnbrdf_fitted){{0.25f}, {2.0f, 2.0f, 2.0f}, {0.5f, 0.5f}};
         for (int k = 0; k <= layers; k++)
             desc.weights[k] = desc.biases[k] = numbers + k;

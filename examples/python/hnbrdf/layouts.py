@@ -12,8 +12,9 @@ material_dtype = np.dtype([
     ("kd", "f4", 3), ("eta", "f4", 3), ("alpha", "f4", 2), ("rotation", "f4"),
     ("latent", "f4", MAX_LATENT),
     ("lobes", [("scale", "f4", 2), ("share", "f4", (2, 4))]),
-    ("fitted", [("kd", "f4", 3), ("eta", "f4", 3), ("alpha", "f4", 2)])])
-"""A material as an item of a NumPy array, 172 bytes; hnbrdf_material says what the fields mean."""
+    ("fitted", [("kd", "f4", 3), ("eta", "f4", 3), ("alpha", "f4", 2)]),
+    ("energy", [("horizon", "f4"), ("slope", "f4")])])
+"""A material as an item of a NumPy array, 180 bytes; hnbrdf_material says what the fields mean."""
 sample_dtype = np.dtype([("wi", "f4", 3), ("pdf", "f4"), ("weight", "f4", 3)])
 
 _P, _I, _Z, _F, _S, _D = c.c_void_p, c.c_int, c.c_size_t, c.c_float, c.c_char_p, c.c_double
@@ -42,16 +43,18 @@ _prepared_edit = _structure(
     "hnbrdf_prepared_edit", ("warp", _F * 2), ("alpha", _F * 2), ("area", _F), ("diffuse", _F * 4),
     ("e", _F * 4), ("carried", _F * 4), ("added", _F * 4))
 _lobes = _structure("hnbrdf_lobes", ("scale", _F * 2), ("share", (_F * 4) * 2))
+_energy = _structure("hnbrdf_energy", ("horizon", _F), ("slope", _F))
 _prepared = _structure(
     "hnbrdf_prepared", ("model", _P), ("cosine", _F), ("sine", _F), ("alpha", _F * 2), ("area", _F),
     ("lobe_alpha", (_F * 2) * 2), ("lobe_area", _F * 2), ("lobes", _lobes), ("diffuse", _F * 4),
-    ("e", _F * 4), ("first", _F * 64), ("edited", _I), ("edit", _prepared_edit))
+    ("e", _F * 4), ("first", _F * 64), ("edited", _I), ("edit", _prepared_edit),
+    ("conserved", _I), ("energy", _energy))
 _change = _structure("hnbrdf_material_change", ("kind", _I), ("name", _S), ("material", _P),
                      ("new_name", _S), ("lobes", _I))
 _glsl_options = _structure(
     "hnbrdf_glsl_options", ("materials", _P), ("material_count", _I), ("standalone", _I),
     ("packing", _P), ("weights", _I), ("precision", _I), ("only", _I), ("fixed", _I),
-    ("energy", _P), ("editable", _I), ("language", _I), ("exact", _I), ("library", _I),
+    ("editable", _I), ("language", _I), ("exact", _I), ("library", _I),
     ("prefix", _S), ("without_comments", _I))
 _measured_options = _structure(
     "hnbrdf_measured_options", ("max_bytes", _Z), ("merl_lookup", _I), ("merl_node", _I),
