@@ -91,7 +91,7 @@ else()
   list(REMOVE_ITEM HNBRDF_ROOM_cli src/cli/ranks_mpi.c)
 endif()
 # The model that the word `universal` stands for.
-set(HNBRDF_UNIVERSAL examples/models/rgl_32x2.safetensors)
+set(HNBRDF_UNIVERSAL examples/models/universal_64x2.safetensors)
 set(universal ${CMAKE_CURRENT_BINARY_DIR}/generated/universal_model.c)
 add_custom_command(OUTPUT ${universal}
   COMMAND ${CMAKE_COMMAND} -DINPUT=${CMAKE_CURRENT_SOURCE_DIR}/${HNBRDF_UNIVERSAL}
