@@ -16,7 +16,7 @@ npm *|-|needs the network; test_web* run the pages
 fit *--kind ggx*|--pool 64|training takes a minute
 fit *--seconds*|-|trains for as long as it says
 fit *--steps 1?????*|-|trains for as long as it says
-fit *procedural:300*|-|trains for as long as it says
+fit *procedural:[1-9][0-9][0-9]*|-|trains for as long as it says
 fit *|--pool 64 --steps 2|training takes a minute
 compare *--images*||pictures of 8 x 8 pixels are there
 compare *--pairs*||two small files of data

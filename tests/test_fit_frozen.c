@@ -26,7 +26,7 @@ static int make_known(void **state)
     for (int m = 0; m < KNOWN; m++)
         if (hnbrdf_measured_open_builtin(2 * m, &data[m], NULL))
             return -1;
-    return hnbrdf_fit((const hnbrdf_measured *const *)data, KNOWN - 1, &o, &known, NULL, NULL);
+    return (int)hnbrdf_fit((const hnbrdf_measured *const *)data, KNOWN - 1, &o, &known, NULL, NULL);
 }
 
 static int free_known(void **state)

@@ -161,8 +161,8 @@ hnbrdf_result bench_growth_files(growth *g, const bench_watch *watch, hnbrdf_err
                 series[t] =
                     bench_growth_add(g, tasks[t].what, tasks[t].unit, bench_growth_axis_name(axis));
         for (int k = 0; !result && bench_growth_shape(g, axis, k, &shape); k++) {
-            result = bench_show(watch, "files, names and edits", (axis + 0.2 * k) / GROWTH_AXES, "",
-                                error);
+            result = bench_show(watch, "files, names and edits",
+                                ((int)axis + 0.2 * k) / GROWTH_AXES, "", error);
             if (!result)
                 result = measure(g, &shape, axis, series, error);
         }

@@ -67,7 +67,7 @@ static hnbrdf_result by_network(growth *g, const data *d, growth_axis axis,
     hnbrdf_result result = HNBRDF_OK;
     for (int k = 0; !result && bench_growth_shape(g, axis, k, &shape); k++) {
         hnbrdf_fit_report report;
-        result = bench_show(watch, "fits", 0.3 * axis + 0.05 * k, "", error);
+        result = bench_show(watch, "fits", 0.3 * (int)axis + 0.05 * k, "", error);
         if (!result)
             result = fit(g, d, 2, &shape, g->quick ? 20 : 300, &report, error);
         if (!result)

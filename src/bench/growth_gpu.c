@@ -132,7 +132,7 @@ static hnbrdf_result by_axis(growth *g, const shader_device *on, growth_axis axi
         double costs[COSTS], work;
         if (shape.materials > MOST_MATERIALS) /* beyond, materials belong into textures */
             break;
-        result = bench_show(watch, "shaders", (axis + 0.2 * k) / GROWTH_AXES, "", error);
+        result = bench_show(watch, "shaders", ((int)axis + 0.2 * k) / GROWTH_AXES, "", error);
         if (!result)
             result = measure(on, g, &shape, costs, &work, error);
         for (int c = 0; c < COSTS && !result; c++)
