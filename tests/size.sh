@@ -1,10 +1,11 @@
 #!/bin/sh
 # size.sh BUILD MINIMAL COMPILER SCRATCH: the table of code sizes, in Markdown, from two finished builds: BUILD
-# with what is to be listed, MINIMAL with every option off. Fails if evaluation and sampling take 96 KiB: 80
-# before edits carried the network along, 64 before there were batches of samples and densities.
+# with what is to be listed, MINIMAL with every option off. Fails if evaluation and sampling take 128 KiB:
+# 96 before a batch worked on two blocks at a time, 80 before edits carried the network along, 64 before there were
+# batches of samples and densities.
 set -eu
 build=$1 minimal=$2 compiler=$3 scratch=$4
-limit=98304
+limit=131072
 
 # stripped FILE: its size in bytes without symbols.
 stripped() {
