@@ -391,7 +391,7 @@ void hnbrdf_encode_angles_anisotropic(hnbrdf_pair p, out vec3 x_0, out vec3 x_1)
     x_1.x = y;
 }
 
-// |h.x| for sin th and |wi.x - wo.x|/2 for the larger cosine: sees the azimuths of h and of wi - wo, reciprocal, and
+// |h.x| for sin th and |wi.x - wo.x|/2 for the larger cosine: sees the azimuths of h and of wi - wo: reciprocal, and
 // mirror-symmetric about the tangent frame.
 void hnbrdf_encode_angles_azimuths(hnbrdf_pair p, out vec3 x_0, out vec3 x_1)
 {

@@ -213,8 +213,8 @@ static void wrong_headings_are_refused_with_their_line(void **state)
     refused(&file, "encoding angles-anisotropic", "encoding polar", 0,
             "b: line 6: found ' polar', expected the name of an encoding");
     refused(&file, "# hnbrdf/1 scale", "# hnbrdf/1 size", 0,
-            "b: line 7: found 'size 1.0', expected kind, encoding, scale, shift, floor, fitted or "
-            "lobes");
+            "b: line 7: found 'size 1.0', expected kind, encoding, scale, shift, floor, fitted, "
+            "lobes or energy");
     refused(&file, "floor 0.00249999994", "floor none", 0,
             "b: line 9: found 'none', expected a number");
     refused(&file, "floor 0.00249999994", "floor 0.5", 1,

@@ -366,6 +366,8 @@ static void frozen_network_takes_a_new_material(void **state)
 {
     (void)state;
     hnbrdf_fit_options o = small(HNBRDF_KIND_HYBRID);
+    o.horizon_none =
+        1; /* the comparison below draws no more pairs near the horizon than elsewhere */
     hnbrdf_model *two = NULL, *three = NULL;
     assert_int_equal(hnbrdf_fit((const hnbrdf_measured *const *)data, 2, &o, &two, NULL, NULL),
                      HNBRDF_OK);

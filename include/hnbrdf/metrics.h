@@ -147,7 +147,7 @@ HNBRDF_API void hnbrdf_physics_of(const hnbrdf_model *model, const hnbrdf_materi
 HNBRDF_API void hnbrdf_albedo(const hnbrdf_model *model, const hnbrdf_material *material,
                               const float wo[3], double albedo[3]);
 
-/* The factor that keeps the albedo of a material at most 1, to 89.94 degrees and in all channels:
+/* The factor that keeps the albedo of a material at most 1, to 89.9 degrees and in all channels:
  * to be its `energy`; it may be that itself. Of those that do, the one that takes least light
  * away; both numbers 0 where there is no need of one, and 1 at normal incidence unless the
  * albedo is above 1 there too. What energy the material has already does not matter. Some tens

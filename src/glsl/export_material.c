@@ -36,7 +36,7 @@ void hnbrdf_put_material_struct(hnbrdf_printer *out, const hnbrdf_scene *s)
         hnbrdf_put(out, "    vec2 lobe_scale;           // hnbrdf_lobes, for sampling alone\n"
                         "    vec4 lobe_share_0, lobe_share_1;\n");
     if (s->energy)
-        hnbrdf_put(out, "    vec2 energy_ramp; // hnbrdf_energy_factor(), (1, 0) for none\n");
+        hnbrdf_put(out, "    vec2 energy_ramp; // of hnbrdf_energy_factor(), (1, 0): none\n");
     hnbrdf_put(out, "};\n\n");
 }
 

@@ -16,7 +16,7 @@ static const double PI = 3.14159265358979323846;
 enum { VIEWS = 72, PARTS = 48, AZIMUTHS = HNBRDF_ALBEDO_AZIMUTHS };
 
 /* Cosines from here to 1, of views and of the ends of parts: evenly in the logarithm. */
-#define LEAST_COSINE 1e-3
+#define LEAST_COSINE 1.745e-3 /* of 89.9 degrees */
 /* What is left of 1 is for the error of an albedo, 0.5 %, and of what is between two views. */
 #define MOST_ALBEDO 0.99
 #define NEEDED_ABOVE 0.995
