@@ -443,7 +443,14 @@ float hnbrdf_energy_factor(vec2 energy_ramp, float z_i, float z_o)
 {
     HNBRDF_PRECISE float k_i = energy_ramp.x + energy_ramp.y * z_i;
     HNBRDF_PRECISE float k_o = energy_ramp.x + energy_ramp.y * z_o;
-    return hnbrdf_clamp(k_i, 0.0, 1.0) * hnbrdf_clamp(k_o, 0.0, 1.0);
+    HNBRDF_PRECISE float k_both = hnbrdf_clamp(k_i, 0.0, 1.0) * hnbrdf_clamp(k_o, 0.0, 1.0);
+    return k_both;
+}
+
+vec3 hnbrdf_conserve(float k_both, vec3 f_sum)
+{
+    HNBRDF_PRECISE vec3 f_kept = k_both * f_sum;
+    return f_kept;
 }
 
 // ---- Edits ---------------------------------------------------------------------------------------------

@@ -284,7 +284,8 @@ static void shaders_have_it_where_it_is_wanted(void **state)
     glsl.size = 0;
     assert_int_equal(hnbrdf_export_shader(model, NULL, put, &glsl, NULL), HNBRDF_OK);
     assert_true(says(&glsl, "vec2(0.125, 3.25)"));
-    assert_true(says(&glsl, "hnbrdf_energy_factor(material_in.energy_ramp, wi.z, wo.z) * "));
+    assert_true(
+        says(&glsl, "hnbrdf_conserve(hnbrdf_energy_factor(material_in.energy_ramp, wi.z, wo.z), "));
     hnbrdf_model_free(model);
     hnbrdf_model_free(plain);
 }

@@ -50,7 +50,8 @@ static void put_exponent(hnbrdf_printer *out, const hnbrdf_scene *s)
 /* On every value, where the scene has materials that conserve energy. */
 static const char *factor(const hnbrdf_scene *s)
 {
-    return s->energy ? "hnbrdf_energy_factor(material_in.energy_ramp, wi.z, wo.z) * " : "";
+    return s->energy ? "hnbrdf_conserve(hnbrdf_energy_factor(material_in.energy_ramp, wi.z, wo.z), "
+                     : "";
 }
 
 static void put_analytic(hnbrdf_printer *out, const hnbrdf_scene *s)
@@ -131,8 +132,8 @@ static void put_eval(hnbrdf_printer *out, const hnbrdf_scene *s)
     hnbrdf_put(out, "vec3 hnbrdf_eval(hnbrdf_material material_in, vec3 wi, vec3 wo)\n{\n%s",
                HORIZON);
     if (!hnbrdf_scene_has_network(s)) {
-        hnbrdf_put(out, "    return %shnbrdf_finish(hnbrdf_analytic(material_in, p));\n}\n",
-                   factor(s));
+        hnbrdf_put(out, "    return %shnbrdf_finish(hnbrdf_analytic(material_in, p))%s;\n}\n",
+                   factor(s), s->energy ? ")" : "");
         return;
     }
     int hybrid = s->desc->kind == HNBRDF_KIND_HYBRID;
@@ -149,7 +150,7 @@ static void put_eval(hnbrdf_printer *out, const hnbrdf_scene *s)
                : hybrid  ? "hnbrdf_compose_hybrid(exp_arg, g_net, hnbrdf_analytic(material_in, p), "
                          : "hnbrdf_compose_neural(exp_arg, ");
     hnbrdf_put_constant(out, s, 2);
-    hnbrdf_put(out, ");\n}\n");
+    hnbrdf_put(out, ")%s;\n}\n", s->energy ? ")" : "");
 }
 
 /* ---- Sampling -------------------------------------------------------------------------------- */
