@@ -181,6 +181,7 @@ typedef struct hnbrdf_bake_options {
      * report. */
     double (*time)(void *user, const hnbrdf_model *model, int half);
     void *time_user;
+    /* what max_ns is measured on, for the report; NULL: this processor */
     const char *timed_on;
 } hnbrdf_bake_options;
 
