@@ -1,6 +1,5 @@
 /* sizes.c: which networks a bake may try, and what an evaluation with each of them costs here. */
 #include "bake/task.h"
-#include "base/clock.h"
 #include "base/probe.h"
 
 #include <math.h>
@@ -143,14 +142,11 @@ typedef struct act {
     const hnbrdf_material *material;
 } act;
 
-static double run(void *context, long repeats)
+static void run(void *context)
 {
     act *a = context;
-    double started = 1e9 * hnbrdf_thread_seconds();
-    for (long k = 0; k < repeats; k++)
-        hnbrdf_eval_batch(a->model, a->material, TIMED_PAIRS, a->on->wi[0], 0, a->on->wo[0], 0,
-                          a->on->f[0], 0);
-    return 1e9 * hnbrdf_thread_seconds() - started;
+    hnbrdf_eval_batch(a->model, a->material, TIMED_PAIRS, a->on->wi[0], 0, a->on->wo[0], 0,
+                      a->on->f[0], 0);
 }
 
 static int between(void *user, double share)
@@ -169,7 +165,7 @@ static void time_models(bake_task *b, stage *on, hnbrdf_model *const *models, ac
     for (int k = 0; k <= count; k++) {
         acts[k] = (act){on, k < count ? models[k] : b->model,
                         hnbrdf_model_material(b->model, b->chosen[0])};
-        probes[k] = hnbrdf_probe_make(run, &acts[k], TIMED_PAIRS);
+        probes[k] = hnbrdf_probe_of_thread(run, &acts[k], TIMED_PAIRS);
         list[k] = &probes[k];
     }
     hnbrdf_time_probes(&timing, list, count + 1);

@@ -2,6 +2,8 @@
  * counts. */
 #include "base/probe.h"
 
+#include "base/clock.h"
+
 #include <math.h>
 
 enum { MOST_REPEATS = 1 << 24 };
@@ -13,10 +15,26 @@ hnbrdf_probe hnbrdf_probe_make(double (*run)(void *context, long repeats), void 
         .run = run, .context = context, .evaluations = evaluations, .ns = (double)NAN};
 }
 
+hnbrdf_probe hnbrdf_probe_of_thread(void (*once)(void *context), void *context, long evaluations)
+{
+    return (hnbrdf_probe){
+        .once = once, .context = context, .evaluations = evaluations, .ns = (double)NAN};
+}
+
+static double run(const hnbrdf_probe *probe)
+{
+    if (probe->run)
+        return probe->run(probe->context, probe->repeats);
+    const double started = hnbrdf_thread_seconds();
+    for (long k = 0; k < probe->repeats; k++)
+        probe->once(probe->context);
+    return 1e9 * (hnbrdf_thread_seconds() - started);
+}
+
 /* Takes one sample and keeps it if it is the best so far. */
 static double sample(hnbrdf_probe *probe)
 {
-    double total = probe->run(probe->context, probe->repeats);
+    double total = run(probe);
     double ns = total / (double)probe->repeats / (double)probe->evaluations;
     if (!isnan(ns) && !(probe->ns <= ns)) /* the first one replaces NaN */
         probe->ns = ns;

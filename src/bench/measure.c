@@ -52,7 +52,7 @@ static hnbrdf_result time_rows(bench *b, double sample_ns, hnbrdf_error *error)
         probes[count++] = &b->rows[k].whole;
         hnbrdf_probe *const others[] = {&b->rows[k].network, &b->rows[k].draw, &b->rows[k].density};
         for (int i = 0; i < 3; i++)
-            if (others[i]->run)
+            if (others[i]->evaluations > 0)
                 probes[count++] = others[i];
     }
     timing t = {.b = b, .peak_seconds = -2.0, .error = error};

@@ -1,6 +1,5 @@
 /* rows_baselines.c: what the baselines take on one thread: values, directions, densities. */
 #include "bench/baselines.h"
-#include "base/clock.h"
 #include "base/error.h"
 #include "render/tabulated.h"
 
@@ -24,63 +23,48 @@ struct bench_baseline_rows {
 
 /* ---- What is timed --------------------------------------------------------------------------- */
 
-static double run_measured(void *context, long repeats)
+static void run_measured(void *context)
 {
     work *w = context;
     bench_baseline_rows *r = w->rows;
-    double started = hnbrdf_thread_seconds();
-    for (long n = 0; n < repeats; n++)
-        for (int k = 0; k < PAIRS; k++)
-            hnbrdf_measured_eval(w->stand_in.measured, r->wi[k], r->wo[k], r->f[k]);
-    return 1e9 * (hnbrdf_thread_seconds() - started);
+    for (int k = 0; k < PAIRS; k++)
+        hnbrdf_measured_eval(w->stand_in.measured, r->wi[k], r->wo[k], r->f[k]);
 }
 
-static double run_two_lobes(void *context, long repeats)
+static void run_two_lobes(void *context)
 {
     work *w = context;
     bench_baseline_rows *r = w->rows;
-    double started = hnbrdf_thread_seconds();
-    for (long n = 0; n < repeats; n++)
-        for (int k = 0; k < PAIRS; k++) {
-            hnbrdf_prepared_eval(&w->lobes[0], r->wi[k], r->wo[k], r->f[k]);
-            hnbrdf_prepared_eval(&w->lobes[1], r->wi[k], r->wo[k], r->scratch[0]);
-            for (int c = 0; c < 3; c++)
-                r->f[k][c] += r->scratch[0][c];
-        }
-    return 1e9 * (hnbrdf_thread_seconds() - started);
+    for (int k = 0; k < PAIRS; k++) {
+        hnbrdf_prepared_eval(&w->lobes[0], r->wi[k], r->wo[k], r->f[k]);
+        hnbrdf_prepared_eval(&w->lobes[1], r->wi[k], r->wo[k], r->scratch[0]);
+        for (int c = 0; c < 3; c++)
+            r->f[k][c] += r->scratch[0][c];
+    }
 }
 
-static double run_two_lobes_batch(void *context, long repeats)
+static void run_two_lobes_batch(void *context)
 {
     work *w = context;
     bench_baseline_rows *r = w->rows;
-    double started = hnbrdf_thread_seconds();
-    for (long n = 0; n < repeats; n++)
-        bench_two_lobes_eval(r->b->models[0].model, &w->stand_in.lobes, PAIRS, r->wi[0], r->wo[0],
-                             r->f[0], r->scratch[0]);
-    return 1e9 * (hnbrdf_thread_seconds() - started);
+    bench_two_lobes_eval(r->b->models[0].model, &w->stand_in.lobes, PAIRS, r->wi[0], r->wo[0],
+                         r->f[0], r->scratch[0]);
 }
 
-static double run_draw(void *context, long repeats)
+static void run_draw(void *context)
 {
     work *w = context;
     bench_baseline_rows *r = w->rows;
-    double started = hnbrdf_thread_seconds();
-    for (long n = 0; n < repeats; n++)
-        for (int k = 0; k < PAIRS; k++)
-            r->pdf[k] = w->sampler.sample(&w->sampler, r->wo[k], r->u[k], r->f[k]);
-    return 1e9 * (hnbrdf_thread_seconds() - started);
+    for (int k = 0; k < PAIRS; k++)
+        r->pdf[k] = w->sampler.sample(&w->sampler, r->wo[k], r->u[k], r->f[k]);
 }
 
-static double run_density(void *context, long repeats)
+static void run_density(void *context)
 {
     work *w = context;
     bench_baseline_rows *r = w->rows;
-    double started = hnbrdf_thread_seconds();
-    for (long n = 0; n < repeats; n++)
-        for (int k = 0; k < PAIRS; k++)
-            r->pdf[k] = w->sampler.pdf(&w->sampler, r->wi[k], r->wo[k]);
-    return 1e9 * (hnbrdf_thread_seconds() - started);
+    for (int k = 0; k < PAIRS; k++)
+        r->pdf[k] = w->sampler.pdf(&w->sampler, r->wi[k], r->wo[k]);
 }
 
 /* ---- How each of them is sampled ------------------------------------------------------------- */
@@ -144,7 +128,7 @@ static hnbrdf_result choose_sampler(work *w, bench_baseline baseline, hnbrdf_err
 /* ---- Rows ------------------------------------------------------------------------------------ */
 
 static hnbrdf_result add_row(bench *b, work *w, bench_baseline baseline, const char *backend,
-                             double (*run)(void *context, long repeats), hnbrdf_error *error)
+                             void (*run)(void *context), hnbrdf_error *error)
 {
     bench_row *row;
     const int lobes = baseline == BENCH_TWO_LOBES;
@@ -155,11 +139,11 @@ static hnbrdf_result add_row(bench *b, work *w, bench_baseline baseline, const c
     if (result)
         return result;
     row->threads = 1;
-    row->whole = hnbrdf_probe_make(run, w, PAIRS);
+    row->whole = hnbrdf_probe_of_thread(run, w, PAIRS);
     if (run == run_two_lobes_batch || !w->sampler.sample)
         return HNBRDF_OK;
-    row->draw = hnbrdf_probe_make(run_draw, w, PAIRS);
-    row->density = hnbrdf_probe_make(run_density, w, PAIRS);
+    row->draw = hnbrdf_probe_of_thread(run_draw, w, PAIRS);
+    row->density = hnbrdf_probe_of_thread(run_density, w, PAIRS);
     return HNBRDF_OK;
 }
 

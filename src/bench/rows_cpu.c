@@ -1,6 +1,5 @@
 /* rows_cpu.c: what the C library takes on one thread: single evaluations, batches, the network
  * alone. */
-#include "base/clock.h"
 #include "base/error.h"
 #include "bench/bench.h"
 #include "core/kernel.h"
@@ -33,91 +32,67 @@ struct bench_cpu {
 
 /* ---- What is timed --------------------------------------------------------------------------- */
 
-static double run_single(void *context, long repeats)
+static void run_single(void *context)
 {
     cpu_work *w = context;
     struct bench_cpu *cpu = w->cpu;
-    double started = hnbrdf_thread_seconds();
-    for (long n = 0; n < repeats; n++)
-        for (int k = 0; k < PAIRS; k++)
-            hnbrdf_eval(w->model, w->material, cpu->wi[k], cpu->wo[k], cpu->f[k]);
-    return 1e9 * (hnbrdf_thread_seconds() - started);
+    for (int k = 0; k < PAIRS; k++)
+        hnbrdf_eval(w->model, w->material, cpu->wi[k], cpu->wo[k], cpu->f[k]);
 }
 
-static double run_prepared(void *context, long repeats)
+static void run_prepared(void *context)
 {
     cpu_work *w = context;
     struct bench_cpu *cpu = w->cpu;
-    double started = hnbrdf_thread_seconds();
-    for (long n = 0; n < repeats; n++)
-        for (int k = 0; k < PAIRS; k++)
-            hnbrdf_prepared_eval(&w->prepared, cpu->wi[k], cpu->wo[k], cpu->f[k]);
-    return 1e9 * (hnbrdf_thread_seconds() - started);
+    for (int k = 0; k < PAIRS; k++)
+        hnbrdf_prepared_eval(&w->prepared, cpu->wi[k], cpu->wo[k], cpu->f[k]);
 }
 
-static double run_draw(void *context, long repeats)
+static void run_draw(void *context)
 {
     cpu_work *w = context;
     struct bench_cpu *cpu = w->cpu;
-    double started = hnbrdf_thread_seconds();
-    for (long n = 0; n < repeats; n++)
-        for (int k = 0; k < PAIRS; k++)
-            cpu->pdf[k] = hnbrdf_prepared_draw(&w->prepared, cpu->wo[k], cpu->u[k], cpu->f[k]);
-    return 1e9 * (hnbrdf_thread_seconds() - started);
+    for (int k = 0; k < PAIRS; k++)
+        cpu->pdf[k] = hnbrdf_prepared_draw(&w->prepared, cpu->wo[k], cpu->u[k], cpu->f[k]);
 }
 
-static double run_density(void *context, long repeats)
+static void run_density(void *context)
 {
     cpu_work *w = context;
     struct bench_cpu *cpu = w->cpu;
-    double started = hnbrdf_thread_seconds();
-    for (long n = 0; n < repeats; n++)
-        for (int k = 0; k < PAIRS; k++)
-            cpu->pdf[k] = hnbrdf_prepared_pdf(&w->prepared, cpu->wi[k], cpu->wo[k]);
-    return 1e9 * (hnbrdf_thread_seconds() - started);
+    for (int k = 0; k < PAIRS; k++)
+        cpu->pdf[k] = hnbrdf_prepared_pdf(&w->prepared, cpu->wi[k], cpu->wo[k]);
 }
 
-static double run_batch(void *context, long repeats)
+static void run_batch(void *context)
 {
     cpu_work *w = context;
     struct bench_cpu *cpu = w->cpu;
-    double started = hnbrdf_thread_seconds();
-    for (long n = 0; n < repeats; n++)
-        hnbrdf_eval_batch(w->model, w->material, PAIRS, cpu->wi[0], 0, cpu->wo[0], 0, cpu->f[0], 0);
-    return 1e9 * (hnbrdf_thread_seconds() - started);
+    hnbrdf_eval_batch(w->model, w->material, PAIRS, cpu->wi[0], 0, cpu->wo[0], 0, cpu->f[0], 0);
 }
 
-static double run_many(void *context, long repeats)
+static void run_many(void *context)
 {
     cpu_work *w = context;
     struct bench_cpu *cpu = w->cpu;
-    double started = hnbrdf_thread_seconds();
-    for (long n = 0; n < repeats; n++)
-        hnbrdf_eval_many(w->model, w->table, w->index, PAIRS, cpu->wi[0], 0, cpu->wo[0], 0,
-                         cpu->f[0], 0);
-    return 1e9 * (hnbrdf_thread_seconds() - started);
+    hnbrdf_eval_many(w->model, w->table, w->index, PAIRS, cpu->wi[0], 0, cpu->wo[0], 0, cpu->f[0],
+                     0);
 }
 
-static double run_network(void *context, long repeats)
+static void run_network(void *context)
 {
     cpu_work *w = context;
     struct bench_cpu *cpu = w->cpu;
-    double started = hnbrdf_thread_seconds();
-    for (long n = 0; n < repeats; n++)
-        for (int k = 0; k < BLOCKS; k++)
-            hnbrdf_network_block(&w->prepared, cpu->inputs[k], cpu->outputs);
-    return 1e9 * (hnbrdf_thread_seconds() - started);
+    for (int k = 0; k < BLOCKS; k++)
+        hnbrdf_network_block(&w->prepared, cpu->inputs[k], cpu->outputs);
 }
 
-static double run_network_singly(void *context, long repeats)
+static void run_network_singly(void *context)
 {
     cpu_work *w = context;
     struct bench_cpu *cpu = w->cpu;
-    double started = hnbrdf_thread_seconds();
-    for (long n = 0; n < repeats; n++)
-        for (int k = 0; k < PAIRS; k++)
-            w->model->kernel->outputs(&w->prepared, cpu->input[k], cpu->output);
-    return 1e9 * (hnbrdf_thread_seconds() - started);
+    for (int k = 0; k < PAIRS; k++)
+        w->model->kernel->outputs(&w->prepared, cpu->input[k], cpu->output);
 }
 
 /* ---- Rows ------------------------------------------------------------------------------------ */
@@ -170,7 +145,7 @@ static hnbrdf_result add_work(struct bench_cpu *cpu, const bench_model *model,
     return HNBRDF_OK;
 }
 
-typedef double (*runner)(void *context, long repeats);
+typedef void (*runner)(void *context);
 
 static hnbrdf_result add_row(bench *b, const bench_model *model, cpu_work *work,
                              hnbrdf_variant variant, const char *backend, runner whole,
@@ -183,12 +158,12 @@ static hnbrdf_result add_row(bench *b, const bench_model *model, cpu_work *work,
         return result;
     row->threads = 1;
     row->bytes = hnbrdf_model_weight_count(model->model) * sizeof(float);
-    row->whole = hnbrdf_probe_make(whole, work, PAIRS);
+    row->whole = hnbrdf_probe_of_thread(whole, work, PAIRS);
     if (network && model->desc.kind != HNBRDF_KIND_GGX)
-        row->network = hnbrdf_probe_make(network, work, PAIRS);
+        row->network = hnbrdf_probe_of_thread(network, work, PAIRS);
     if (whole == run_prepared) {
-        row->draw = hnbrdf_probe_make(run_draw, work, PAIRS);
-        row->density = hnbrdf_probe_make(run_density, work, PAIRS);
+        row->draw = hnbrdf_probe_of_thread(run_draw, work, PAIRS);
+        row->density = hnbrdf_probe_of_thread(run_density, work, PAIRS);
     }
     return HNBRDF_OK;
 }

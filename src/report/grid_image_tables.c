@@ -43,21 +43,18 @@ void report_write_psnr_method(const report *r, FILE *file)
         file,
         "Spheres of each material, one bounce of light from %s%s, %ld x %ld pixels, %ld samples a "
         "pixel, seed %ld,\nthe same random directions for the measurement and all models. Mean "
-        "over "
-        "the "
-        "pixels that the sphere covers;\npeak: the reference's largest value. Every sphere is "
-        "rendered "
-        "twice with half of the samples, and what\ndiffers between both is noise: +- is the "
-        "standard "
-        "error that it leaves.\n",
+        "over the pixels that the sphere covers;\npeak: the reference's largest value. Every "
+        "sphere "
+        "is rendered twice with half of the samples, and what\ndiffers between both is noise: +- "
+        "is "
+        "the standard error that it leaves.\n",
         strcmp(r->light.env, "sky") == 0 ? "the built-in " : "", base_name(r->light.env),
         r->image_size, r->image_size, 2 * ((r->light.spp + 1) / 2), r->light.seed);
 }
 
-void report_write_psnr_table(const report *r, FILE *file)
+/* A row a net, of what `put` writes for a model of which some material is done. */
+static void write_nets(const report *r, void (*put)(const report_entry *e, FILE *file), FILE *file)
 {
-    const report_entry *ggx = &r->entries[0];
-    fprintf(file, "\nGGX alone: %.2f +- %.2f.\n\n", ggx->mean_psnr, ggx->mean_psnr_error);
     report_write_form_header(r, file);
     for (int n = 0; n < r->net_count; n++) {
         fprintf(file, "| %dx%d |", r->nets[n][0], r->nets[n][1]);
@@ -65,12 +62,29 @@ void report_write_psnr_table(const report *r, FILE *file)
             for (report_form form = REPORT_HYBRID; form < REPORT_FORMS; form++) {
                 const report_entry *e = report_find(r, form, r->nets[n], r->latents[l]);
                 if (r->forms[form] && e && e->mean_psnr > 0.0)
-                    fprintf(file, " %.2f +- %.2f |", e->mean_psnr, e->mean_psnr_error);
+                    put(e, file);
                 else if (r->forms[form])
                     fputs(" |", file);
             }
         putc('\n', file);
     }
+}
+
+static void put_psnr(const report_entry *e, FILE *file)
+{
+    fprintf(file, " %.2f +- %.2f |", e->mean_psnr, e->mean_psnr_error);
+}
+
+static void put_flip(const report_entry *e, FILE *file)
+{
+    fprintf(file, " %.4f |", e->mean_flip);
+}
+
+void report_write_psnr_table(const report *r, FILE *file)
+{
+    const report_entry *ggx = &r->entries[0];
+    fprintf(file, "\nGGX alone: %.2f +- %.2f.\n\n", ggx->mean_psnr, ggx->mean_psnr_error);
+    write_nets(r, put_psnr, file);
 }
 
 void report_write_flip_table(const report *r, FILE *file)
@@ -83,19 +97,7 @@ void report_write_flip_table(const report *r, FILE *file)
         "The noise of both renderings counts.\n\nGGX alone: %.4f.\n\n",
         HNBRDF_NUMBER(r->flip.pixels_per_degree > 0.0 ? r->flip.pixels_per_degree : 67.02),
         "include/hnbrdf/metrics.h", r->entries[0].mean_flip);
-    report_write_form_header(r, file);
-    for (int n = 0; n < r->net_count; n++) {
-        fprintf(file, "| %dx%d |", r->nets[n][0], r->nets[n][1]);
-        for (int l = 0; l < r->latent_count; l++)
-            for (report_form form = REPORT_HYBRID; form < REPORT_FORMS; form++) {
-                const report_entry *e = report_find(r, form, r->nets[n], r->latents[l]);
-                if (r->forms[form] && e && e->mean_psnr > 0.0)
-                    fprintf(file, " %.4f |", e->mean_flip);
-                else if (r->forms[form])
-                    fputs(" |", file);
-            }
-        putc('\n', file);
-    }
+    write_nets(r, put_flip, file);
 }
 
 /* ---- Model against model --------------------------------------------------------------------- */
@@ -152,19 +154,15 @@ static const report_entry *neural_beside(const report *r, const report_entry *e)
 static void write_models(const report *r, FILE *file)
 {
     const int complete = report_is_complete(r);
-    fputs("\n## Model by model\n\nMean MAE in radiance, FLIP and PSNR in dB; noise: by how much "
-          "PSNR is "
-          "too "
-          "low "
-          "because noise counts as error (drowned: materials "
-          "whose error is less than the noise). The last\ncolumns: dB more than GGX alone, and "
-          "than the "
-          "neural "
-          "model that stores as many numbers a material, and for how many\nmaterials PSNR is "
-          "higher, once all are done.\n\n"
-          "| model | MAE | FLIP | PSNR | noise | against GGX alone | against neural "
-          "|\n|---|---|---|---|---|---|---|\n",
-          file);
+    fputs(
+        "\n## Model by model\n\nMean MAE in radiance, FLIP and PSNR in dB; noise: by how much "
+        "PSNR is too low because noise counts as error (drowned: materials whose error is less "
+        "than the noise). The last\ncolumns: dB more than GGX alone, and than the neural model "
+        "that stores as many numbers a material, and for how many\nmaterials PSNR is higher, once "
+        "all are done.\n\n"
+        "| model | MAE | FLIP | PSNR | noise | against GGX alone | against neural "
+        "|\n|---|---|---|---|---|---|---|\n",
+        file);
     for (int k = 0; k < r->count; k++) {
         const report_entry *e = &r->entries[k];
         fprintf(file, "| %s | %.5f | %.4f | %.2f +- %.2f |", e->name, e->mean_mae, e->mean_flip,
