@@ -122,11 +122,11 @@ static void lobes_follow_the_correction(void **state)
 }
 
 /* Widths between those of the grid: three materials of the shipped model whose lobes lie there have
- * a geometric mean variance of 0.344, and of 0.371 with the nearest of the grid. */
+ * a geometric mean variance of 0.381, and of 0.412 with the nearest of the grid. */
 static void widths_are_refined_between_those_of_the_grid(void **state)
 {
     (void)state;
-    static const char *const names[] = {"irid_flake_paint1", "chm_mint", "cc_iris_purple_gem"};
+    static const char *const names[] = {"chm_light_blue", "vch_golden_yellow", "chm_mint"};
     hnbrdf_model *model = NULL;
     hnbrdf_error error = {""};
     double sum = 0.0;
@@ -139,7 +139,7 @@ static void widths_are_refined_between_those_of_the_grid(void **state)
         sum += log(variance(model, &m, 67)) / 3.0;
     }
     print_message("    %.4f\n", exp(sum));
-    assert_true(exp(sum) < 0.357);
+    assert_true(exp(sum) < 0.396);
     hnbrdf_model_free(model);
 }
 

@@ -85,11 +85,13 @@ enum { BLOCKS = 6 };
         }                                                                   \
     }
 
-/* One pass over all blocks of the file, reading or writing. */
+/* One pass over all blocks of the file, reading or writing. An absent block has no bytes. */
 static int transfer(const trainer *t, FILE *file, int writing)
 {
     const block blocks[BLOCKS] = BLOCKS_OF(t);
     for (size_t i = 0; i < BLOCKS; i++) {
+        if (blocks[i].size == 0)
+            continue;
         size_t done = writing ? fwrite(blocks[i].data, 1, blocks[i].size, file)
                               : fread(blocks[i].data, 1, blocks[i].size, file);
         if (done != blocks[i].size)
@@ -205,7 +207,7 @@ static int spread(trainer *t, header *h)
     const block blocks[BLOCKS] = BLOCKS_OF(t);
     int good = hnbrdf_fit_broadcast(t, h, sizeof *h);
     for (int i = 0; i < BLOCKS && good; i++)
-        good = hnbrdf_fit_broadcast(t, blocks[i].data, blocks[i].size);
+        good = blocks[i].size == 0 || hnbrdf_fit_broadcast(t, blocks[i].data, blocks[i].size);
     return good;
 }
 
