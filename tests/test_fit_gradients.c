@@ -427,6 +427,40 @@ static void instruction_sets_agree_to_the_bit(void **state)
     }
 }
 
+/* Products of every shape against a plain loop, whose order of sums is that of the kernels. */
+static void matrices_agree_to_the_bit(void **state)
+{
+    static const int sides[] = {1, 3, 6, 7, 8, 9, 15, 16, 17, 23, 64, FIT_MATRIX};
+    enum { SIDES = 12, MOST = FIT_MATRIX * FIT_MATRIX };
+    static float a[MOST], b[MOST], c[MOST + 1], wanted[MOST];
+    (void)state;
+    hnbrdf_rng rng;
+    hnbrdf_rng_seed(&rng, 5, 6);
+    for (int i = 0; i < MOST; i++) {
+        a[i] = hnbrdf_rng_float(&rng) - 0.5f;
+        b[i] = hnbrdf_rng_float(&rng) - 0.5f;
+    }
+    for (int s = 0; s < SIDES * SIDES * SIDES; s++) {
+        const int rows = sides[s % SIDES], depth = sides[s / SIDES % SIDES];
+        const int columns = sides[s / (SIDES * SIDES)];
+        for (int i = 0; i < rows * columns; i++) {
+            float sum = 0.0f;
+            for (int k = 0; k < depth; k++)
+                sum += a[i / columns * depth + k] * b[k * columns + i % columns];
+            wanted[i] = sum;
+        }
+        for (int k = 0; k < 3; k++) {
+            const fit_kernel *kernel = kernel_number(k);
+            if (!kernel)
+                continue;
+            memset(c, 0, sizeof c);
+            kernel->matrix(a, b, c, rows, depth, columns);
+            assert_memory_equal(c, wanted, sizeof(float) * (size_t)(rows * columns));
+            assert_true(c[rows * columns] == 0.0f);
+        }
+    }
+}
+
 /* The sums of kernel.own() and kernel.pixel() by every instruction set. */
 static void own_sums_agree_to_the_bit(void **state)
 {
@@ -560,6 +594,7 @@ int main(void)
         cmocka_unit_test(the_analytic_part_alone_is_told_too),
         cmocka_unit_test(pixel_derivatives_match_finite_differences),
         cmocka_unit_test(instruction_sets_agree_to_the_bit),
+        cmocka_unit_test(matrices_agree_to_the_bit),
         cmocka_unit_test(own_sums_agree_to_the_bit),
         cmocka_unit_test(gradients_stay_finite_at_the_limits),
         cmocka_unit_test(gradients_are_bounded_near_the_alpha_floor_and_eta_1),

@@ -32,7 +32,7 @@ static void make(problem *p)
     assert_non_null(p->parameters);
     p->gradient = p->parameters + p->layout.count;
     p->moments = p->gradient + p->layout.count;
-    assert_true(hnbrdf_fit_soap_make(&p->soap, &p->layout));
+    assert_true(hnbrdf_fit_soap_make(&p->soap, &p->layout, hnbrdf_fit_kernel_choose()));
     hnbrdf_rng_seed(&p->rng, 3, 4);
 }
 
@@ -135,6 +135,33 @@ static void a_gradient_that_is_none_moves_nothing(void **state)
     drop(&p);
 }
 
+static void check_no_denormals(const float *values, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        assert_true(fpclassify(values[i]) != FP_SUBNORMAL);
+}
+
+/* A unit that gets gradients for a while and then none: what is kept of it ends at 0. */
+static void what_dies_out_is_zero(void **state)
+{
+    (void)state;
+    problem p;
+    make(&p);
+    for (long s = 1; s <= 6000; s++) {
+        if (s < 40)
+            draw_gradient(&p, 2, 1.0f);
+        else
+            memset(p.gradient, 0, p.layout.count * sizeof(float));
+        p.gradient[p.layout.bias[1]] = 0.1f;
+        step(&p, 1, s, 1e-3);
+        if (s % 100 == 0) {
+            check_no_denormals(p.soap.state, p.soap.state_count);
+            check_no_denormals(p.moments, 2 * p.layout.count);
+        }
+    }
+    drop(&p);
+}
+
 /* ---- Inputs that are nearly alike ------------------------------------------------------------ */
 
 enum { PAIRS = 256 };
@@ -205,6 +232,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(bases_stay_orthonormal),
                                        cmocka_unit_test(a_gradient_that_is_none_moves_nothing),
+                                       cmocka_unit_test(what_dies_out_is_zero),
                                        cmocka_unit_test(inputs_nearly_alike_are_told_apart)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -128,7 +128,8 @@ static int allocate(trainer *t)
     t->scratch = calloc(threads * l->scratch_count + 1, sizeof(float));
     t->moments = t->parameters ? t->parameters + l->count : NULL;
     return allocate_pool(t) &&
-           (t->options.freeze || (hnbrdf_fit_sums_make(t) && hnbrdf_fit_soap_make(&t->soap, l))) &&
+           (t->options.freeze ||
+            (hnbrdf_fit_sums_make(t) && hnbrdf_fit_soap_make(&t->soap, l, t->kernel))) &&
            hnbrdf_fit_schedule_start(&t->schedule, t->count, t->pool.tiles, t->options.seed) &&
            t->found && t->drawn && t->parameters && t->best && t->gradient && t->derived &&
            t->scratch;

@@ -5,7 +5,7 @@
 
 const fit_kernel hnbrdf_fit_kernel_plain = {"plain",         kernel_derive,   kernel_network,
                                             kernel_analytic, kernel_own_rows, kernel_own,
-                                            kernel_pixel};
+                                            kernel_pixel,    kernel_matrix};
 
 const fit_kernel *hnbrdf_fit_kernel_choose(void)
 {

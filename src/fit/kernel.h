@@ -17,6 +17,9 @@ enum { FIT_TILE = 64, FIT_LANES = 16, FIT_INPUTS = 6 };
  * rotation. */
 enum { FIT_KD = 0, FIT_ETA = 3, FIT_ALPHA = 6, FIT_ROTATION = 8, FIT_ANALYTIC = 9 };
 
+/* The longest side of a matrix that training turns: a layer's inputs and its bias. */
+enum { FIT_MATRIX = HNBRDF_MAX_HIDDEN + 1 };
+
 /* What a material has of its own, beside a network that stays: its latent code, then, from number
  * FIT_LANES on, its analytic parameters. */
 enum { FIT_OWN = 2 * FIT_LANES, FIT_LIGHTS = 3 };
@@ -121,6 +124,8 @@ typedef struct fit_kernel {
                   const float *rows, const fit_tile *tile, const float *lights,
                   const float *weights, const float *own, float *scratch, float *normal,
                   double *squares);
+    /* c = a b, row by row: a [rows][depth], b [depth][columns]; rows and depth <= FIT_MATRIX. */
+    void (*matrix)(const float *a, const float *b, float *c, int rows, int depth, int columns);
 } fit_kernel;
 
 /* The best one this machine runs; all give the same bits. */
@@ -149,6 +154,7 @@ typedef struct fit_kernel_double_table {
                   const double *rows, const fit_tile *tile, const float *lights,
                   const float *weights, const double *own, double *scratch, double *normal,
                   double *squares);
+    void (*matrix)(const double *a, const double *b, double *c, int rows, int depth, int columns);
 } fit_kernel_double_table;
 extern const fit_kernel_double_table hnbrdf_fit_kernel_double;
 

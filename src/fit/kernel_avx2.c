@@ -7,7 +7,7 @@
 
 const fit_kernel hnbrdf_fit_kernel_avx2 = {"avx2",          kernel_derive,   kernel_network,
                                            kernel_analytic, kernel_own_rows, kernel_own,
-                                           kernel_pixel};
+                                           kernel_pixel,    kernel_matrix};
 #else
 typedef int fit_kernel_avx2_is_empty; /* ISO C wants something in a file */
 #endif

@@ -388,4 +388,5 @@ static double kernel_network(const fit_layout *l, const REAL *parameters, const 
     return loss;
 }
 
+#include "fit/kernel_matrix.h"
 #include "fit/kernel_own.h"

@@ -12,4 +12,5 @@
 #include "fit/kernel_body.h"
 
 const fit_kernel_double_table hnbrdf_fit_kernel_double = {
-    kernel_derive, kernel_network, kernel_analytic, kernel_own_rows, kernel_own, kernel_pixel};
+    kernel_derive, kernel_network, kernel_analytic, kernel_own_rows,
+    kernel_own,    kernel_pixel,   kernel_matrix};

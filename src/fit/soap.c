@@ -10,6 +10,10 @@
 #define BETA_MEANS 0.98f
 enum { FOLLOW_EVERY = 10 }; /* steps */
 #define MOST_GRADIENT 1e17f
+/* What is smaller is 0: numbers of units that have died out would decay into denormal ones, and a
+ * product of these takes fifty times as long. Such a mean moves a weight by 1e-11 of the rate. */
+#define LEAST_NUMBER 1e-19f
+#define LEAST_SQUARE 1e-35f
 /* What is left of a vector, squared, when its part along others is taken away, to be trusted. */
 #define LEAST_LEFT 1e-6f
 
@@ -38,13 +42,14 @@ static void measure(fit_soap *s, const fit_layout *l, size_t *weights, size_t *r
         layer->room = *room;
         s->state_count = layer->right_basis + right;
         *weights += (size_t)layer->inputs * (size_t)layer->outputs;
-        *room += 5 * (left > right ? left : right);
+        *room += FIT_SOAP_SQUARES * (left > right ? left : right);
     }
 }
 
-int hnbrdf_fit_soap_make(fit_soap *s, const fit_layout *l)
+int hnbrdf_fit_soap_make(fit_soap *s, const fit_layout *l, const fit_kernel *kernel)
 {
     size_t weights, room;
+    s->kernel = kernel;
     measure(s, l, &weights, &room);
     s->places = calloc(weights + 1, sizeof *s->places);
     s->state = calloc(s->state_count + 1, sizeof *s->state);
@@ -71,25 +76,17 @@ void hnbrdf_fit_soap_free(fit_soap *s)
 
 /* ---- Matrices, row by row -------------------------------------------------------------------- */
 
-/* c = a b, a [rows][depth], b [depth][columns] */
-static void product(const float *restrict a, const float *restrict b, float *restrict c, int rows,
-                    int depth, int columns)
-{
-    memset(c, 0, sizeof(float) * (size_t)rows * (size_t)columns);
-    for (int i = 0; i < rows; i++)
-        for (int k = 0; k < depth; k++) {
-            const float x = a[i * depth + k];
-            for (int j = 0; j < columns; j++)
-                c[i * columns + j] += x * b[k * columns + j];
-        }
-}
-
 /* b = a^T, a [rows][columns] */
 static void transpose(const float *restrict a, float *restrict b, int rows, int columns)
 {
     for (int i = 0; i < rows; i++)
         for (int j = 0; j < columns; j++)
             b[j * rows + i] = a[i * columns + j];
+}
+
+static float or_zero(float x, float least)
+{
+    return fabsf(x) < least ? 0.0f : x;
 }
 
 static float dot(const float *a, const float *b, int count)
@@ -149,7 +146,7 @@ static void orthonormalise(const float *basis, float *moved, int n)
 }
 
 /* One step of subspace iteration with the symmetric mean [n][n]. */
-static void follow(const float *mean, float *basis, int n, float *room)
+static void follow(const fit_kernel *kernel, const float *mean, float *basis, int n, float *room)
 {
     float *scaled = room, *moved = room + square(n), trace = 0.0f;
     for (int i = 0; i < n; i++)
@@ -157,10 +154,11 @@ static void follow(const float *mean, float *basis, int n, float *room)
     if (!(trace > 0.0f))
         return;
     for (size_t i = 0; i < square(n); i++)
-        scaled[i] = mean[i] / trace;
-    product(basis, scaled, moved, n, n, n);
+        scaled[i] = or_zero(mean[i] / trace, LEAST_NUMBER);
+    kernel->matrix(basis, scaled, moved, n, n, n);
     orthonormalise(basis, moved, n);
-    memcpy(basis, moved, sizeof(float) * square(n));
+    for (size_t i = 0; i < square(n); i++)
+        basis[i] = or_zero(moved[i], LEAST_NUMBER);
 }
 
 static void start_basis(float *basis, int n)
@@ -176,74 +174,132 @@ static void start_basis(float *basis, int n)
 static void run_mean(float *restrict mean, const float *restrict now, size_t count)
 {
     for (size_t i = 0; i < count; i++)
-        mean[i] = BETA_MEANS * mean[i] + (1.0f - BETA_MEANS) * now[i];
+        mean[i] = or_zero(BETA_MEANS * mean[i] + (1.0f - BETA_MEANS) * now[i], LEAST_SQUARE);
 }
 
-/* Means of products of the gradient g; room for two squares. */
-static void see_gradient(const fit_soap_layer *l, const float *g, float *state, float *room)
-{
-    float *turned = room, *now = room + (size_t)l->inputs * (size_t)l->outputs;
-    transpose(g, turned, l->inputs, l->outputs);
-    product(g, turned, now, l->inputs, l->outputs, l->inputs);
-    run_mean(state + l->left, now, square(l->inputs));
-    product(turned, g, now, l->outputs, l->inputs, l->outputs);
-    run_mean(state + l->right, now, square(l->outputs));
-}
+/* A layer of a step. Its matrices, and `free` ones, are in the room. */
+typedef struct stage {
+    const fit_soap_layer *layer;
+    const fit_kernel *kernel;
+    float *state;
+    float *gradient, *mean, *squares; /* [inputs][outputs] the gradient; Adam's m and v */
+    float *across, *turned;           /* the right basis, transposed; what is turned */
+    float *free;                      /* two squares */
+} stage;
 
-/* to = left a right^T: a in the eigenbases; `across` is right^T. Room for one matrix. */
-static void turn(const fit_soap_layer *l, const float *state, const float *across, const float *a,
-                 float *to, float *room)
-{
-    product(state + l->left_basis, a, room, l->inputs, l->inputs, l->outputs);
-    product(room, across, to, l->inputs, l->outputs, l->outputs);
-}
-
-/* a = left^T a right: back again. Room for two matrices. */
-static void turn_back(const fit_soap_layer *l, const float *state, float *a, float *room)
-{
-    float *left = room, *half = room + square(l->inputs);
-    transpose(state + l->left_basis, left, l->inputs, l->inputs);
-    product(left, a, half, l->inputs, l->inputs, l->outputs);
-    product(half, state + l->right_basis, a, l->inputs, l->outputs, l->outputs);
-}
-
-void hnbrdf_fit_soap_step(const fit_soap *s, int k, float *parameters, const float *gradient,
-                          float *m, float *v, long step, double rate)
+static stage set_stage(const fit_soap *s, int k)
 {
     const fit_soap_layer *l = &s->layers[k];
-    const size_t *place = s->places + l->at, count = (size_t)l->inputs * (size_t)l->outputs;
-    const size_t side = (size_t)(l->inputs > l->outputs ? l->inputs : l->outputs);
-    float *state = s->state, *g = s->room + l->room, *across = g + side * side;
-    float *turned = across + side * side, *room = turned + side * side; /* two squares */
+    const size_t one = square(l->inputs > l->outputs ? l->inputs : l->outputs);
+    float *room = s->room + l->room;
+    return (stage){.layer = l,
+                   .kernel = s->kernel,
+                   .state = s->state,
+                   .gradient = room,
+                   .mean = room + one,
+                   .squares = room + 2 * one,
+                   .across = room + 3 * one,
+                   .turned = room + 4 * one,
+                   .free = room + 5 * one};
+}
+
+/* Means of products of the gradient. */
+static void see_gradient(const stage *s)
+{
+    const int inputs = s->layer->inputs, outputs = s->layer->outputs;
+    float *turned = s->turned, *now = s->free;
+    transpose(s->gradient, turned, inputs, outputs);
+    s->kernel->matrix(s->gradient, turned, now, inputs, outputs, inputs);
+    run_mean(s->state + s->layer->left, now, square(inputs));
+    s->kernel->matrix(turned, s->gradient, now, outputs, inputs, outputs);
+    run_mean(s->state + s->layer->right, now, square(outputs));
+}
+
+/* turned = left a right^T: a in the eigenbases. */
+static void turn(const stage *s, const float *a)
+{
+    const int inputs = s->layer->inputs, outputs = s->layer->outputs;
+    s->kernel->matrix(s->state + s->layer->left_basis, a, s->free, inputs, inputs, outputs);
+    s->kernel->matrix(s->free, s->across, s->turned, inputs, outputs, outputs);
+}
+
+/* turned = left^T turned right: back again. */
+static void turn_back(const stage *s)
+{
+    const int inputs = s->layer->inputs, outputs = s->layer->outputs;
+    float *left = s->across, *half = s->free;
+    transpose(s->state + s->layer->left_basis, left, inputs, inputs);
+    s->kernel->matrix(left, s->turned, half, inputs, inputs, outputs);
+    s->kernel->matrix(half, s->state + s->layer->right_basis, s->turned, inputs, outputs, outputs);
+}
+
+/* to[i] = from[place[i]] */
+static void gather(const float *restrict from, const size_t *restrict place, float *restrict to,
+                   size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        to[i] = from[place[i]];
+}
+
+/* to[place[i]] = from[i] */
+static void scatter(const float *restrict from, const size_t *restrict place, float *restrict to,
+                    size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        to[place[i]] = from[i];
+}
+
+static int all_within(const float *values, size_t count, float most)
+{
+    int good = 1;
+    for (size_t i = 0; i < count; i++)
+        good &= fabsf(values[i]) <= most;
+    return good;
+}
+
+/* mean and squares go on, and the step is left in `turned`. */
+static void find_step(const stage *s, size_t count, long step)
+{
     const float b1 = (float)BETA1, b2 = (float)BETA2;
     const float correct1 = (float)(1.0 / (1.0 - pow(BETA1, (double)step)));
     const float correct2 = (float)(1.0 / (1.0 - pow(BETA2, (double)step)));
+    float *restrict mean = s->mean, *restrict squares = s->squares, *restrict turned = s->turned;
+    transpose(s->state + s->layer->right_basis, s->across, s->layer->outputs, s->layer->outputs);
+    turn(s, s->gradient);
+    for (size_t i = 0; i < count; i++) {
+        mean[i] = or_zero(b1 * mean[i] + (1.0f - b1) * s->gradient[i], LEAST_NUMBER);
+        squares[i] = or_zero(b2 * squares[i] + (1.0f - b2) * (turned[i] * turned[i]), LEAST_SQUARE);
+    }
+    turn(s, mean);
+    for (size_t i = 0; i < count; i++)
+        turned[i] = turned[i] * correct1 / (sqrtf(squares[i] * correct2) + 1e-8f);
+    turn_back(s);
+}
+
+void hnbrdf_fit_soap_step(const fit_soap *soap, int k, float *parameters, const float *gradient,
+                          float *m, float *v, long step, double rate)
+{
+    const fit_soap_layer *l = &soap->layers[k];
+    const size_t *place = soap->places + l->at, count = (size_t)l->inputs * (size_t)l->outputs;
+    const stage s = set_stage(soap, k);
     if (step == 1) {
-        memset(state + l->left, 0, sizeof(float) * (square(l->inputs) + square(l->outputs)));
-        start_basis(state + l->left_basis, l->inputs);
-        start_basis(state + l->right_basis, l->outputs);
+        memset(s.state + l->left, 0, sizeof(float) * (square(l->inputs) + square(l->outputs)));
+        start_basis(s.state + l->left_basis, l->inputs);
+        start_basis(s.state + l->right_basis, l->outputs);
     }
-    for (size_t i = 0; i < count; i++) {
-        g[i] = gradient[place[i]];
-        if (!(fabsf(g[i]) <= MOST_GRADIENT))
-            return;
-    }
-    see_gradient(l, g, state, room);
-    transpose(state + l->right_basis, across, l->outputs, l->outputs);
-    turn(l, state, across, g, turned, room);
-    for (size_t i = 0; i < count; i++) {
-        m[place[i]] = b1 * m[place[i]] + (1.0f - b1) * g[i];
-        g[i] = m[place[i]];
-        v[place[i]] = b2 * v[place[i]] + (1.0f - b2) * (turned[i] * turned[i]);
-    }
-    turn(l, state, across, g, turned, room);
+    gather(gradient, place, s.gradient, count);
+    if (!all_within(s.gradient, count, MOST_GRADIENT))
+        return;
+    gather(m, place, s.mean, count);
+    gather(v, place, s.squares, count);
+    see_gradient(&s);
+    find_step(&s, count, step);
+    scatter(s.mean, place, m, count);
+    scatter(s.squares, place, v, count);
     for (size_t i = 0; i < count; i++)
-        turned[i] = turned[i] * correct1 / (sqrtf(v[place[i]] * correct2) + 1e-8f);
-    turn_back(l, state, turned, room);
-    for (size_t i = 0; i < count; i++)
-        parameters[place[i]] -= (float)rate * turned[i];
+        parameters[place[i]] -= (float)rate * s.turned[i];
     if (step == 1 || step % FOLLOW_EVERY == 0) {
-        follow(state + l->left, state + l->left_basis, l->inputs, room);
-        follow(state + l->right, state + l->right_basis, l->outputs, room);
+        follow(s.kernel, s.state + l->left, s.state + l->left_basis, l->inputs, s.free);
+        follow(s.kernel, s.state + l->right, s.state + l->right_basis, l->outputs, s.free);
     }
 }

@@ -13,18 +13,21 @@
 
 #include "fit/kernel.h"
 
+enum { FIT_SOAP_SQUARES = 7 };
+
 /* One layer: where its numbers lie. */
 typedef struct fit_soap_layer {
     int inputs, outputs;      /* inputs: with the bias, the last */
     size_t at;                /* in places: [inputs][outputs] */
     size_t left, right;       /* in state: the means [inputs]^2 and [outputs]^2 */
     size_t left_basis;        /* in state: eigenvectors, one a row */
-    size_t right_basis, room; /* likewise; in room: five squares of the longer side */
+    size_t right_basis, room; /* likewise; in room: FIT_SOAP_SQUARES of the longer side */
 } fit_soap_layer;
 
 typedef struct fit_soap {
     fit_soap_layer layers[HNBRDF_MAX_LAYERS + 1];
     int count;
+    const fit_kernel *kernel;
     size_t *places; /* of all weights in the layout */
     /* [state_count] the means and bases of all layers: with Adam's moments, all there is to know */
     float *state;
@@ -33,7 +36,7 @@ typedef struct fit_soap {
 } fit_soap;
 
 /* 0 where memory is out; nothing for a layout without a network. */
-int hnbrdf_fit_soap_make(fit_soap *soap, const fit_layout *layout);
+int hnbrdf_fit_soap_make(fit_soap *soap, const fit_layout *layout, const fit_kernel *kernel);
 void hnbrdf_fit_soap_free(fit_soap *soap);
 
 /* One step of layer k, which may run beside those of others; step counts from 1, which starts anew.
