@@ -11,10 +11,11 @@ typedef REAL vector
 /* Rows of a register tile: eight independent sums hide the latency of an addition. */
 enum { KERNEL_ROWS = 8 };
 
-/* y[b][u] = bias[u] + sum over k of x[b][k] w[k][u], b in the tile, u < columns (a multiple of
- * FIT_LANES); bias may be NULL. Strides are in numbers. */
+/* y[b][u] = (bias[u] + sum over k of x[b][k] w[k][u]) times[b][u], b in the tile, u < columns (a
+ * multiple of FIT_LANES); bias and times, laid out as y, may be NULL. Strides are in numbers. */
 static void product(const REAL *restrict x, int x_stride, int depth, const REAL *restrict w,
-                    int columns, const REAL *restrict bias, REAL *restrict y, int y_stride)
+                    int columns, const REAL *restrict bias, const REAL *restrict times,
+                    REAL *restrict y, int y_stride)
 {
     for (int u = 0; u < columns; u += KERNEL_WIDTH)
         for (int b = 0; b < FIT_TILE; b += KERNEL_ROWS) {
@@ -29,6 +30,9 @@ static void product(const REAL *restrict x, int x_stride, int depth, const REAL 
                 for (int r = 0; r < KERNEL_ROWS; r++)
                     sums[r] += row * x[(b + r) * x_stride + k];
             }
+            if (times)
+                for (int r = 0; r < KERNEL_ROWS; r++)
+                    sums[r] *= *(const vector *)(times + (b + r) * y_stride + u);
             for (int r = 0; r < KERNEL_ROWS; r++)
                 *(vector *)(y + (b + r) * y_stride + u) = sums[r];
         }
@@ -70,15 +74,30 @@ static void outer(const REAL *restrict a, int a_stride, int rows, const REAL *re
     }
 }
 
-/* sums[u] = sum over b of y[b][u]. */
+/* column_sums() of so many vectors, a constant where this is inlined. */
+static inline __attribute__((always_inline)) void sum_block(const REAL *restrict y, int stride,
+                                                            REAL *restrict sums, int vectors)
+{
+    vector sum[4];
+    for (int v = 0; v < vectors; v++)
+        sum[v] = *(const vector *)(y + v * KERNEL_WIDTH);
+    for (int b = 1; b < FIT_TILE; b++)
+        for (int v = 0; v < vectors; v++)
+            sum[v] += *(const vector *)(y + b * stride + v * KERNEL_WIDTH);
+    for (int v = 0; v < vectors; v++)
+        *(vector *)(sums + v * KERNEL_WIDTH) = sum[v];
+}
+
+/* sums[u] = sum over b of y[b][u]; four vectors at once hide the latency of an addition. */
 static void column_sums(const REAL *restrict y, int stride, int columns, REAL *restrict sums)
 {
-    for (int u = 0; u < columns; u += KERNEL_WIDTH) {
-        vector sum = *(const vector *)(y + u);
-        for (int b = 1; b < FIT_TILE; b++)
-            sum += *(const vector *)(y + b * stride + u);
-        *(vector *)(sums + u) = sum;
-    }
+    int u = 0;
+    for (; u + 4 * KERNEL_WIDTH <= columns; u += 4 * KERNEL_WIDTH)
+        sum_block(y + u, stride, sums + u, 4);
+    for (; u + 2 * KERNEL_WIDTH <= columns; u += 2 * KERNEL_WIDTH)
+        sum_block(y + u, stride, sums + u, 2);
+    for (; u < columns; u += KERNEL_WIDTH)
+        sum_block(y + u, stride, sums + u, 1);
 }
 
 /* HardGELU and its derivative, in place: pre becomes the activation. */
@@ -92,12 +111,6 @@ static void activate(REAL *restrict pre, REAL *restrict slope, int count)
         slope[i] = t > 0 && t < 1 ? t + x * third : clamped;
         pre[i] = x * clamped;
     }
-}
-
-static void scale_by(REAL *restrict y, const REAL *restrict slope, int count)
-{
-    for (int i = 0; i < count; i++)
-        y[i] *= slope[i];
 }
 
 /* Sum over a tile in one fixed order: FIT_LANES partial sums, then those in order. */
@@ -313,15 +326,22 @@ static void forward(const fit_layout *l, const REAL *parameters, const REAL *der
     for (int j = 0; j < l->latent_size; j++)
         for (int u = 0; u < n; u++)
             folded[u] += parameters[l->latent + (size_t)(j * n + u)] * code[j];
-    product(x, FIT_INPUTS, FIT_INPUTS, parameters + l->first, n, folded, activation, n);
+    product(x, FIT_INPUTS, FIT_INPUTS, parameters + l->first, n, folded, NULL, activation, n);
     activate(activation, slope, area);
     for (int k = 1; k < l->layers; k++) {
         product(activation + (k - 1) * area, n, n, parameters + l->hidden[k], n,
-                parameters + l->bias[k], activation + k * area, n);
+                parameters + l->bias[k], NULL, activation + k * area, n);
         activate(activation + k * area, slope + k * area, area);
     }
     product(activation + (l->layers - 1) * area, n, n, derived + (l->layers - 1) * n * n, FIT_LANES,
-            parameters + l->bias[l->layers], out, FIT_LANES);
+            parameters + l->bias[l->layers], NULL, out, FIT_LANES);
+}
+
+static void copy_analytic(const fit_tile *tile, REAL analytic[3][FIT_TILE])
+{
+    for (int k = 0; k < 3; k++)
+        for (int b = 0; b < FIT_TILE; b++)
+            analytic[k][b] = (REAL)tile->analytic[k * FIT_TILE + b];
 }
 
 static double kernel_network(const fit_layout *l, const REAL *parameters, const REAL *derived,
@@ -347,8 +367,7 @@ static double kernel_network(const fit_layout *l, const REAL *parameters, const 
         if (l->train_analytic)
             analytic_forward(parameters + own, tile, &cache, analytic);
         else
-            for (int b = 0; b < 3 * FIT_TILE; b++)
-                analytic[b / FIT_TILE][b % FIT_TILE] = (REAL)tile->analytic[b];
+            copy_analytic(tile, analytic);
     }
     double loss = compose_loss(l, out, tile, analytic, mix, by_out, by_analytic);
     if (l->kind == HNBRDF_KIND_HYBRID && l->train_analytic)
@@ -361,16 +380,16 @@ static double kernel_network(const fit_layout *l, const REAL *parameters, const 
     column_sums(by_out, FIT_LANES, FIT_LANES, sums);
     for (int o = 0; o < l->outputs; o++)
         gradient[l->bias[l->layers] + (size_t)o] += sums[o];
-    product(by_out, FIT_LANES, l->outputs, parameters + l->last, n, NULL, back, n);
+    product(by_out, FIT_LANES, l->outputs, parameters + l->last, n, NULL,
+            slope + (l->layers - 1) * area, back, n);
     for (int k = l->layers - 1; k >= 0; k--) {
-        scale_by(back, slope + k * area, area);
         column_sums(back, n, n, sums);
         for (int u = 0; u < n; u++)
             gradient[l->bias[k] + (size_t)u] += sums[u];
         if (k == 0)
             break;
         outer(activation + (k - 1) * area, n, n, back, n, n, gradient + l->hidden[k]);
-        product(back, n, n, derived + (k - 1) * n * n, n, NULL, next, n);
+        product(back, n, n, derived + (k - 1) * n * n, n, NULL, slope + (k - 1) * area, next, n);
         REAL *swap = back;
         back = next;
         next = swap;

@@ -49,19 +49,19 @@ static void own_backward(const fit_layout *l, const REAL *parameters, const REAL
 {
     const int n = l->padded, area = FIT_TILE * n;
     const REAL *c = parameters + l->last + (size_t)(k * n), *g = c + 3 * n;
+    const REAL *first = slope + (l->layers - 1) * area;
     for (int b = 0; b < FIT_TILE; b++)
         for (int u = 0; u < n; u++)
-            back[b * n + u] = l->outputs > 3 ? by_c[b] * c[u] + by_g[b] * g[u] : by_c[b] * c[u];
-    for (int layer = l->layers - 1; layer >= 0; layer--) {
-        scale_by(back, slope + layer * area, area);
-        if (layer == 0)
-            break;
-        product(back, n, n, derived + (layer - 1) * n * n, n, NULL, next, n);
+            back[b * n + u] = (l->outputs > 3 ? by_c[b] * c[u] + by_g[b] * g[u] : by_c[b] * c[u]) *
+                              first[b * n + u];
+    for (int layer = l->layers - 1; layer > 0; layer--) {
+        product(back, n, n, derived + (layer - 1) * n * n, n, NULL, slope + (layer - 1) * area,
+                next, n);
         REAL *swap = back;
         back = next;
         next = swap;
     }
-    product(back, n, n, rows, FIT_LANES, NULL, by_own, stride);
+    product(back, n, n, rows, FIT_LANES, NULL, NULL, by_own, stride);
 }
 
 /* Derivatives of f of channel k by kd, eta and alpha, to columns FIT_LANES and up. */
@@ -120,8 +120,7 @@ static void own_forward(const fit_layout *l, const REAL *parameters, const REAL 
     if (p->stride > FIT_LANES)
         analytic_forward(own + FIT_LANES, tile, &p->cache, p->analytic);
     else if (l->kind == HNBRDF_KIND_HYBRID)
-        for (int b = 0; b < 3 * FIT_TILE; b++)
-            p->analytic[b / FIT_TILE][b % FIT_TILE] = (REAL)tile->analytic[b];
+        copy_analytic(tile, p->analytic);
 }
 
 /* The analytic part alone: its loss, and what it adds to normal. */
