@@ -77,12 +77,12 @@ KERNEL_INLINE void unit_vectors(const float *w, int stride, int depth, const flo
     unit_vector sums[8];
     for (int v = 0; v < vectors; v++)
         sums[v] = *(const unit_memory *)(biases + v * KERNEL_SINGLE);
-    int k = 0;
-    for (; k + 4 <= depth; k += 4) /* fewer instructions to wait with the sums */
+    const int whole = depth - depth % 4;
+    for (int k = 0; k < whole; k += 4) /* fewer instructions to wait with the sums */
         for (int i = 0; i < 4; i++, w += stride)
             for (int v = 0; v < vectors; v++)
                 sums[v] += *(const unit_memory *)(w + v * KERNEL_SINGLE) * x[k + i];
-    for (; k < depth; k++, w += stride)
+    for (int k = whole; k < depth; k++, w += stride)
         for (int v = 0; v < vectors; v++)
             sums[v] += *(const unit_memory *)(w + v * KERNEL_SINGLE) * x[k];
     for (int v = 0; v < vectors; v++)

@@ -1,6 +1,7 @@
 /* kernel_vector.h: vectors of the kernel of one evaluation: shuffles, roots, and functions of
  * math.h for all numbers of a vector, the same operations in the same order. Part of kernel_body.h,
  * after kernel_network.h. */
+#include <math.h>
 
 typedef float quad __attribute__((vector_size(16)));
 typedef int32_t quad_bits __attribute__((vector_size(16)));
