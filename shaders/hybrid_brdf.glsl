@@ -571,45 +571,56 @@ hnbrdf_pair hnbrdf_turn_pair(hnbrdf_pair p, hnbrdf_pair q)
     return q;
 }
 
-// For encodings by angles: the cosines of incidence where s gets nearer to the normal. Their sum is s.z, and their
-// difference goes with the sine of its angle, as if the pair were turned. What is left of wi - wo is laid along x, so
-// that its length, and the difference angle, stay. Where s does not move, nothing does.
-hnbrdf_pair hnbrdf_raise_pair(hnbrdf_pair p, hnbrdf_pair q)
+// A cosine of incidence that an edit lowers comes no lower than this, or stays where it is below: a network has seen few
+// pairs beyond.
+#define HNBRDF_LOWEST_SEEN 0.1
+#define HNBRDF_MOST_INCLINED 1e8
+
+float hnbrdf_inclined_cosine(float cos_now, float z_change)
+{
+    HNBRDF_PRECISE float cos_moved = cos_now + 0.5 * z_change;
+    float cos_least = cos_now < HNBRDF_LOWEST_SEEN ? cos_now : HNBRDF_LOWEST_SEEN;
+    return cos_moved > cos_least ? cos_moved : cos_least;
+}
+
+// For encodings by angles: the cosines of incidence go with s. Their sum is s.z, and their difference goes with the sine
+// of its angle, as if the pair were turned. What is left of wi - wo is laid along x, so that its length, and the
+// difference angle, stay. Where s does not move, nothing does.
+hnbrdf_pair hnbrdf_incline_pair(hnbrdf_pair p, hnbrdf_pair q)
 {
     HNBRDF_PRECISE float r_2 = p.s.x * p.s.x + p.s.y * p.s.y;
     HNBRDF_PRECISE float q_2 = q.s.x * q.s.x + q.s.y * q.s.y;
-    HNBRDF_PRECISE float shrink_by = sqrt(q_2 < r_2 ? q_2 / r_2 : 1.0);
-    HNBRDF_PRECISE float shrink_less = shrink_by - 1.0;
+    HNBRDF_PRECISE float sin_ratio = sqrt(hnbrdf_clamp(q_2 != r_2 ? q_2 / r_2 : 1.0, 0.0, HNBRDF_MOST_INCLINED));
+    HNBRDF_PRECISE float sin_more = sin_ratio - 1.0;
     HNBRDF_PRECISE float z_sum = q.s.z - p.s.z;
-    z_sum = z_sum > 0.0 ? z_sum : 0.0;
     HNBRDF_PRECISE vec3 d_pair = p.wi - p.wo;
     HNBRDF_PRECISE float x_2 = (d_pair.x * d_pair.x + d_pair.y * d_pair.y) -
-                               (d_pair.z * d_pair.z) * (shrink_less * (1.0 + shrink_by));
-    HNBRDF_PRECISE float x_half = 0.5 * sqrt(x_2);
-    HNBRDF_PRECISE float z_difference = shrink_less * d_pair.z;
-    HNBRDF_PRECISE float z_i = p.wi.z + 0.5 * (z_sum + z_difference);
-    HNBRDF_PRECISE float z_o = p.wo.z + 0.5 * (z_sum - z_difference);
-    if (shrink_less != 0.0 || z_sum > 0.0) {
-        q.wi = vec3(x_half, 0.0, z_i);
-        q.wo = vec3(-x_half, 0.0, z_o);
+                               (d_pair.z * d_pair.z) * (sin_more * (1.0 + sin_ratio));
+    HNBRDF_PRECISE float x_half = 0.5 * sqrt(x_2 > 0.0 ? x_2 : 0.0);
+    HNBRDF_PRECISE float z_difference = sin_more * d_pair.z;
+    HNBRDF_PRECISE float z_i = z_sum + z_difference;
+    HNBRDF_PRECISE float z_o = z_sum - z_difference;
+    if (sin_more != 0.0 || z_sum != 0.0) {
+        q.wi = vec3(x_half, 0.0, hnbrdf_inclined_cosine(p.wi.z, z_i));
+        q.wo = vec3(-x_half, 0.0, hnbrdf_inclined_cosine(p.wo.z, z_o));
     }
     return q;
 }
 
 // For an encoding that sees the azimuth of wi - wo: what is left of wi - wo is laid along that instead.
-hnbrdf_pair hnbrdf_raise_along(hnbrdf_pair p, hnbrdf_pair q)
+hnbrdf_pair hnbrdf_incline_along(hnbrdf_pair p, hnbrdf_pair q)
 {
-    hnbrdf_pair raised_pair = hnbrdf_raise_pair(p, q);
+    hnbrdf_pair inclined_pair = hnbrdf_incline_pair(p, q);
     HNBRDF_PRECISE vec3 d_pair = p.wi - p.wo;
-    HNBRDF_PRECISE vec3 d_raised = raised_pair.wi - raised_pair.wo;
+    HNBRDF_PRECISE vec3 d_inclined = inclined_pair.wi - inclined_pair.wo;
     HNBRDF_PRECISE float d_2 = d_pair.x * d_pair.x + d_pair.y * d_pair.y;
-    HNBRDF_PRECISE float q_2 = d_raised.x * d_raised.x + d_raised.y * d_raised.y;
+    HNBRDF_PRECISE float q_2 = d_inclined.x * d_inclined.x + d_inclined.y * d_inclined.y;
     HNBRDF_PRECISE float k_half = 0.5 * sqrt(d_2 > 0.0 ? q_2 / d_2 : 1.0);
     HNBRDF_PRECISE float x_half = k_half * d_pair.x;
     HNBRDF_PRECISE float y_half = k_half * d_pair.y;
-    raised_pair.wi = vec3(x_half, y_half, raised_pair.wi.z);
-    raised_pair.wo = vec3(-x_half, -y_half, raised_pair.wo.z);
-    return raised_pair;
+    inclined_pair.wi = vec3(x_half, y_half, inclined_pair.wi.z);
+    inclined_pair.wo = vec3(-x_half, -y_half, inclined_pair.wo.z);
+    return inclined_pair;
 }
 
 // f_a of the edited material, and of the fitted one at s' with masking at the directions as they are.

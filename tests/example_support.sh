@@ -54,6 +54,7 @@ fill() {
     hnbrdf fit builtin --kind ggx --pool 64 -o ggx.safetensors
     for copy in a b old hybrid; do cp model.safetensors $copy.safetensors; done
     mkdir rgl measured merl
+    cp model.safetensors trained.safetensors
     for name in vch_silk_blue new; do cp ../lambert_rgb.bsdf rgl/$name.bsdf; done
     hnbrdf fit rgl --net 8x1 --steps 2 --pool 64 -o rgl.safetensors
     hnbrdf fit rgl --kind ggx --pool 64 -o rgl_ggx.safetensors

@@ -119,7 +119,7 @@ static hnbrdf_material scaled_alpha(const hnbrdf_material *material, float facto
 
 /* ---- Alpha ----------------------------------------------------------------------------------- */
 
-static int glossy_tried, glossy_as_asked;
+static int glossy_tried;
 
 static void look_at_width(const hnbrdf_model *model, const char *name, const hnbrdf_material *as_is)
 {
@@ -136,23 +136,21 @@ static void look_at_width(const hnbrdf_model *model, const char *name, const hnb
             fail_msg("%s: alpha times %g narrows the highlight: %g after %g", name,
                      (double)factors[k], h.width, before);
         before = h.width;
-        /* Measured clear coats over flakes are no scaled distributions: up to 30 % there. */
-        if (!(fabs(share - 1.0) <= 0.3))
+        if (!(fabs(share - 1.0) <= 0.15))
             fail_msg("%s: alpha times %g makes the highlight %g times as wide", name,
                      (double)factors[k], h.width / fitted.width);
         glossy_tried++;
-        glossy_as_asked += fabs(share - 1.0) <= 0.15;
     }
 }
 
-/* The width at half maximum follows alpha: monotonically, and by the factor asked for within 15 %
- * in nine of ten. */
+/* The width at half maximum follows alpha: monotonically, and by the factor asked for within 15 %.
+ * (Measured: 12 % at twice the roughness, 3 % below the fitted one.) */
 static void larger_alpha_widens_the_highlight_by_as_much(void **state)
 {
     (void)state;
     each_material(look_at_width);
-    print_message("    %d of %d widths as asked within 15 %%\n", glossy_as_asked, glossy_tried);
-    assert_true(glossy_tried >= 60 && 10 * glossy_as_asked >= 9 * glossy_tried);
+    print_message("    %d widths\n", glossy_tried);
+    assert_true(glossy_tried >= 60);
 }
 
 /* Directional albedo, green, the viewer at 20 degrees: the mean of sampled weights. */

@@ -5,6 +5,7 @@
 #include "base/clock.h"
 
 #include <pthread.h>
+#include <sched.h>
 #include <stdatomic.h>
 #include <stdlib.h>
 #ifdef _WIN32
@@ -15,12 +16,16 @@
 #endif
 
 enum { MAX_THREADS = 256, MAX_PROCESSORS = 1024 };
+/* Steps of a fit follow each other within 50 microseconds, and to wake a thread takes as long: who
+ * waits stays awake for so many turns, in which other programs may run, and sleeps then. */
+enum { TURNS = 200 };
 
 struct hnbrdf_threads {
     pthread_mutex_t mutex;
     pthread_cond_t wake, done;
-    unsigned round;          /* a new number wakes the threads */
-    int busy, quit, threads; /* how many there are, with the caller */
+    atomic_uint round; /* a new number wakes the threads; changes with the mutex held */
+    atomic_int busy;
+    int quit, threads; /* how many there are, with the caller */
     int count;
     hnbrdf_work_fn work;
     void *context;
@@ -66,25 +71,48 @@ static void take(hnbrdf_threads *w, int worker)
     w->worked[worker] += hnbrdf_thread_seconds() - started;
 }
 
+/* Waits for another round than the one seen; 0 where there is none any more. */
+static int wait_for_round(hnbrdf_threads *w, unsigned seen)
+{
+    for (int turn = 0; turn < TURNS; turn++) {
+        if (atomic_load(&w->round) != seen)
+            return 1;
+        sched_yield();
+    }
+    pthread_mutex_lock(&w->mutex);
+    while (atomic_load(&w->round) == seen && !w->quit)
+        pthread_cond_wait(&w->wake, &w->mutex);
+    const int more = atomic_load(&w->round) != seen;
+    pthread_mutex_unlock(&w->mutex);
+    return more;
+}
+
+static void wait_for_threads(hnbrdf_threads *w)
+{
+    for (int turn = 0; turn < TURNS; turn++) {
+        if (atomic_load(&w->busy) == 0)
+            return;
+        sched_yield();
+    }
+    pthread_mutex_lock(&w->mutex);
+    while (atomic_load(&w->busy) > 0)
+        pthread_cond_wait(&w->done, &w->mutex);
+    pthread_mutex_unlock(&w->mutex);
+}
+
 static void *loop(void *argument)
 {
     struct start *start = argument;
     hnbrdf_threads *w = start->threads;
-    unsigned seen = 0;
-    pthread_mutex_lock(&w->mutex);
-    for (;;) {
-        while (w->round == seen && !w->quit)
-            pthread_cond_wait(&w->wake, &w->mutex);
-        if (w->quit)
-            break;
-        seen = w->round;
-        pthread_mutex_unlock(&w->mutex);
+    for (unsigned seen = 0; wait_for_round(w, seen);) {
+        seen = atomic_load(&w->round);
         take(w, start->worker);
-        pthread_mutex_lock(&w->mutex);
-        if (--w->busy == 0)
+        if (atomic_fetch_sub(&w->busy, 1) == 1) {
+            pthread_mutex_lock(&w->mutex);
             pthread_cond_signal(&w->done);
+            pthread_mutex_unlock(&w->mutex);
+        }
     }
-    pthread_mutex_unlock(&w->mutex);
     return NULL;
 }
 
@@ -118,20 +146,17 @@ int hnbrdf_threads_count(const hnbrdf_threads *threads)
 
 void hnbrdf_threads_run(hnbrdf_threads *w, int count, hnbrdf_work_fn work, void *context)
 {
-    pthread_mutex_lock(&w->mutex);
     w->work = work;
     w->context = context;
     w->count = count;
     atomic_store(&w->next, 0);
-    w->busy = w->threads - 1;
-    w->round++;
+    atomic_store(&w->busy, w->threads - 1);
+    pthread_mutex_lock(&w->mutex);
+    atomic_fetch_add(&w->round, 1);
     pthread_cond_broadcast(&w->wake);
     pthread_mutex_unlock(&w->mutex);
     take(w, 0);
-    pthread_mutex_lock(&w->mutex);
-    while (w->busy > 0)
-        pthread_cond_wait(&w->done, &w->mutex);
-    pthread_mutex_unlock(&w->mutex);
+    wait_for_threads(w);
 }
 
 void hnbrdf_threads_stop(hnbrdf_threads *w)

@@ -84,30 +84,37 @@ static void turn(const check_rules *k, const pair *p, pair *q)
     }
 }
 
-/* hnbrdf_raise_pair(). A device that does not raise where C does is within rounding of it, but for
- * x and y, which are of another form of the same difference. */
-static void raise(const check_rules *k, const pair *p, pair *q)
+/* hnbrdf_inclined_cosine(). */
+static num inclined_cosine(const check_rules *k, num cosine, num change)
+{
+    num moved = add(k, cosine, multiply(k, same(0.5f), change));
+    return largest(moved, smallest(cosine, same(0.1f)));
+}
+
+/* hnbrdf_incline_pair(). A device on which the pair stays where it moves in C, or the other way
+ * round, is within rounding of it, but for x and y, which are of another form of the same
+ * difference. */
+static void incline(const check_rules *k, const pair *p, pair *q)
 {
     num one = same(1.0f), d[3];
     num r2 = add(k, multiply(k, p->s[0], p->s[0]), multiply(k, p->s[1], p->s[1]));
     num q2 = add(k, multiply(k, q->s[0], q->s[0]), multiply(k, q->s[1], q->s[1]));
-    num shrink = root(k, quotient_or_1(divide(k, q2, r2), !(q2.v < r2.v),
-                                       (double)q2.v - q2.e > (double)r2.v + r2.e));
-    num less = subtract(k, shrink, one);
-    num sum = largest(subtract(k, q->s[2], p->s[2]), same(0.0f));
+    const int along_normal = r2.v == 0.0f && r2.e == 0.0 && q2.v == 0.0f && q2.e == 0.0;
+    num ratio = clamp(quotient_or_1(divide(k, q2, r2), q2.v == r2.v, along_normal), 0.0f, 1e8f);
+    num sine = root(k, ratio), more = subtract(k, sine, one), sum = subtract(k, q->s[2], p->s[2]);
     for (int i = 0; i < 3; i++)
         d[i] = apart(k, p, i);
-    num rest =
-        subtract(k, add(k, multiply(k, d[0], d[0]), multiply(k, d[1], d[1])),
-                 multiply(k, multiply(k, d[2], d[2]), multiply(k, less, add(k, one, shrink))));
-    num along = multiply(k, same(0.5f), root(k, rest)), difference = multiply(k, less, d[2]);
-    if (less.v != 0.0f || sum.v > 0.0f) {
+    num rest = subtract(k, add(k, multiply(k, d[0], d[0]), multiply(k, d[1], d[1])),
+                        multiply(k, multiply(k, d[2], d[2]), multiply(k, more, add(k, one, sine))));
+    num along = multiply(k, same(0.5f), root(k, largest(rest, same(0.0f))));
+    num difference = multiply(k, more, d[2]);
+    if (more.v != 0.0f || sum.v != 0.0f) {
         q->wi[0] = along;
         q->wo[0] = (num){-along.v, along.e};
         q->wi[1] = q->wo[1] = same(0.0f);
     }
-    q->wi[2] = add(k, p->wi[2], multiply(k, same(0.5f), add(k, sum, difference)));
-    q->wo[2] = add(k, p->wo[2], multiply(k, same(0.5f), subtract(k, sum, difference)));
+    q->wi[2] = inclined_cosine(k, p->wi[2], add(k, sum, difference));
+    q->wo[2] = inclined_cosine(k, p->wo[2], subtract(k, sum, difference));
 }
 
 /* hnbrdf_keep_azimuth(). Where the device has d beside C's 0, nothing bounds the quotient. */
@@ -161,7 +168,7 @@ void check_edit_make(const check_rules *k, hnbrdf_encoding encoding,
     if (encoding == HNBRDF_ENCODING_DIRECTIONS)
         turn(k, p, &edit->seen);
     else
-        raise(k, p, &edit->seen);
+        incline(k, p, &edit->seen);
     if (encoding == HNBRDF_ENCODING_ANGLES_AZIMUTHS)
         keep_azimuth(k, p, &edit->seen);
     num before = masked(k, p, &at_half, fitted->alpha);

@@ -107,27 +107,39 @@ static inline hnbrdf_pair hnbrdf_warped(const hnbrdf_pair *p, float x, float y, 
     return q;
 }
 
-/* For encodings by angles: the cosines of incidence where s gets nearer to the normal. Their sum is
- * s.z, and their difference goes with the sine of its angle, as if the pair were turned. What is
- * left of wi - wo is laid along x, so that its length, and the difference angle, stay. Where s
- * does not move, nothing does. */
+/* A cosine of incidence that an edit lowers comes no lower than this, or stays where it is below: a
+ * network has seen few pairs beyond. */
+#define HNBRDF_LOWEST_SEEN 0.1f
+#define HNBRDF_MOST_INCLINED 1e8f /* the square of a factor of roughness */
+
 HNBRDF_DIVIDES_AS_IEEE
-static inline void hnbrdf_raise_pair(const hnbrdf_pair *p, hnbrdf_pair *q)
+static inline float hnbrdf_inclined_cosine(float cosine, float change)
+{
+    float moved = cosine + 0.5f * change;
+    float least = cosine < HNBRDF_LOWEST_SEEN ? cosine : HNBRDF_LOWEST_SEEN;
+    return moved > least ? moved : least;
+}
+
+/* For encodings by angles: the cosines of incidence go with s. Their sum is s.z, and their
+ * difference goes with the sine of its angle, as if the pair were turned. What is left of wi - wo
+ * is laid along x, so that its length, and the difference angle, stay. Where s does not move,
+ * nothing does. */
+HNBRDF_DIVIDES_AS_IEEE
+static inline void hnbrdf_incline_pair(const hnbrdf_pair *p, hnbrdf_pair *q)
 {
     float r2 = p->sx * p->sx + p->sy * p->sy, q2 = q->sx * q->sx + q->sy * q->sy;
-    float shrink = sqrtf(q2 < r2 ? q2 / r2 : 1.0f), less = shrink - 1.0f;
-    float grown = q->sz - p->sz;
-    float sum = grown > 0.0f ? grown : 0.0f;
+    float ratio = hnbrdf_clamp(q2 != r2 ? q2 / r2 : 1.0f, 0.0f, HNBRDF_MOST_INCLINED);
+    float sine = sqrtf(ratio), more = sine - 1.0f, sum = q->sz - p->sz;
     float dx = p->wi[0] - p->wo[0], dy = p->wi[1] - p->wo[1], dz = p->wi[2] - p->wo[2];
-    float rest = (dx * dx + dy * dy) - (dz * dz) * (less * (1.0f + shrink));
-    float along = 0.5f * sqrtf(rest), difference = less * dz;
-    int raised = (less != 0.0f) | (sum > 0.0f);
-    q->wi[0] = raised ? along : p->wi[0];
-    q->wo[0] = raised ? -along : p->wo[0];
-    q->wi[1] = raised ? 0.0f : p->wi[1];
-    q->wo[1] = raised ? 0.0f : p->wo[1];
-    q->wi[2] = p->wi[2] + 0.5f * (sum + difference);
-    q->wo[2] = p->wo[2] + 0.5f * (sum - difference);
+    float rest = (dx * dx + dy * dy) - (dz * dz) * (more * (1.0f + sine));
+    float along = 0.5f * sqrtf(rest > 0.0f ? rest : 0.0f), difference = more * dz;
+    int moved = (more != 0.0f) | (sum != 0.0f);
+    q->wi[0] = moved ? along : p->wi[0];
+    q->wo[0] = moved ? -along : p->wo[0];
+    q->wi[1] = moved ? 0.0f : p->wi[1];
+    q->wo[1] = moved ? 0.0f : p->wo[1];
+    q->wi[2] = hnbrdf_inclined_cosine(p->wi[2], sum + difference);
+    q->wo[2] = hnbrdf_inclined_cosine(p->wo[2], sum - difference);
 }
 
 /* After it: what is left of wi - wo along its own azimuth instead. */

@@ -113,10 +113,9 @@ static inline void hnbrdf_encode_angles_azimuths(const hnbrdf_pair *p, float x[6
 }
 
 /* The pair of an edited material as its network sees it, the tangents of s times x and y where f_a
- * is specular. Where s gets nearer to the normal, the cosines of incidence go with it: a network
- * has seen no other pairs. Where it gets farther, they stay: one could fall below the horizon. An
- * encoding that sees the directions themselves has them turned with s; one that sees the azimuth of
- * wi - wo keeps it. */
+ * is specular. The cosines of incidence go with s: a network has seen no other pairs. An encoding
+ * that sees the directions themselves has them turned with s; one that sees the azimuth of wi - wo
+ * keeps it. */
 static inline hnbrdf_pair hnbrdf_seen(hnbrdf_encoding encoding, const hnbrdf_pair *p, float x,
                                       float y, float part)
 {
@@ -124,7 +123,7 @@ static inline hnbrdf_pair hnbrdf_seen(hnbrdf_encoding encoding, const hnbrdf_pai
     if (encoding == HNBRDF_ENCODING_DIRECTIONS)
         hnbrdf_turn_pair(p, &q);
     else
-        hnbrdf_raise_pair(p, &q);
+        hnbrdf_incline_pair(p, &q);
     if (encoding == HNBRDF_ENCODING_ANGLES_AZIMUTHS)
         hnbrdf_keep_azimuth(p, &q);
     return q;

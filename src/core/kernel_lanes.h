@@ -349,7 +349,7 @@ KERNEL_APART void seen_lanes(hnbrdf_encoding encoding, const lane_edits *restric
     for (int l = 0; l < LANES && encoding != HNBRDF_ENCODING_DIRECTIONS; l++) {
         const hnbrdf_pair p = pair_of(b, l);
         hnbrdf_pair q = pair_of(seen, l);
-        hnbrdf_raise_pair(&p, &q);
+        hnbrdf_incline_pair(&p, &q);
         for (int k = 0; k < 3; k++) {
             seen->wi[k][l] = q.wi[k];
             seen->wo[k][l] = q.wo[k];

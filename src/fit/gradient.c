@@ -133,6 +133,18 @@ void hnbrdf_fit_sums_free(trainer *t)
 
 /* ---- Pieces ---------------------------------------------------------------------------------- */
 
+/* Tiles lie anywhere in the pool: the memory fetches the next one while this one is used. */
+static void ask_for(const float *tile)
+{
+#if defined(__GNUC__)
+    enum { LINE = 64 / sizeof(float) };
+    for (int i = 0; i < FIT_POOL_WI; i += LINE)
+        __builtin_prefetch(tile + i);
+#else
+    (void)tile;
+#endif
+}
+
 static void piece(void *context, int index, int worker)
 {
     trainer *t = context;
@@ -140,7 +152,10 @@ static void piece(void *context, int index, int worker)
     float *gradient = s->pieces + (size_t)index * t->layout.network_count;
     const int first = t->shares.first + index * t->shares.piece_tiles;
     memset(gradient, 0, sizeof(float) * t->layout.network_count);
-    for (int k = first; k < first + t->shares.piece_tiles; k++) {
+    const int end = first + t->shares.piece_tiles;
+    for (int k = first; k < end; k++) {
+        if (k + 1 < end)
+            ask_for(t->tile_data[k + 1]);
         const fit_tile tile = hnbrdf_fit_tile_view(t->tile_data[k]);
         float *own = s->own + (size_t)k * s->own_size;
         memset(own, 0, sizeof(float) * s->own_size);

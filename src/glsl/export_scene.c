@@ -29,8 +29,8 @@ const char *hnbrdf_scene_seen_function(const hnbrdf_scene *s)
 {
     if (s->desc->encoding == HNBRDF_ENCODING_DIRECTIONS)
         return "hnbrdf_turn_pair";
-    return s->desc->encoding == HNBRDF_ENCODING_ANGLES_AZIMUTHS ? "hnbrdf_raise_along"
-                                                                : "hnbrdf_raise_pair";
+    return s->desc->encoding == HNBRDF_ENCODING_ANGLES_AZIMUTHS ? "hnbrdf_incline_along"
+                                                                : "hnbrdf_incline_pair";
 }
 
 int hnbrdf_scene_has_analytic(const hnbrdf_scene *s)
