@@ -171,7 +171,7 @@ static void fill_defaults(editing_report *r, int quick)
         memcpy(r->net, quick ? (int[2]){16, 2} : (int[2]){32, 2}, sizeof r->net);
     r->alone = quick;
     r->steps = r->steps ? r->steps : quick ? 300 : 30000;
-    r->frozen_steps = quick ? 100 : 3000;
+    r->frozen_steps = quick ? 4 : 0; /* 0: as `fit` does */
     r->pool = r->pool ? r->pool : quick ? 512 : 0;
     r->pairs = r->pairs ? r->pairs : quick ? 1000 : 50000;
     r->image_size = r->image_size >= 0 ? r->image_size : quick ? 16 : 64;
