@@ -6,7 +6,8 @@ target_compile_definitions(hnbrdf_test_edit_properties PRIVATE
   HNBRDF_EXAMPLE_MODEL="${PROJECT_SOURCE_DIR}/examples/models/rgl_32x2.safetensors")
 hnbrdf_test(test_mix_path test_mix_path.c model_support.c core_support.c)
 target_compile_definitions(hnbrdf_test_mix_path PRIVATE
-  HNBRDF_EXAMPLE_MODEL="${PROJECT_SOURCE_DIR}/examples/models/rgl_32x2.safetensors")
+  HNBRDF_EXAMPLE_MODEL="${PROJECT_SOURCE_DIR}/examples/models/rgl_32x2.safetensors"
+  HNBRDF_TEST_DATA="${PROJECT_SOURCE_DIR}/tests/data")
 hnbrdf_test(test_edit_materials test_edit_materials.c model_support.c core_support.c)
 hnbrdf_cli_test(test_edit_cli)
 hnbrdf_cli_test(test_report)

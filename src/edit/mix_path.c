@@ -16,6 +16,9 @@ static const double loose = 1e-3;
  * much wherever they are half as far. */
 static const double smooth = 3e-2;
 
+/* A cost beyond this: an albedo that is out of its bounds by a tenth or more. */
+static const double lost = 1.0;
+
 enum { LAST = HNBRDF_MIX_KNOTS - 1, MIDDLE = LAST / 2 };
 
 typedef struct path_work {
@@ -61,15 +64,27 @@ static hnbrdf_material fit_middle(path_work *p)
     return hnbrdf_mix_material(&p->goal, p->shifts[MIDDLE]);
 }
 
-/* From half way between two knots: the path does not leap to another valley. */
+/* From half way between two knots: the path does not leap to another valley. There may be none
+ * there: the network's exponent can be beyond what is computed, where nothing has a slope. Then
+ * from the knots, and from the straight line. */
 static hnbrdf_material fit_between(path_work *p, int knot, int distance)
 {
     const double *a = p->shifts[knot - distance], *b = p->shifts[knot + distance];
     mix_prior prior = {.weight = smooth * MIDDLE / distance * MIDDLE / distance};
+    double best = INFINITY;
     aim(p, knot);
     for (int i = 0; i < MIX_MAX_UNKNOWNS; i++)
-        p->shifts[knot][i] = prior.shift[i] = 0.5 * (a[i] + b[i]);
-    hnbrdf_mix_fit(&p->goal, p->fit, &prior, p->shifts[knot]);
+        prior.shift[i] = 0.5 * (a[i] + b[i]);
+    for (int start = 0; start < 4 && best > lost; start++) {
+        double shift[MIX_MAX_UNKNOWNS] = {0.0};
+        const double *from[] = {prior.shift, a, b, shift};
+        memcpy(shift, from[start], sizeof shift);
+        double cost = hnbrdf_mix_fit(&p->goal, p->fit, &prior, shift);
+        if (cost < best) {
+            best = cost;
+            memcpy(p->shifts[knot], shift, sizeof shift);
+        }
+    }
     return hnbrdf_mix_material(&p->goal, p->shifts[knot]);
 }
 
