@@ -179,7 +179,8 @@ static void albedo_stays_between_the_ends(void **state)
             hnbrdf_mix_path_at(s.paths[p], t, &m);
             path = fmax(path, beyond(p, &m));
         }
-        print_message("    %s to %s: straight %.3f, path %.3f\n", names[p][0], names[p][1], straight, path);
+        print_message("    %s to %s: straight %.3f, path %.3f\n", names[p][0], names[p][1],
+                      straight, path);
         assert_true(path < 1.1 && straight > 1.1);
     }
 }

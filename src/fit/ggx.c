@@ -112,14 +112,28 @@ static double descend(const fit_kernel *kernel, const fit_pool *pool, int materi
     return least;
 }
 
+#define QUARTER 1.57079632679489662f
+
+/* A lobe has two descriptions, a quarter of a turn apart: x is where it is narrower, along the
+ * grooves of a brushed metal. Materials alike then have frames alike, for the network that they
+ * share, and for mixtures. */
+static void settle_frame(float *p)
+{
+    const float along = p[FIT_ALPHA + 1];
+    if (!(p[FIT_ALPHA] > along))
+        return;
+    p[FIT_ALPHA + 1] = p[FIT_ALPHA];
+    p[FIT_ALPHA] = along;
+    p[FIT_ROTATION] += p[FIT_ROTATION] > 0.0f ? -QUARTER : QUARTER;
+}
+
 /* The same lobe with its rotation at the nearest of the axis and what is across it, if that costs
  * nearly nothing: a lobe about as wide along as across lies anywhere, but what the network learns
  * does not. */
 static double turn_to_axis(const fit_kernel *kernel, const fit_pool *pool, int material, int tiles,
                            double axis, double loss, float *parameters)
 {
-    const double quarter = 1.57079632679489662;
-    double off = remainder(axis - (double)parameters[FIT_ROTATION], quarter);
+    double off = remainder(axis - (double)parameters[FIT_ROTATION], (double)QUARTER);
     float p[FIT_ANALYTIC];
     if (fabs(off) < AXIS_NEAR)
         return loss;
@@ -304,7 +318,10 @@ double hnbrdf_fit_ggx(const fit_kernel *kernel, const fit_pool *pool, int materi
         return NAN;
     }
     memcpy(parameters, refined.states[0], sizeof refined.states[0]);
-    return isotropic ? refined.losses[0]
-                     : turn_to_axis(kernel, pool, material, refiners, axis, refined.losses[0],
-                                    parameters);
+    if (isotropic)
+        return refined.losses[0];
+    const double loss =
+        turn_to_axis(kernel, pool, material, refiners, axis, refined.losses[0], parameters);
+    settle_frame(parameters);
+    return loss;
 }
