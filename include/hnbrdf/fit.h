@@ -3,7 +3,9 @@
  * First every material gets a GGX fit of its own (kd, eta, alpha; several starts). For a hybrid
  * that analytic part is then kept as it is (faithful), or trained on with the network, and the
  * shared network and the latent codes learn what is missing. The result depends on the data, the
- * options and the seed only, never on the number of threads.
+ * options and the seed only, never on the number of threads. The tangent frame of an anisotropic
+ * material is found too: x is where its GGX lobe is narrower (alpha[0] <= alpha[1], unless they
+ * are trained on), along the grooves of a brushed metal.
  *
  * Data. Directions without a valid measurement are left out; a material where fewer than 1 % of the
  * directions drawn have one is refused. Negative values count as 0, values above 1e15 as 1e15. Both
