@@ -242,6 +242,15 @@ static int ticks_of(const svg_axis *axis, double ticks[MOST_TICKS])
     return axis->logarithmic ? logarithmic_ticks(axis, ticks) : linear_ticks(axis, ticks);
 }
 
+/* From 100,000 on with a prefix, as 100 k, 1 M and 10 G: decades stand side by side. */
+static void write_tick(double value, char *text, size_t size)
+{
+    const int prefix = value < 1e5 ? 0 : value < 1e6 ? 1 : value < 1e9 ? 2 : 3;
+    static const double units[] = {1.0, 1e3, 1e6, 1e9};
+    static const char *const names[] = {"", " k", " M", " G"};
+    snprintf(text, size, "%.12g%s", value / units[prefix], names[prefix]);
+}
+
 static void draw_x(FILE *file, const svg_panel *panel)
 {
     double ticks[MOST_TICKS], bottom = panel->top + panel->height;
@@ -250,7 +259,7 @@ static void draw_x(FILE *file, const svg_panel *panel)
     for (int k = 0; k < count; k++) {
         double x = svg_x(panel, ticks[k]);
         svg_line(file, x, panel->top, x, bottom, grid_color, 1.0, 0);
-        snprintf(text, sizeof text, "%.12g", ticks[k]);
+        write_tick(ticks[k], text, sizeof text);
         svg_text(file, x, bottom + 18.0, "middle", NULL, text);
     }
     if (panel->x.title)
@@ -266,7 +275,7 @@ static void draw_y(FILE *file, const svg_panel *panel)
     for (int k = 0; k < count; k++) {
         double y = svg_y(panel, ticks[k]);
         svg_line(file, panel->left, y, panel->left + panel->width, y, grid_color, 1.0, 0);
-        snprintf(text, sizeof text, "%.12g", ticks[k]);
+        write_tick(ticks[k], text, sizeof text);
         svg_text(file, panel->left - 8.0, y + 4.0, "end", NULL, text);
     }
     if (panel->y.title)
