@@ -576,11 +576,12 @@ hnbrdf_pair hnbrdf_turn_pair(hnbrdf_pair p, hnbrdf_pair q)
 #define HNBRDF_LOWEST_SEEN 0.1
 #define HNBRDF_MOST_INCLINED 1e8
 
-float hnbrdf_inclined_cosine(float cos_now, float z_change)
+// How far it stays above.
+float hnbrdf_cosine_held(float cos_now, float cos_moved)
 {
-    HNBRDF_PRECISE float cos_moved = cos_now + 0.5 * z_change;
     float cos_least = cos_now < HNBRDF_LOWEST_SEEN ? cos_now : HNBRDF_LOWEST_SEEN;
-    return cos_moved > cos_least ? cos_moved : cos_least;
+    HNBRDF_PRECISE float cos_below = cos_least - cos_moved;
+    return cos_below > 0.0 ? cos_below : 0.0;
 }
 
 // For encodings by angles: the cosines of incidence go with s. Their sum is s.z, and their difference goes with the sine
@@ -594,15 +595,21 @@ hnbrdf_pair hnbrdf_incline_pair(hnbrdf_pair p, hnbrdf_pair q)
     HNBRDF_PRECISE float sin_more = sin_ratio - 1.0;
     HNBRDF_PRECISE float z_sum = q.s.z - p.s.z;
     HNBRDF_PRECISE vec3 d_pair = p.wi - p.wo;
+    HNBRDF_PRECISE float z_difference = sin_more * d_pair.z;
+    HNBRDF_PRECISE float z_i = p.wi.z + 0.5 * (z_sum + z_difference);
+    HNBRDF_PRECISE float z_o = p.wo.z + 0.5 * (z_sum - z_difference);
+    HNBRDF_PRECISE float held_i = hnbrdf_cosine_held(p.wi.z, z_i);
+    HNBRDF_PRECISE float held_o = hnbrdf_cosine_held(p.wo.z, z_o);
+    HNBRDF_PRECISE float z_held = held_i - held_o;
     HNBRDF_PRECISE float x_2 = (d_pair.x * d_pair.x + d_pair.y * d_pair.y) -
                                (d_pair.z * d_pair.z) * (sin_more * (1.0 + sin_ratio));
-    HNBRDF_PRECISE float x_half = 0.5 * sqrt(x_2 > 0.0 ? x_2 : 0.0);
-    HNBRDF_PRECISE float z_difference = sin_more * d_pair.z;
-    HNBRDF_PRECISE float z_i = z_sum + z_difference;
-    HNBRDF_PRECISE float z_o = z_sum - z_difference;
+    HNBRDF_PRECISE float x_2_held = x_2 - z_held * (2.0 * sin_ratio * d_pair.z + z_held);
+    HNBRDF_PRECISE float x_half = 0.5 * sqrt(x_2_held > 0.0 ? x_2_held : 0.0);
+    HNBRDF_PRECISE float z_i_held = z_i + held_i;
+    HNBRDF_PRECISE float z_o_held = z_o + held_o;
     if (sin_more != 0.0 || z_sum != 0.0) {
-        q.wi = vec3(x_half, 0.0, hnbrdf_inclined_cosine(p.wi.z, z_i));
-        q.wo = vec3(-x_half, 0.0, hnbrdf_inclined_cosine(p.wo.z, z_o));
+        q.wi = vec3(x_half, 0.0, z_i_held);
+        q.wo = vec3(-x_half, 0.0, z_o_held);
     }
     return q;
 }

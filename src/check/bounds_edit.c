@@ -84,11 +84,11 @@ static void turn(const check_rules *k, const pair *p, pair *q)
     }
 }
 
-/* hnbrdf_inclined_cosine(). */
-static num inclined_cosine(const check_rules *k, num cosine, num change)
+/* hnbrdf_cosine_held(): max(least - moved, 0). */
+static num cosine_held(const check_rules *k, num cosine, num moved)
 {
-    num moved = add(k, cosine, multiply(k, same(0.5f), change));
-    return largest(moved, smallest(cosine, same(0.1f)));
+    num least = smallest(cosine, same(0.1f));
+    return largest(subtract(k, least, moved), same(0.0f));
 }
 
 /* hnbrdf_incline_pair(). A device on which the pair stays where it moves in C, or the other way
@@ -104,17 +104,23 @@ static void incline(const check_rules *k, const pair *p, pair *q)
     num sine = root(k, ratio), more = subtract(k, sine, one), sum = subtract(k, q->s[2], p->s[2]);
     for (int i = 0; i < 3; i++)
         d[i] = apart(k, p, i);
+    num half = same(0.5f), difference = multiply(k, more, d[2]);
+    num zi = add(k, p->wi[2], multiply(k, half, add(k, sum, difference)));
+    num zo = add(k, p->wo[2], multiply(k, half, subtract(k, sum, difference)));
+    num held_i = cosine_held(k, p->wi[2], zi), held_o = cosine_held(k, p->wo[2], zo);
+    num held = subtract(k, held_i, held_o);
     num rest = subtract(k, add(k, multiply(k, d[0], d[0]), multiply(k, d[1], d[1])),
                         multiply(k, multiply(k, d[2], d[2]), multiply(k, more, add(k, one, sine))));
-    num along = multiply(k, same(0.5f), root(k, largest(rest, same(0.0f))));
-    num difference = multiply(k, more, d[2]);
+    num twice = multiply(k, multiply(k, same(2.0f), sine), d[2]);
+    rest = subtract(k, rest, multiply(k, held, add(k, twice, held)));
+    num along = multiply(k, half, root(k, largest(rest, same(0.0f))));
     if (more.v != 0.0f || sum.v != 0.0f) {
         q->wi[0] = along;
         q->wo[0] = (num){-along.v, along.e};
         q->wi[1] = q->wo[1] = same(0.0f);
     }
-    q->wi[2] = inclined_cosine(k, p->wi[2], add(k, sum, difference));
-    q->wo[2] = inclined_cosine(k, p->wo[2], subtract(k, sum, difference));
+    q->wi[2] = add(k, zi, held_i);
+    q->wo[2] = add(k, zo, held_o);
 }
 
 /* hnbrdf_keep_azimuth(). Where the device has d beside C's 0, nothing bounds the quotient. */

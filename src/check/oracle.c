@@ -258,6 +258,13 @@ static void turn(vec *i, vec *o, vec s, vec to)
     *o = (vec){(to.x - d.x) / 2, (to.y - d.y) / 2, (to.z - d.z) / 2};
 }
 
+/* A cosine that is lowered ends at 0.1, or where it is below. */
+static real inclined_cosine(real cosine, real change)
+{
+    real moved = cosine + change / 2, least = cosine < 0.1f ? cosine : 0.1f;
+    return moved > least ? moved : least;
+}
+
 /* What the network sees of an edited material in place of i and o, and of their angles. */
 static void warp(const hnbrdf_model_desc *desc, const hnbrdf_material *m, real specular, vec *i,
                  vec *o, angles *a)
@@ -272,15 +279,15 @@ static void warp(const hnbrdf_model_desc *desc, const hnbrdf_material *m, real s
         turn(i, o, s, to);
     } else { /* the cosines of incidence: their sum with s.z, their difference with its sine */
         real r2 = s.x * s.x + s.y * s.y, q2 = to.x * to.x + to.y * to.y;
-        real shrink = q2 < r2 ? real_sqrt(q2 / r2) : 1, grown = to.z > s.z ? to.z - s.z : 0;
-        real difference = (shrink - 1) * (i->z - o->z);
+        real sine = r2 > 0 ? real_sqrt(q2 / r2) : 1, grown = to.z - s.z;
+        real difference = (sine - 1) * (i->z - o->z);
+        real zi = inclined_cosine(i->z, grown + difference);
+        real zo = inclined_cosine(o->z, grown - difference);
         vec d = minus(*i, *o); /* as long as it was, its azimuth too */
-        real d2 = d.x * d.x + d.y * d.y, rest = d2 + d.z * d.z * (1 - shrink * shrink);
-        real k = d2 > 0 ? real_sqrt(rest / d2) / 2 : (real)1 / 2;
-        *i = (vec){k * d.x, k * d.y, i->z};
-        *o = (vec){-k * d.x, -k * d.y, o->z};
-        i->z += (grown + difference) / 2;
-        o->z += (grown - difference) / 2;
+        real d2 = d.x * d.x + d.y * d.y, rest = d2 + (d.z - (zi - zo)) * (d.z + (zi - zo));
+        real k = d2 > 0 ? real_sqrt((rest > 0 ? rest : 0) / d2) / 2 : (real)1 / 2;
+        *i = (vec){k * d.x, k * d.y, zi};
+        *o = (vec){-k * d.x, -k * d.y, zo};
     }
 }
 

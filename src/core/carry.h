@@ -112,12 +112,12 @@ static inline hnbrdf_pair hnbrdf_warped(const hnbrdf_pair *p, float x, float y, 
 #define HNBRDF_LOWEST_SEEN 0.1f
 #define HNBRDF_MOST_INCLINED 1e8f /* the square of a factor of roughness */
 
-HNBRDF_DIVIDES_AS_IEEE
-static inline float hnbrdf_inclined_cosine(float cosine, float change)
+/* How far it stays above. */
+static inline float hnbrdf_cosine_held(float cosine, float moved)
 {
-    float moved = cosine + 0.5f * change;
     float least = cosine < HNBRDF_LOWEST_SEEN ? cosine : HNBRDF_LOWEST_SEEN;
-    return moved > least ? moved : least;
+    float below = least - moved;
+    return below > 0.0f ? below : 0.0f;
 }
 
 /* For encodings by angles: the cosines of incidence go with s. Their sum is s.z, and their
@@ -131,15 +131,20 @@ static inline void hnbrdf_incline_pair(const hnbrdf_pair *p, hnbrdf_pair *q)
     float ratio = hnbrdf_clamp(q2 != r2 ? q2 / r2 : 1.0f, 0.0f, HNBRDF_MOST_INCLINED);
     float sine = sqrtf(ratio), more = sine - 1.0f, sum = q->sz - p->sz;
     float dx = p->wi[0] - p->wo[0], dy = p->wi[1] - p->wo[1], dz = p->wi[2] - p->wo[2];
+    float difference = more * dz;
+    float zi = p->wi[2] + 0.5f * (sum + difference), zo = p->wo[2] + 0.5f * (sum - difference);
+    float held_i = hnbrdf_cosine_held(p->wi[2], zi), held_o = hnbrdf_cosine_held(p->wo[2], zo);
+    float held = held_i - held_o;
     float rest = (dx * dx + dy * dy) - (dz * dz) * (more * (1.0f + sine));
-    float along = 0.5f * sqrtf(rest > 0.0f ? rest : 0.0f), difference = more * dz;
+    rest = rest - held * (2.0f * sine * dz + held);
+    float along = 0.5f * sqrtf(rest > 0.0f ? rest : 0.0f);
     int moved = (more != 0.0f) | (sum != 0.0f);
     q->wi[0] = moved ? along : p->wi[0];
     q->wo[0] = moved ? -along : p->wo[0];
     q->wi[1] = moved ? 0.0f : p->wi[1];
     q->wo[1] = moved ? 0.0f : p->wo[1];
-    q->wi[2] = hnbrdf_inclined_cosine(p->wi[2], sum + difference);
-    q->wo[2] = hnbrdf_inclined_cosine(p->wo[2], sum - difference);
+    q->wi[2] = zi + held_i;
+    q->wo[2] = zo + held_o;
 }
 
 /* After it: what is left of wi - wo along its own azimuth instead. */
