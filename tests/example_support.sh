@@ -38,6 +38,7 @@ gallery *--seconds*|-|fits for as long as it says
 gallery *|--size 32 --spp 1|large pictures
 bake *--seconds*|-|fits for as long as it says
 bake *--max*|-|tries networks until one is good or fast enough
+bake *--front*|-|fits networks of all sizes
 bake *|--steps 1 --pairs 100 --pool 64|training takes a minute
 report *|-|half an hour; test_report* run the commands
 bench *|-|a minute; test_bench runs the command
