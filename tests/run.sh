@@ -102,7 +102,7 @@ build gcc build/sanitize -DCMAKE_BUILD_TYPE=RelWithDebInfo -DHNBRDF_SANITIZE=ON 
 # call what other tests call too find nothing here that the release tests do not.
 elsewhere='^test_(glsl_languages|web_.*|minimal|fit_divergence|fit_stiff|.*_second_driver|rooms|habits)'
 elsewhere="$elsewhere|^test_(sampling_density|glsl_sample|glsl_sampling_density|bench|bake_cli|gallery)\$"
-elsewhere="$elsewhere|^test_(report|report_sampling|report_editing|stability_cli|edit_properties|help_examples|help_pages|pages|path_tracer|doxygen|first_use)\$"
+elsewhere="$elsewhere|^test_(report|growth|gpu_script|report_sampling|report_editing|stability_cli|edit_properties|help_examples|help_pages|pages|path_tracer|doxygen|first_use)\$"
 UBSAN_OPTIONS=print_stacktrace=1 ctest --test-dir build/sanitize -E "$elsewhere" -j "$jobs" \
     --output-on-failure || fail "tests under sanitizers"
 

@@ -45,8 +45,9 @@ static hnbrdf_fit_options small(hnbrdf_kind kind)
     o.layers = 2;
     o.steps = 600;
     o.batch = BATCH;
-    o.pool = 4 * BATCH;
+    o.pool = SANITIZED ? BATCH : 4 * BATCH;
     o.seed = 5;
+    o.lobes_none = 1;
     return o;
 }
 
@@ -82,6 +83,7 @@ static void threads_do_not_change_the_model(void **state)
         hnbrdf_fit_options o = small(HNBRDF_KIND_HYBRID);
         o.steps = 60;
         o.analytic = joint ? HNBRDF_FIT_JOINT : HNBRDF_FIT_FAITHFUL;
+        o.lobes_none = joint;
         one.size = three.size = 0;
         o.threads = 1;
         hnbrdf_model *a = fit(&o, NULL);
@@ -94,6 +96,36 @@ static void threads_do_not_change_the_model(void **state)
         hnbrdf_model_free(a);
         hnbrdf_model_free(b);
     }
+}
+
+/* With lobes, or those made later, a model is the same; without, all of them are 0, those of given
+ * materials too. */
+static void lobes_can_be_left_out(void **state)
+{
+    (void)state;
+    static const hnbrdf_lobes none;
+    hnbrdf_fit_options o = small(HNBRDF_KIND_HYBRID);
+    o.steps = 60;
+    o.lobes_none = 0;
+    hnbrdf_model *with = fit(&o, NULL);
+    o.lobes_none = 1;
+    hnbrdf_model *without = fit(&o, NULL);
+    o.materials = hnbrdf_model_material(with, 0);
+    hnbrdf_model *given = fit(&o, NULL);
+    for (int i = 0; i < COUNT; i++) {
+        const hnbrdf_material *a = hnbrdf_model_material(with, i),
+                              *b = hnbrdf_model_material(without, i);
+        hnbrdf_lobes later;
+        assert_memory_equal(a, b, offsetof(hnbrdf_material, lobes));
+        assert_memory_equal(&b->lobes, &none, sizeof none);
+        assert_memory_equal(&hnbrdf_model_material(given, i)->lobes, &none, sizeof none);
+        assert_int_equal(hnbrdf_lobes_fit(without, b, &later, NULL), HNBRDF_OK);
+        assert_memory_equal(&later, &a->lobes, sizeof later);
+        assert_memory_not_equal(&later, &none, sizeof later);
+    }
+    hnbrdf_model_free(with);
+    hnbrdf_model_free(without);
+    hnbrdf_model_free(given);
 }
 
 static double smape(const hnbrdf_model *model, int i)
@@ -374,6 +406,7 @@ static void frozen_network_takes_a_new_material(void **state)
     hnbrdf_fit_worth worth;
     o.freeze = two;
     o.worth = &worth;
+    o.steps = 0;   /* as many as such fits take */
     o.hidden = 64; /* the frozen model's sizes count */
     assert_int_equal(
         hnbrdf_fit((const hnbrdf_measured *const *)&data[2], 1, &o, &three, NULL, NULL), HNBRDF_OK);
@@ -451,7 +484,7 @@ static void a_given_analytic_part_is_kept_and_one_material_needs_no_latent_code(
 
     /* Such a network can be frozen as any other. */
     hnbrdf_model *more = NULL;
-    hnbrdf_fit_options frozen = {.freeze = model, .steps = 10, .pool = 1024};
+    hnbrdf_fit_options frozen = {.freeze = model, .steps = 10, .pool = 1024, .lobes_none = 1};
     assert_int_equal(
         hnbrdf_fit((const hnbrdf_measured *const *)data + 1, 1, &frozen, &more, NULL, &error),
         HNBRDF_OK);
@@ -529,6 +562,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(threads_do_not_change_the_model),
+        cmocka_unit_test(lobes_can_be_left_out),
         cmocka_unit_test(hybrid_is_closer_than_ggx_and_keeps_its_analytic_part),
         cmocka_unit_test(every_kind_and_encoding_fits),
         cmocka_unit_test(ggx_fit_recovers_known_parameters),

@@ -119,7 +119,8 @@ typedef enum hnbrdf_bake_stage {
     HNBRDF_BAKE_TIMING = 0, /* how long candidates of every size take */
     HNBRDF_BAKE_GGX,        /* data are drawn and the analytic part is fitted */
     HNBRDF_BAKE_SHORT_FITS,
-    HNBRDF_BAKE_FULL_FITS
+    HNBRDF_BAKE_FULL_FITS,
+    HNBRDF_BAKE_LOBES /* of the model that was picked; it is no longer stopped */
 } hnbrdf_bake_stage;
 
 /* What the progress callback sees, some ten times a second, and after every row. */

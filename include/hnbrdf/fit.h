@@ -192,6 +192,9 @@ typedef struct hnbrdf_fit_options {
      * small beside GGX stays small in highlights where GGX is too low. At most 1; 0 stands for 1 */
     float lift;
     int lift_none; /* 1: the derivative as it is */
+    /* 1: materials without lobes (hnbrdf_lobes), which take 20 ms each; hnbrdf_lobes_fit() makes
+     * them later */
+    int lobes_none;
     uint64_t seed; /* of everything random */
     int threads;   /* 0: all cores */
     hnbrdf_fit_progress_fn progress;

@@ -101,7 +101,11 @@ static hnbrdf_result bake(bake_task *b, const hnbrdf_bake_options *options, hnbr
         result = hnbrdf_bake_make_candidates(b, error);
     if (!result)
         result = hnbrdf_bake_search(b, error);
-    return result ? result : check_end(b, error);
+    if (!result)
+        result = check_end(b, error);
+    if (!result && b->report.rows[b->report.picked].size.hidden)
+        result = hnbrdf_bake_lobes(b, &b->models[b->report.picked], error);
+    return result;
 }
 
 static void release(bake_task *b)

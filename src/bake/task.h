@@ -49,6 +49,11 @@ hnbrdf_model *hnbrdf_bake_half(const hnbrdf_model *model);
 /* Whether this size is within max_ns in half precision alone. */
 int hnbrdf_bake_needs_half(const bake_task *b, const hnbrdf_bake_size *size);
 
+/* ---- lobes.c: what candidates are fitted without --------------------------------------------- */
+
+/* *model with lobes of its materials, in place of *model. */
+hnbrdf_result hnbrdf_bake_lobes(bake_task *b, hnbrdf_model **model, hnbrdf_error *error);
+
 /* ---- tell.c: the progress callback ----------------------------------------------------------- */
 
 /* From any thread; a call that meets another one is left out. Returns hnbrdf_bake_is_stopped(). */

@@ -92,6 +92,7 @@ static hnbrdf_fit_options fit_options(const bake_task *b, task *t)
         .seconds = t->of->seconds,
         .pool = pool_of(b, job->full),
         .seed = job->seed,
+        .lobes_none = 1, /* errors do not depend on them */
         .threads = threads > width ? threads / width : 1,
         .progress = show,
         .progress_user = t};

@@ -68,6 +68,15 @@ static void fit_one(void *context, int index, int worker)
         hnbrdf_fit_tell(t, "lobes", (double)done / t->held_count, NAN, 0.0, 0);
 }
 
+static hnbrdf_result without_lobes(const trainer *t, const hnbrdf_model_desc *desc,
+                                   hnbrdf_material *materials, hnbrdf_model **model,
+                                   hnbrdf_error *error)
+{
+    for (int m = 0; m < t->count; m++) /* those that were given may have some */
+        memset(&materials[m].lobes, 0, sizeof materials[m].lobes);
+    return hnbrdf_model_create(desc, NULL, model, error);
+}
+
 /* The same model with lobes for its first t->count materials, which stand in desc. */
 static hnbrdf_result fit_lobes(trainer *t, hnbrdf_model_desc *desc, hnbrdf_material *materials,
                                hnbrdf_model **model, hnbrdf_error *error)
@@ -141,7 +150,8 @@ hnbrdf_result hnbrdf_fit_result(trainer *t, hnbrdf_model **model, hnbrdf_fit_rep
         desc.names = names;
         result = hnbrdf_fit_leave_alone(t, &desc, ggx, materials, report, error);
         if (!result)
-            result = fit_lobes(t, &desc, materials, model, error);
+            result = t->options.lobes_none ? without_lobes(t, &desc, materials, model, error)
+                                           : fit_lobes(t, &desc, materials, model, error);
     }
     free(weights);
     free(materials);

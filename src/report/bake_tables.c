@@ -137,6 +137,9 @@ void report_bake_stage(const hnbrdf_bake_progress *p, char what[64], char detail
         snprintf(what, 64, "GGX");
         snprintf(detail, 64, "%s", p->done < 0.5 ? "drawing data" : "fitting");
         return;
+    case HNBRDF_BAKE_LOBES:
+        snprintf(what, 64, "lobes");
+        return;
     case HNBRDF_BAKE_SHORT_FITS:
     case HNBRDF_BAKE_FULL_FITS:
         break;
