@@ -77,7 +77,8 @@ hnbrdf_room(gl
 hnbrdf_room(edit
   fields.c materials.c mix_fit.c mix_goal.c mix_pairs.c mix_path.c)
 hnbrdf_room(bake
-  bake.c ggx.c half.c lobes.c options.c ranks.c report.c rows.c search.c sizes.c teacher.c tell.c wave.c)
+  bake.c ggx.c half.c lobes.c options.c ranks.c report.c rows.c search.c sizes.c teacher.c tell.c
+  wave.c)
 hnbrdf_room(report
   bake_front.c bake_plot.c bake_tables.c compare.c compare_images.c conserve.c editing_edits.c
   editing_figures.c
