@@ -13,6 +13,7 @@ sh examples/bench.sh*|-|minutes; test_bench runs the command
 build/examples/path_tracer*|-|minutes of this size; test_path_tracer runs it
 my_engine *|-|the program of the reader
 npm *|-|needs the network; test_web* run the pages
+fit *nbrdf/*|-|networks of others, which are not here
 fit *--kind ggx*|--pool 64|training takes a minute
 fit *--seconds*|-|trains for as long as it says
 fit *--steps 1?????*|-|trains for as long as it says
