@@ -102,7 +102,9 @@ grep -q '[+-][0-9.]* +- [0-9.]*, [0-9]* of 2 |' s/images.md || fail "a complete 
 rm s/pictures/velvet-crimson-reference.exr
 report -o s --from r --seed 2 --resume
 [ -s s/pictures/velvet-crimson-reference.exr ] || fail "--resume did not make a lost picture again"
+sed -i -e '2s/^\(.*,0,\)[^,]*/\1123/' s/images.csv
 report -o s --from r --seed 2 --rows 1 --resume
 [ "$(grep -c . s/images.csv)" -eq 9 ] || fail "--rows 1 left figures out"
+grep -q '^gold-two-lobe,ggx,none,none,0,123,' s/images.csv || fail "--rows 1 --resume measured again what was there"
 
 finish

@@ -25,10 +25,9 @@ static int hash_bytes(void *user, const void *data, size_t size)
 /* images.txt: what has to be the same for figures to be reused. */
 static void write_settings(const report *r, hnbrdf_model *const *models, FILE *file)
 {
-    fprintf(file,
-            "hnbrdf %s\nenv %s\nrotate %.9g\nsize %ld\nspp %ld\nseed %ld\nrows %ld\nppd %.9g\n",
+    fprintf(file, "hnbrdf %s\nenv %s\nrotate %.9g\nsize %ld\nspp %ld\nseed %ld\nppd %.9g\n",
             hnbrdf_version(), r->light.env, r->light.rotate, r->image_size, r->light.spp,
-            r->light.seed, r->rows, r->flip.pixels_per_degree);
+            r->light.seed, r->flip.pixels_per_degree);
     for (int m = 0; m < r->data.count; m++)
         fprintf(file, "material %s: %s\n", hnbrdf_measured_name(r->data.items[m]),
                 hnbrdf_measured_summary(r->data.items[m]));
