@@ -103,7 +103,9 @@ rm s/pictures/velvet-crimson-reference.exr
 report -o s --from r --seed 2 --resume
 [ -s s/pictures/velvet-crimson-reference.exr ] || fail "--resume did not make a lost picture again"
 sed -i -e '2s/^\(.*,0,\)[^,]*/\1123/' s/images.csv
+cp s/images-1.png s/images-2.png
 report -o s --from r --seed 2 --rows 1 --resume
+[ -s s/images-1.png ] && [ ! -e s/images-2.png ] || fail "--rows 1 --resume: a page of an earlier run is left"
 [ "$(grep -c . s/images.csv)" -eq 9 ] || fail "--rows 1 left figures out"
 grep -q '^gold-two-lobe,ggx,none,none,0,123,' s/images.csv || fail "--rows 1 --resume measured again what was there"
 

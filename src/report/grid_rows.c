@@ -196,6 +196,22 @@ static hnbrdf_result write_page(const report *r, const row_plan *plan, const ren
     return code;
 }
 
+/* Pages behind the last one show what an earlier run had, which is not in this report. */
+static void remove_pages(const report *r, int page)
+{
+    static const char *const ends[] = {"png", "exr"};
+    for (int found = 1; found; page++) {
+        found = 0;
+        for (int k = 0; k < 2; k++) {
+            char name[64];
+            snprintf(name, sizeof name, "images-%d.%s", page, ends[k]);
+            char *path = report_path_in(r, name);
+            found |= path && remove(path) == 0;
+            free(path);
+        }
+    }
+}
+
 hnbrdf_result report_rows_write(const report *r)
 {
     row_plan plan = make_plan(r);
@@ -223,8 +239,11 @@ hnbrdf_result report_rows_write(const report *r)
         }
     }
     free(rows);
+    if (code == HNBRDF_OK)
+        remove_pages(r, page + 1);
     return code;
 }
+
 hnbrdf_result report_interrupted(const report *r)
 {
     return hnbrdf_fail(r->error, HNBRDF_ERROR_CANCELLED,
