@@ -100,7 +100,7 @@ build gcc build/sanitize -DCMAKE_BUILD_TYPE=RelWithDebInfo -DHNBRDF_SANITIZE=ON 
 # Tests of what other programs make of our text or flags, of the tree itself, of a second driver, of
 # how good long fits end (test_fit runs the same code), of statistics, and of long commands that
 # call what other tests call too find nothing here that the release tests do not.
-elsewhere='^test_(glsl_languages|web_.*|minimal|fit_divergence|fit_stiff|.*_second_driver|rooms|habits)'
+elsewhere='^test_(glsl_languages|web_.*|minimal|fit_divergence|fit_stiff|fit_horizon|mix_path|locale|.*_second_driver|rooms|habits)'
 elsewhere="$elsewhere|^test_(sampling_density|glsl_sample|glsl_sampling_density|bench|bake_cli|gallery)\$"
 elsewhere="$elsewhere|^test_(report|growth|gpu_script|report_sampling|report_editing|stability_cli|edit_properties|help_examples|help_pages|pages|path_tracer|doxygen|first_use)\$"
 UBSAN_OPTIONS=print_stacktrace=1 ctest --test-dir build/sanitize -E "$elsewhere" -j "$jobs" \
